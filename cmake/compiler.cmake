@@ -1,0 +1,27 @@
+# What every target of the project is compiled with.
+find_package(Threads REQUIRED)
+
+add_library(raysteps-flags INTERFACE)
+target_include_directories(raysteps-flags INTERFACE "${PROJECT_SOURCE_DIR}/framework" "${PROJECT_SOURCE_DIR}")
+target_link_libraries(raysteps-flags INTERFACE Threads::Threads)
+
+add_library(raysteps-strict INTERFACE)  # for the kit's own code; a student's warnings stay warnings
+
+if(MSVC)
+    target_compile_options(raysteps-flags INTERFACE /W4 /utf-8 /fp:precise)
+    target_compile_definitions(raysteps-flags INTERFACE NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+    if(RAYSTEPS_WERROR)
+        target_compile_options(raysteps-strict INTERFACE /WX)
+    endif()
+else()
+    # Without contraction the same source gives the same picture on every machine.
+    target_compile_options(raysteps-flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+    if(RAYSTEPS_WERROR)
+        target_compile_options(raysteps-strict INTERFACE -Werror)
+    endif()
+    if(RAYSTEPS_SANITIZE)
+        target_compile_options(raysteps-flags INTERFACE "-fsanitize=${RAYSTEPS_SANITIZE}" -fno-sanitize-recover=all
+                                                        -fno-omit-frame-pointer)
+        target_link_options(raysteps-flags INTERFACE "-fsanitize=${RAYSTEPS_SANITIZE}")
+    endif()
+endif()

@@ -1,0 +1,31 @@
+# Each library from the system when it is there, else fetched at a pinned commit.
+include(FetchContent)
+
+find_package(glm CONFIG QUIET)
+if(NOT TARGET glm::glm)
+    message(STATUS "GLM is not installed: fetching 1.0.1")
+    FetchContent_Declare(glm GIT_REPOSITORY https://github.com/g-truc/glm.git
+                             GIT_TAG 0af55ccecd98d4e5a8d1fad7de25ba429d60e863)
+    FetchContent_MakeAvailable(glm)
+endif()
+target_link_libraries(raysteps-flags INTERFACE glm::glm)
+
+find_package(Catch2 QUIET)
+if(NOT TARGET Catch2::Catch2)
+    message(STATUS "Catch2 is not installed: fetching 3.7.1")
+    FetchContent_Declare(Catch2 GIT_REPOSITORY https://github.com/catchorg/Catch2.git
+                                GIT_TAG fa43b77429ba76c462b1898d6cd2f2d7a9416b14)
+    FetchContent_MakeAvailable(Catch2)
+endif()
+
+# Their headers are theirs: no warnings from them.
+foreach(library glm::glm Catch2::Catch2)
+    get_target_property(target ${library} ALIASED_TARGET)
+    if(NOT target)
+        set(target ${library})
+    endif()
+    get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+    if(folders)
+        set_target_properties(${target} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${folders}")
+    endif()
+endforeach()

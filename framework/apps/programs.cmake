@@ -1,0 +1,20 @@
+# raytrace, linked with every choice of steps that a student or the grader needs.
+add_library(raytrace-app OBJECT apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp)
+target_link_libraries(raytrace-app PRIVATE raysteps-flags raysteps-strict)
+
+# name, then the numbers of the steps that are mine
+function(raysteps_add_raytrace name)
+    add_executable(${name} $<TARGET_OBJECTS:raytrace-app>)
+    target_link_libraries(${name} PRIVATE raysteps-render raysteps-io raysteps-core)
+    raysteps_link_steps(${name} ${ARGN})
+endfunction()
+
+set(numbers "")
+foreach(step IN LISTS RAYSTEPS_STEPS)
+    raysteps_split_step(${step} number step_name)
+    list(APPEND numbers ${number})
+    raysteps_add_raytrace(raytrace-isolated-${number} ${number})
+    raysteps_add_raytrace(raytrace-cumulative-${number} ${numbers})
+endforeach()
+raysteps_add_raytrace(raytrace-mine ${numbers})
+raysteps_add_raytrace(raytrace-reference)

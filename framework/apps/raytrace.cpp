@@ -1,0 +1,90 @@
+// raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "apps/options.hpp"
+#include "apps/spd_report.hpp"
+#include "apps/stats_json.hpp"
+#include "apps/terminal.hpp"
+#include "io/nff_reader.hpp"
+#include "io/ppm.hpp"
+#include "io/read_error.hpp"
+#include "io/write_file.hpp"
+#include "render/spd.hpp"
+
+namespace {
+
+using namespace raysteps;
+
+constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
+
+int thread_count(const RaytraceOptions& options) {
+    return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+Acceleration acceleration_of(const RaytraceOptions& options) {
+    return options.acceleration.value_or(options.step < 6 && !options.spd ? Acceleration::none : Acceleration::octree);
+}
+
+void check_crop(const Rect& crop, const Camera& camera) {
+    if (crop.x > camera.width - crop.width || crop.y > camera.height - crop.height) {
+        throw UsageError("--crop: expected a part of the " + std::to_string(camera.width) + "x" +
+                         std::to_string(camera.height) + " picture, found one that sticks out");
+    }
+}
+
+void print_spd_counts(const Scene& scene, const RaytraceOptions& options) {
+    const auto accelerator = make_accelerator(acceleration_of(options), scene.surfaces());
+    const Stats stats = count_spd_rays(scene, *accelerator, thread_count(options));
+    std::fputs(spd_report(std::filesystem::path(options.scene).stem().string(), stats).c_str(), stdout);
+}
+
+void render_picture(const Scene& scene, const RaytraceOptions& options) {
+    RenderOptions render_options{{options.step, options.view, options.depth}, acceleration_of(options),
+                                 thread_count(options), options.crop, !options.quiet && stderr_is_terminal()};
+    const Rendering rendering = render(scene, render_options);
+    write_ppm(rendering.image, options.output);
+    if (!options.stats.empty()) {
+        write_file(options.stats, stats_json(rendering, scene.surfaces().size()));
+    }
+}
+
+void run(const RaytraceOptions& options) {
+    Scene scene = read_nff(std::filesystem::path(options.scene));
+    if (options.size) {
+        scene.camera.width = options.size->width;
+        scene.camera.height = options.size->height;
+    }
+    if (options.crop) {
+        check_crop(*options.crop, scene.camera);
+    }
+    if (options.spd) {
+        print_spd_counts(scene, options);
+    }
+    if (!options.output.empty()) {
+        render_picture(scene, options);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const RaytraceOptions options = parse_options({argv + 1, argv + argc});
+        if (options.help) {
+            std::fputs(k_raytrace_usage, stdout);
+            return 0;
+        }
+        run(options);
+        return 0;
+    } catch (const ReadError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    } catch (const UsageError& error) {
+        std::fprintf(stderr, "raytrace: %s\nTry raytrace --help.\n", error.what());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "raytrace: %s\n", error.what());
+    }
+    return k_exit_usage;
+}

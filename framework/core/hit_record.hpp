@@ -1,0 +1,16 @@
+#pragma once
+// What is known where a ray meets a surface.
+#include "core/fill.hpp"
+
+namespace raysteps {
+
+struct HitRecord {
+    glm::vec3 position{0.0F};
+    Fill fill;
+    glm::vec3 normal{0.0F, 0.0F, 1.0F};          ///< unit length, turned to the side the ray came from
+    glm::vec3 ray_direction{0.0F, 0.0F, -1.0F};  ///< direction of the ray that arrived
+    float distance = 0.0F;                       ///< along the ray, > 0
+    bool from_outside = true;                    ///< false: the ray met the surface's back, as when it leaves glass
+};
+
+}  // namespace raysteps

@@ -1,0 +1,30 @@
+#pragma once
+// Everything that a picture is made from.
+#include <memory>
+#include <vector>
+
+#include "core/camera.hpp"
+#include "core/light.hpp"
+#include "core/surface.hpp"
+
+namespace raysteps {
+
+class Scene {
+public:
+    Camera camera;
+    Color background = k_black;
+    std::vector<Light> lights;
+
+    void add(std::unique_ptr<Surface> surface) {
+        surfaces_.push_back(surface.get());
+        owned_.push_back(std::move(surface));
+    }
+
+    [[nodiscard]] const SurfaceList& surfaces() const { return surfaces_; }
+
+private:
+    std::vector<std::unique_ptr<Surface>> owned_;
+    SurfaceList surfaces_;
+};
+
+}  // namespace raysteps

@@ -1,0 +1,24 @@
+#pragma once
+// A triangle of an NFF patch (`pp`): flat in shape, its normal blended from the corners' normals.
+#include "core/triangle.hpp"
+
+namespace raysteps {
+
+class SmoothTriangle final : public Triangle {
+public:
+    struct Corner {
+        glm::vec3 position;
+        glm::vec3 normal;  ///< unit length
+    };
+
+    SmoothTriangle(const Corner& a, const Corner& b, const Corner& c, const Fill& fill);
+
+    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
+
+private:
+    glm::vec3 normal_a_;
+    glm::vec3 normal_b_;
+    glm::vec3 normal_c_;
+};
+
+}  // namespace raysteps

@@ -1,0 +1,44 @@
+#pragma once
+// What a ray can meet. Sphere and Triangle are the two that the steps deal with.
+#include <optional>
+#include <vector>
+
+#include "core/box.hpp"
+#include "core/hit_record.hpp"
+#include "core/ray.hpp"
+
+namespace raysteps {
+
+class Surface {
+public:
+    virtual ~Surface() = default;
+
+    /// The nearest hit with distance > 0, or nothing. Counted as one surface test.
+    [[nodiscard]] std::optional<HitRecord> hit(const Ray& ray) const {
+        ++thread_stats().surface_tests;
+        return intersect(ray);
+    }
+
+    /// The smallest box around the whole surface.
+    [[nodiscard]] virtual Box bounds() const = 0;
+
+    /// Whether the surface may touch the box. A "yes" too many costs time; a "no" too many loses hits.
+    [[nodiscard]] virtual bool overlaps(const Box& box) const = 0;
+
+    [[nodiscard]] const Fill& fill() const { return fill_; }
+
+protected:
+    explicit Surface(const Fill& fill) : fill_(fill) {}
+    Surface(const Surface&) = default;
+    Surface& operator=(const Surface&) = default;
+
+    [[nodiscard]] virtual std::optional<HitRecord> intersect(const Ray& ray) const = 0;
+
+private:
+    Fill fill_;
+};
+
+/// Surfaces that somebody else owns, usually a Scene.
+using SurfaceList = std::vector<const Surface*>;
+
+}  // namespace raysteps

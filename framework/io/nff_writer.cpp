@@ -1,0 +1,103 @@
+#include "io/nff_writer.hpp"
+
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+#include "core/cone.hpp"
+#include "core/hollow_sphere.hpp"
+#include "core/sphere.hpp"
+#include "core/triangle.hpp"
+#include "io/numbers.hpp"
+
+namespace raysteps {
+namespace {
+
+bool same(const Fill& a, const Fill& b) {
+    return a.color == b.color && a.kd == b.kd && a.ks == b.ks && a.shine == b.shine &&
+           a.transmittance == b.transmittance && a.index_of_refraction == b.index_of_refraction;
+}
+
+class NffWriter {
+public:
+    std::string write(const Scene& scene) {
+        write_camera(scene.camera);
+        line("b", scene.background, {});
+        for (const Light& light : scene.lights) {
+            line("l", light.position, {light.color.r, light.color.g, light.color.b});
+        }
+        for (const Surface* surface : scene.surfaces()) {
+            write_fill(surface->fill());
+            write_surface(*surface);
+        }
+        return text_;
+    }
+
+private:
+    void line(std::string_view word, const glm::vec3& vector, std::initializer_list<float> more) {
+        text_ += word;
+        for (int i = 0; i < 3; ++i) {
+            number(vector[i]);
+        }
+        for (const float value : more) {
+            number(value);
+        }
+        text_ += '\n';
+    }
+
+    void number(float value) {
+        if (!text_.empty() && text_.back() != '\n') {
+            text_ += ' ';
+        }
+        text_ += number_text(value);
+    }
+
+    void write_camera(const Camera& camera) {
+        text_ += "v\n";
+        line("from", camera.from, {});
+        line("at", camera.at, {});
+        line("up", camera.up, {});
+        text_ += "angle " + number_text(camera.angle) + "\nhither " + number_text(camera.hither) + "\n";
+        text_ += "resolution " + std::to_string(camera.width) + " " + std::to_string(camera.height) + "\n";
+    }
+
+    void write_fill(const Fill& fill) {
+        if (!fill_ || !same(*fill_, fill)) {
+            line("f", fill.color, {fill.kd, fill.ks, fill.shine, fill.transmittance, fill.index_of_refraction});
+            fill_ = fill;
+        }
+    }
+
+    void write_surface(const Surface& surface) {
+        if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
+            line("s", sphere->center(), {sphere->radius()});
+        } else if (const auto* hollow = dynamic_cast<const HollowSphere*>(&surface)) {
+            line("s", hollow->center(), {-hollow->radius()});
+        } else if (const auto* cone = dynamic_cast<const Cone*>(&surface)) {
+            write_cone(*cone);
+        } else if (const auto* triangle = dynamic_cast<const Triangle*>(&surface)) {
+            text_ += "p 3\n";
+            line("", triangle->a(), {});
+            line("", triangle->b(), {});
+            line("", triangle->c(), {});
+        } else {
+            text_ += "# a surface that NFF has no entity for\n";
+        }
+    }
+
+    void write_cone(const Cone& cone) {
+        const float sign = cone.visible() == Cone::Visible::inside ? -1.0F : 1.0F;
+        line("c", cone.base().center, {sign * cone.base().radius});
+        line("", cone.apex().center, {sign * cone.apex().radius});
+    }
+
+    std::string text_;
+    std::optional<Fill> fill_;
+};
+
+}  // namespace
+
+std::string write_nff(const Scene& scene) { return NffWriter().write(scene); }
+
+}  // namespace raysteps

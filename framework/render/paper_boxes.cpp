@@ -1,0 +1,79 @@
+#include "render/paper_boxes.hpp"
+
+#include <bit>
+#include <glm/geometric.hpp>
+
+#include "steps/02-intersection/intersection.hpp"
+#include "steps/06-octree/octree.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr float k_padding = 2e-6F;  // share of the scene's size by which boxes are grown against rounding
+
+Box grown(const Box& box, float padding) { return {box.min - padding, box.max + padding}; }
+
+std::vector<std::uint64_t> members_of(const Box& box, const SurfaceList& surfaces) {
+    std::vector<std::uint64_t> members((surfaces.size() + 63) / 64, 0);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (surfaces[i]->overlaps(box)) {
+            members[i / 64] |= std::uint64_t{1} << (i % 64);
+        }
+    }
+    return members;
+}
+
+/// The surfaces whose bits are set, in the order of the scene.
+void append_members(const std::vector<std::uint64_t>& members, const SurfaceList& surfaces, SurfaceList& out) {
+    for (std::size_t word = 0; word < members.size(); ++word) {
+        for (std::uint64_t rest = members[word]; rest != 0; rest &= rest - 1) {
+            out.push_back(surfaces[64 * word + static_cast<std::size_t>(std::countr_zero(rest))]);
+        }
+    }
+}
+
+}  // namespace
+
+PaperBoxes::PaperBoxes(const SurfaceList& surfaces) : surfaces_(surfaces) {
+    if (surfaces_.empty()) {
+        return;
+    }
+    const Box all = bounds_of(surfaces_);
+    const float padding = k_padding * (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max));
+    main_ = grown(all, padding);
+    const std::array<Box, 8> middle_boxes = split(main_);
+    for (std::size_t m = 0; m < 8; ++m) {
+        middle_[m].box = grown(middle_boxes[m], padding);
+        const std::array<Box, 8> small_boxes = split(middle_boxes[m]);
+        for (std::size_t s = 0; s < 8; ++s) {
+            const Box box = grown(small_boxes[s], padding);
+            middle_[m].small[s] = {box, members_of(box, surfaces_)};
+        }
+    }
+}
+
+std::optional<HitRecord> PaperBoxes::closest_hit(const Ray& ray) const {
+    if (surfaces_.empty() || !main_.hit(ray)) {
+        return std::nullopt;
+    }
+    thread_local std::vector<std::uint64_t> candidates;
+    thread_local SurfaceList list;
+    candidates.assign((surfaces_.size() + 63) / 64, 0);
+    for (const Middle& middle : middle_) {
+        if (!middle.box.hit(ray)) {
+            continue;
+        }
+        for (const Small& small : middle.small) {
+            if (small.box.hit(ray)) {
+                for (std::size_t word = 0; word < candidates.size(); ++word) {
+                    candidates[word] |= small.members[word];
+                }
+            }
+        }
+    }
+    list.clear();
+    append_members(candidates, surfaces_, list);
+    return raysteps::closest_hit(list, ray);
+}
+
+}  // namespace raysteps

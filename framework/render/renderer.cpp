@@ -1,0 +1,82 @@
+#include "render/renderer.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "render/encode.hpp"
+#include "render/progress.hpp"
+#include "render/tiles.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+
+namespace raysteps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// What all threads share while one picture is made.
+struct Job {
+    const Scene& scene;
+    const Accelerator& accelerator;
+    const RenderOptions& options;
+    ViewFrame frame;
+    Rect crop;
+    std::vector<Rect> tiles;
+    std::atomic<std::size_t> next_tile{0};
+    std::mutex mutex;  ///< guards stats and progress
+    Stats stats;
+    Progress progress;
+    Image image;
+};
+
+void render_tile(const Rect& tile, StepTracer& tracer, Job& job) {
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+        for (int x = tile.x; x < tile.x + tile.width; ++x) {
+            const Ray ray = primary_ray(job.scene.camera, job.frame, x, y);
+            const Color color = tracer.primary_color(ray);
+            job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
+        }
+    }
+}
+
+void work(Job& job) {
+    thread_stats() = Stats{};
+    StepTracer tracer(job.scene, job.accelerator, job.options.step);
+    for (std::size_t tile = job.next_tile++; tile < job.tiles.size(); tile = job.next_tile++) {
+        render_tile(job.tiles[tile], tracer, job);
+        const std::lock_guard lock(job.mutex);
+        job.progress.advance();
+    }
+    const std::lock_guard lock(job.mutex);
+    job.stats += thread_stats();
+}
+
+}  // namespace
+
+Rendering render(const Scene& scene, const RenderOptions& options) {
+    const Rect crop = options.crop.value_or(Rect{0, 0, scene.camera.width, scene.camera.height});
+    const Clock::time_point build_start = Clock::now();
+    const std::unique_ptr<Accelerator> accelerator = make_accelerator(options.acceleration, scene.surfaces());
+    const double build_seconds = seconds_since(build_start);
+
+    const Clock::time_point render_start = Clock::now();
+    std::vector<Rect> tiles = tiles_of(crop);
+    const std::size_t count = tiles.size();
+    Job job{scene, *accelerator, options, view_frame(scene.camera), crop, std::move(tiles), {}, {}, {},
+            Progress(count, options.show_progress), Image(crop.width, crop.height)};
+    std::vector<std::thread> others;
+    for (int i = 1; i < options.threads; ++i) {
+        others.emplace_back([&job] { work(job); });
+    }
+    work(job);
+    for (std::thread& other : others) {
+        other.join();
+    }
+    job.progress.finish();
+    return {std::move(job.image), job.stats, build_seconds, seconds_since(render_start)};
+}
+
+}  // namespace raysteps

@@ -1,0 +1,37 @@
+#pragma once
+// From a scene to a picture: tiles, threads, counters.
+#include <optional>
+
+#include "core/image.hpp"
+#include "core/scene.hpp"
+#include "render/step_tracer.hpp"
+
+namespace raysteps {
+
+/// A part of the picture in pixels, from its top left corner.
+struct Rect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+struct RenderOptions {
+    StepOptions step;
+    Acceleration acceleration = Acceleration::none;
+    int threads = 1;
+    std::optional<Rect> crop;    ///< inside the picture; nothing: the whole picture
+    bool show_progress = false;  ///< a bar on stderr
+};
+
+struct Rendering {
+    Image image;
+    Stats stats;
+    double build_seconds = 0.0;
+    double render_seconds = 0.0;
+};
+
+/// The same bytes for any number of threads.
+[[nodiscard]] Rendering render(const Scene& scene, const RenderOptions& options);
+
+}  // namespace raysteps

@@ -1,0 +1,115 @@
+#include "render/spd.hpp"
+
+#include <atomic>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <thread>
+
+#include "core/tracer.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+#include "steps/04-shadows/shadows.hpp"
+#include "steps/05-reflection/reflection.hpp"
+#include "steps/08-refraction/refraction.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr int k_corners = 513;
+constexpr int k_max_depth = 5;
+
+/// For is_lit of step 04.
+class ShadowCaster final : public RayCaster {
+public:
+    explicit ShadowCaster(const Accelerator& accelerator) : accelerator_(accelerator) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override {
+        ++thread_stats().shadow;
+        return accelerator_.closest_hit(ray);
+    }
+
+private:
+    const Accelerator& accelerator_;
+};
+
+class SpdCounter {
+public:
+    SpdCounter(const Scene& scene, const Accelerator& accelerator)
+        : scene_(scene), accelerator_(accelerator), caster_(accelerator) {}
+
+    void eye_ray(const Ray& ray) {
+        ++thread_stats().eye;
+        thread_stats().eye_hit += follow(ray, 1) ? 1U : 0U;
+    }
+
+private:
+    /// Counts everything that the ray brings about; whether it met a surface.
+    bool follow(const Ray& ray, int depth) {
+        const std::optional<HitRecord> hit = accelerator_.closest_hit(ray);
+        if (!hit) {
+            return false;
+        }
+        for (const Light& light : scene_.lights) {
+            if (glm::dot(light.position - hit->position, hit->normal) > 0.0F) {
+                static_cast<void>(is_lit(caster_, *hit, light));
+            }
+        }
+        if (depth < k_max_depth) {
+            bounce(*hit, depth);
+        }
+        return true;
+    }
+
+    void bounce(const HitRecord& hit, int depth) {
+        if (hit.fill.ks > 0.0F || hit.fill.transmittance > 0.0F) {
+            ++thread_stats().reflect;
+            follow(reflected_ray(hit), depth + 1);
+        }
+        if (hit.fill.transmittance > 0.0F) {
+            ++thread_stats().refract;
+            follow(transmitted_ray(hit), depth + 1);
+        }
+    }
+
+    const Scene& scene_;
+    const Accelerator& accelerator_;
+    ShadowCaster caster_;
+};
+
+Ray corner_ray(const Camera& camera, const ViewFrame& frame, int column, int row) {
+    constexpr float k_stretch = 512.0F / 511.0F;  // the angle spans the centres of the outer pixel rows
+    const float across = k_stretch * (2.0F * static_cast<float>(column) / (k_corners - 1) - 1.0F);
+    const float upwards = k_stretch * (1.0F - 2.0F * static_cast<float>(row) / (k_corners - 1));
+    return {camera.from, glm::normalize(frame.forward + across * frame.half_height * frame.right +
+                                        upwards * frame.half_height * frame.up)};
+}
+
+}  // namespace
+
+Stats count_spd_rays(const Scene& scene, const Accelerator& accelerator, int threads) {
+    const ViewFrame frame = view_frame(scene.camera);
+    std::atomic<int> next_row{0};
+    std::mutex mutex;
+    Stats total;
+    const auto work = [&] {
+        thread_stats() = Stats{};
+        SpdCounter counter(scene, accelerator);
+        for (int row = next_row++; row < k_corners; row = next_row++) {
+            for (int column = 0; column < k_corners; ++column) {
+                counter.eye_ray(corner_ray(scene.camera, frame, column, row));
+            }
+        }
+        const std::lock_guard lock(mutex);
+        total += thread_stats();
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) {
+        others.emplace_back(work);
+    }
+    work();
+    for (std::thread& other : others) {
+        other.join();
+    }
+    return total;
+}
+
+}  // namespace raysteps

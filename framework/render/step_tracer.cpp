@@ -1,0 +1,80 @@
+#include "render/step_tracer.hpp"
+
+#include <utility>
+
+#include "steps/03-phong-shading/phong_shading.hpp"
+#include "steps/04-shadows/shadows.hpp"
+#include "steps/05-reflection/reflection.hpp"
+#include "steps/08-refraction/refraction.hpp"
+
+namespace raysteps {
+
+std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) {
+    const std::optional<HitRecord> hit = accelerator_.closest_hit(ray);
+    Stats& stats = thread_stats();
+    switch (next_) {
+        case RayKind::eye:
+            ++stats.eye;
+            stats.eye_hit += hit ? 1U : 0U;
+            break;
+        case RayKind::shadow:
+            ++stats.shadow;
+            return hit;
+        case RayKind::reflect:
+            ++stats.reflect;
+            break;
+        case RayKind::refract:
+            ++stats.refract;
+            break;
+    }
+    next_ = RayKind::reflect;  // what step 05 casts after the ray that it was given
+    return hit;
+}
+
+std::vector<Light> StepTracer::lights_that_reach(const HitRecord& hit) {
+    const RayKind before = std::exchange(next_, RayKind::shadow);
+    std::vector<Light> lit;
+    for (const Light& light : scene_.lights) {
+        if (is_lit(*this, hit, light)) {
+            lit.push_back(light);
+        }
+    }
+    next_ = before;
+    return lit;
+}
+
+Color StepTracer::local_light(const HitRecord& hit, int depth) {
+    Color color = options_.step < 4 ? shade(hit, scene_.lights) : shade(hit, lights_that_reach(hit));
+    if (options_.step >= 8) {
+        color += transmitted_light(*this, hit, depth);
+    }
+    return color;
+}
+
+Color StepTracer::trace(const Ray& ray, int depth) {
+    const RayKind before = std::exchange(next_, depth == 1 ? RayKind::eye : RayKind::refract);
+    const Color color = raysteps::trace(*this, ray, depth);
+    next_ = before;
+    return color;
+}
+
+Color StepTracer::surface_color(const HitRecord& hit) const {
+    return options_.view == View::normals ? 0.5F * (hit.normal + 1.0F) : hit.fill.color;
+}
+
+Color StepTracer::primary_color(const Ray& ray) {
+    if (options_.step == 1) {
+        return 0.5F * (ray.direction + 1.0F);
+    }
+    if (options_.step >= 5) {
+        return trace(ray, 1);
+    }
+    next_ = RayKind::eye;
+    const std::optional<HitRecord> hit = closest_hit(ray);
+    if (!hit) {
+        return scene_.background;
+    }
+    return options_.step == 2 ? surface_color(*hit) : local_light(*hit, 1);
+}
+
+}  // namespace raysteps

@@ -1,0 +1,45 @@
+#pragma once
+// One small integrator per step: from a primary ray to a colour, with what the course has so far.
+#include "core/scene.hpp"
+#include "core/tracer.hpp"
+#include "render/accelerator.hpp"
+
+namespace raysteps {
+
+/// What step 02 shows of a hit.
+enum class View { color, normals };
+
+struct StepOptions {
+    int step = 8;  ///< 1 to 8
+    View view = View::color;
+    int max_ray_depth = 5;
+};
+
+/// Calls the step functions and counts their rays by kind. Each thread has its own.
+class StepTracer final : public Tracer {
+public:
+    StepTracer(const Scene& scene, const Accelerator& accelerator, const StepOptions& options)
+        : scene_(scene), accelerator_(accelerator), options_(options) {}
+
+    /// The colour of a primary ray, before tone mapping.
+    [[nodiscard]] Color primary_color(const Ray& ray);
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
+    [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
+    [[nodiscard]] Color trace(const Ray& ray, int depth) override;
+    [[nodiscard]] int max_ray_depth() const override { return options_.max_ray_depth; }
+    [[nodiscard]] Color background() const override { return scene_.background; }
+
+private:
+    enum class RayKind { eye, shadow, reflect, refract };
+
+    [[nodiscard]] std::vector<Light> lights_that_reach(const HitRecord& hit);
+    [[nodiscard]] Color surface_color(const HitRecord& hit) const;
+
+    const Scene& scene_;
+    const Accelerator& accelerator_;
+    StepOptions options_;
+    RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
+};
+
+}  // namespace raysteps

@@ -1,0 +1,79 @@
+#pragma once
+// Stand-ins for the renderer: they answer from a function or a list, and remember what they were asked.
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/tracer.hpp"
+
+namespace raysteps::testing {
+
+/// Answers closest_hit from a function, for example [&](const Ray& ray) { return sphere.hit(ray); }.
+class FakeCaster final : public RayCaster {
+public:
+    using Answer = std::function<std::optional<HitRecord>(const Ray&)>;
+
+    FakeCaster() = default;  ///< an empty scene
+    explicit FakeCaster(Answer answer) : answer_(std::move(answer)) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override {
+        rays.push_back(ray);
+        return answer_ ? answer_(ray) : std::nullopt;
+    }
+
+    std::vector<Ray> rays;  ///< what was cast, in order
+
+private:
+    Answer answer_;
+};
+
+/// A renderer whose every answer the test chooses. Unset answers: no hit, black.
+class FakeTracer final : public Tracer {
+public:
+    struct Asked {
+        Ray ray;
+        int depth;
+    };
+    struct Shaded {
+        HitRecord hit;
+        int depth;
+    };
+
+    /// The hits that closest_hit gives one after the other; a miss when they are used up.
+    void answer_in_order(std::vector<HitRecord> hits) {
+        on_closest_hit = [list = std::move(hits), next = std::size_t{0}](const Ray&) mutable {
+            return next < list.size() ? std::optional<HitRecord>(list[next++]) : std::nullopt;
+        };
+    }
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override {
+        cast.push_back(ray);
+        return on_closest_hit ? on_closest_hit(ray) : std::nullopt;
+    }
+
+    [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override {
+        shaded.push_back({hit, depth});
+        return on_local_light ? on_local_light(hit, depth) : k_black;
+    }
+
+    [[nodiscard]] Color trace(const Ray& ray, int depth) override {
+        traced.push_back({ray, depth});
+        return on_trace ? on_trace(ray, depth) : k_black;
+    }
+
+    [[nodiscard]] int max_ray_depth() const override { return max_depth; }
+    [[nodiscard]] Color background() const override { return background_color; }
+
+    std::function<std::optional<HitRecord>(const Ray&)> on_closest_hit;
+    std::function<Color(const HitRecord&, int)> on_local_light;
+    std::function<Color(const Ray&, int)> on_trace;
+    int max_depth = 5;
+    Color background_color = k_black;
+
+    std::vector<Ray> cast;       ///< rays given to closest_hit
+    std::vector<Asked> traced;   ///< rays given to trace
+    std::vector<Shaded> shaded;  ///< hits given to local_light
+};
+
+}  // namespace raysteps::testing

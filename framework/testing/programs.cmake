@@ -1,0 +1,30 @@
+# Test programs: one per step and source, and one for the framework itself.
+function(raysteps_add_test name)
+    cmake_parse_arguments(arg "" "" "SOURCES;MINE" ${ARGN})
+    add_executable(${name} ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE raysteps-testing raysteps-render raysteps-io raysteps-core raysteps-strict)
+    raysteps_link_steps(${name} ${arg_MINE})
+endfunction()
+
+foreach(step IN LISTS RAYSTEPS_STEPS)
+    raysteps_split_step(${step} number step_name)
+    add_library(test-${number}-objects OBJECT "${PROJECT_SOURCE_DIR}/steps/${step}/${step_name}_test.cpp")
+    target_link_libraries(test-${number}-objects PRIVATE raysteps-testing raysteps-strict)
+    raysteps_add_test(test-reference-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects>)
+    raysteps_add_test(test-isolated-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${number})
+endforeach()
+
+file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "render/*_test.cpp" "apps/*_test.cpp"
+     "testing/*_test.cpp")
+raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp)
+
+# The readers against broken files: replayed with any compiler, and searched for new ones with libFuzzer.
+add_executable(fuzz-readers-replay io/fuzz/readers_fuzz.cpp io/fuzz/replay_main.cpp)
+target_link_libraries(fuzz-readers-replay PRIVATE raysteps-io raysteps-core raysteps-strict)
+raysteps_link_steps(fuzz-readers-replay)
+if(RAYSTEPS_FUZZ)
+    add_executable(fuzz-readers io/fuzz/readers_fuzz.cpp)
+    target_link_libraries(fuzz-readers PRIVATE raysteps-io raysteps-core raysteps-strict)
+    target_link_options(fuzz-readers PRIVATE -fsanitize=fuzzer)
+    raysteps_link_steps(fuzz-readers)
+endif()

@@ -1,0 +1,95 @@
+"""Configures and builds with CMake; the compiler is heard only when it fails."""
+
+import fcntl
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.errors import GraderFault
+from raysteps.process import Outcome, run
+from raysteps.project import Project
+from raysteps.text import printable, shorten
+
+_ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<text>.+)$", re.M)
+_LINK_ERROR = re.compile(r"^.*(?:undefined reference to|multiple definition of|undefined symbol|duplicate symbol).*$", re.M)
+_CONFIGURE_SECONDS = 600
+_BUILD_SECONDS = 1800
+
+
+@dataclass(frozen=True)
+class BuildTree:
+    """One build folder: a preset, and a folder that holds the student's steps."""
+
+    project: Project
+    preset: str
+    folder: Path
+    mine: Path
+    options: tuple[str, ...] = ()
+
+    @property
+    def bin(self) -> Path:
+        return self.folder / "bin"
+
+    def program(self, target: str) -> Path:
+        return self.bin / target
+
+    def cached(self, name: str) -> str:
+        """A value from CMake's cache, or nothing."""
+        try:
+            text = (self.folder / "CMakeCache.txt").read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            return ""
+        found = re.search(rf"^{re.escape(name)}:[A-Z]+=(.*)$", text, re.M)
+        return found.group(1) if found else ""
+
+    def is_configured(self) -> bool:
+        generated = any((self.folder / name).is_file() for name in ("build.ninja", "Makefile"))
+        return generated and self.cached("RAYSTEPS_MINE_DIR") == str(self.mine)
+
+    def configure(self) -> None:
+        """Configures once; later changes of the CMake files are noticed by the build itself."""
+        if self.is_configured():
+            return
+        command: list[str | Path] = ["cmake", "--preset", self.preset, "-S", self.project.root, "-B", self.folder]
+        command += [f"-DRAYSTEPS_MINE_DIR={self.mine}", *self.options]
+        outcome = run(command, seconds=_CONFIGURE_SECONDS, cwd=self.project.root, limited=False)
+        if outcome.code != 0:
+            raise GraderFault("CMake cannot configure the kit:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
+
+    def build(self, targets: list[str], *, keep_going: bool = False, seconds: float = _BUILD_SECONDS) -> Outcome:
+        """Builds the targets (all of them when there are none)."""
+        self.configure()
+        command: list[str | Path] = ["cmake", "--build", self.folder, "--parallel"]
+        if targets:
+            command += ["--target", *targets]
+        if keep_going:
+            command += ["--", *(["-k", "0"] if self.cached("CMAKE_GENERATOR") == "Ninja" else ["-k"])]
+        return run(command, seconds=seconds, cwd=self.project.root, limited=False)
+
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """One grader at a time in this folder."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with (self.folder / ".lock").open("w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
+
+def release_tree(project: Project) -> BuildTree:
+    """What `render`, `check` and `bench` build: the steps in the repository."""
+    return BuildTree(project, "release", project.build / "release", project.steps)
+
+
+def first_error(output: str, mine: Path) -> str:
+    """The first error line, with the student's file named as the student knows it."""
+    errors = list(_ERROR.finditer(output))
+    own = [error for error in errors if Path(error["path"]).is_relative_to(mine)]
+    for error in own or errors:
+        name = Path(error["path"]).name
+        return printable(f"{name}:{error['line']}:{error['column']}: {error['text']}")
+    link = _LINK_ERROR.search(output)
+    if link is not None:
+        return shorten(printable(link.group().rpartition(": ")[2]), 300)
+    return ""

@@ -1,0 +1,86 @@
+"""Reads the XML report of Catch2, version 2 or 3."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree.ElementTree import Element, ParseError
+
+from defusedxml import DefusedXmlException
+from defusedxml.ElementTree import fromstring
+
+from raysteps.text import printable, shorten
+
+_MAX_BYTES = 16 << 20
+
+
+@dataclass(frozen=True)
+class Failure:
+    """What a failed test case says."""
+
+    expression: str
+    expanded: str
+    location: str
+    notes: str
+
+
+@dataclass(frozen=True)
+class TestOutcome:
+    """One test case."""
+
+    __test__ = False  # not a test class for pytest
+
+    name: str
+    passed: bool
+    failure: Failure | None = None
+
+
+def _text(element: Element | None) -> str:
+    return shorten(printable((element.text or "").strip())) if element is not None else ""
+
+
+def _location(element: Element) -> str:
+    name = Path(element.get("filename", "")).name
+    return f"{name}:{element.get('line', '')}" if name else ""
+
+
+def _first_failure(case: Element) -> Failure | None:
+    notes: list[str] = []
+    for element in case.iter():
+        if element.tag in ("Info", "Warning"):
+            notes.append(_text(element))
+        elif element.tag == "Expression" and element.get("success") == "false":
+            problem = element.find("Exception")
+            if problem is None:
+                problem = element.find("FatalErrorCondition")
+            thrown = f"threw: {_text(problem)}" if problem is not None else _text(element.find("Expanded"))
+            return Failure(_text(element.find("Original")), thrown, _location(element), "\n".join(notes))
+        elif element.tag in ("Failure", "Exception", "FatalErrorCondition"):
+            return Failure(element.tag, _text(element), _location(element), "\n".join(notes))
+        elif element.tag == "Expression":
+            notes.clear()
+    return None
+
+
+def _outcome(case: Element) -> TestOutcome:
+    overall = case.find("OverallResult")
+    passed = overall is not None and overall.get("success") == "true"
+    return TestOutcome(printable(case.get("name", "")), passed, None if passed else _first_failure(case))
+
+
+def parse_report(path: Path) -> list[TestOutcome] | None:
+    """The test cases of a complete report; None when the report is missing, cut short or not in order."""
+    try:
+        if path.is_symlink() or not path.is_file() or path.stat().st_size > _MAX_BYTES:
+            return None
+        root = fromstring(path.read_bytes())
+    except (OSError, ParseError, DefusedXmlException, ValueError):
+        return None
+    totals = root.find("OverallResultsCases")
+    if root.tag not in ("Catch", "Catch2TestRun") or totals is None:
+        return None
+    outcomes = [_outcome(case) for case in root.iter("TestCase")]
+    if len({outcome.name for outcome in outcomes}) != len(outcomes):
+        return None
+    failed = sum(not outcome.passed for outcome in outcomes)
+    if totals.get("successes") != str(len(outcomes) - failed) or totals.get("failures") != str(failed):
+        return None
+    return outcomes

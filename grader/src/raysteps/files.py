@@ -1,0 +1,35 @@
+"""Writes files so that nobody ever sees half of one."""
+
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Writes to a temporary name in the same folder, then renames."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        temporary.chmod(0o644)
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def write_json(path: Path, value: Any) -> None:
+    """Writes readable JSON."""
+    write_bytes(path, (json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode())
+
+
+def write_if_changed(path: Path, data: bytes) -> bool:
+    """Leaves a file with the same content alone, so that nothing is rebuilt for it."""
+    if path.is_file() and not path.is_symlink() and path.read_bytes() == data:
+        return False
+    write_bytes(path, data)
+    return True

@@ -1,0 +1,113 @@
+"""Reads steps/NN-name/step.toml."""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from raysteps.errors import GraderFault, UsageError
+from raysteps.project import Project
+
+
+@dataclass(frozen=True)
+class ImageCase:
+    """One picture of a step: what to render and how many pixels may be wrong."""
+
+    name: str
+    scene: str
+    args: tuple[str, ...]
+    max_wrong: float
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step as its manifest describes it."""
+
+    id: str
+    title: str
+    points: float
+    bonus: bool
+    files: tuple[str, ...]
+    functions: tuple[str, ...]
+    hints: tuple[str, ...]
+    weight_tests: float
+    weight_images: float
+    seconds: float
+    images: tuple[ImageCase, ...]
+
+    @property
+    def number(self) -> str:
+        return self.id[:2]
+
+    @property
+    def index(self) -> int:
+        return int(self.number)
+
+    @property
+    def file(self) -> str:
+        """The one source file that the student writes."""
+        return self.files[0]
+
+    @property
+    def path(self) -> Path:
+        """NN-name/name.cpp."""
+        return Path(self.id) / self.file
+
+
+def _image(table: dict[str, Any]) -> ImageCase:
+    return ImageCase(
+        name=str(table["name"]),
+        scene=str(table["scene"]),
+        args=tuple(str(arg) for arg in table.get("args", [])),
+        max_wrong=float(table["max_wrong"]),
+    )
+
+
+def read_step(path: Path) -> Step:
+    """Reads one manifest; a bad one is the kit's fault."""
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        weights = table["weights"]
+        step = Step(
+            id=str(table["id"]),
+            title=str(table["title"]),
+            points=float(table["points"]),
+            bonus=bool(table.get("bonus", False)),
+            files=tuple(table["files"]),
+            functions=tuple(table["functions"]),
+            hints=tuple(table.get("hints", [])),
+            weight_tests=float(weights["tests"]),
+            weight_images=float(weights["images"]),
+            seconds=float(table["limits"]["seconds"]),
+            images=tuple(_image(image) for image in table.get("images", [])),
+        )
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise GraderFault(f"{path}: not a step manifest: {error}") from error
+    if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
+        raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
+    if abs(step.weight_tests + step.weight_images - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
+        raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
+    return step
+
+
+def read_steps(project: Project) -> list[Step]:
+    """All steps, in order."""
+    paths = sorted(project.steps.glob("[0-9][0-9]-*/step.toml"))
+    if not paths:
+        raise GraderFault(f"{project.steps} holds no step.toml")
+    return [read_step(path) for path in paths]
+
+
+def choose(steps: list[Step], names: list[str]) -> list[Step]:
+    """The steps with these names (`02`, `2` or `02-intersection`); all of them when there are no names."""
+    if not names:
+        return steps
+    chosen = []
+    for name in names:
+        number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
+        found = [step for step in steps if name == step.id or number == step.number]
+        if not found:
+            raise UsageError(f"there is no step '{name}'; the steps are {', '.join(step.id for step in steps)}")
+        chosen += found
+    return [step for step in steps if step in chosen]

@@ -1,0 +1,97 @@
+"""Reads and compares pictures."""
+
+import os
+import re
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+Pixels: TypeAlias = npt.NDArray[np.uint8]
+
+_HEADER = re.compile(rb"P6\s+([0-9]{1,5})\s+([0-9]{1,5})\s+255\s")
+_MAX_BYTES = 200 << 20
+_TOLERANCE = 2
+
+
+class PictureError(Exception):
+    """A file that is no picture of ours, in words for the student."""
+
+
+def read_ppm(path: Path) -> Pixels:
+    """Reads a P6 file with 8-bit channels; regular files only, sizes checked before memory is taken."""
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError as error:
+        raise PictureError("no picture was written") from error
+    with os.fdopen(handle, "rb") as file:
+        status = os.fstat(handle)
+        if not stat.S_ISREG(status.st_mode) or status.st_size > _MAX_BYTES:
+            raise PictureError("the picture is not a regular file of a sensible size")
+        data = file.read(_MAX_BYTES)
+    header = _HEADER.match(data)
+    if header is None:
+        raise PictureError("the picture is not a binary PPM with 8-bit channels")
+    width, height = int(header.group(1)), int(header.group(2))
+    if width == 0 or height == 0 or len(data) - header.end() != 3 * width * height:
+        raise PictureError("the picture's size does not fit its header")
+    return np.frombuffer(data, dtype=np.uint8, offset=header.end()).reshape(height, width, 3)
+
+
+def write_png(pixels: Pixels, path: Path) -> None:
+    """Writes to a temporary name, then renames."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.part")
+    try:
+        Image.fromarray(pixels).save(temporary, format="PNG")
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def is_flat(pixels: Pixels) -> bool:
+    """Whether all pixels have one colour."""
+    return bool((pixels == pixels[0, 0]).all())
+
+
+def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
+    """The absolute difference of two pictures of one size, made brighter."""
+    gap = np.abs(mine.astype(np.int16) - reference.astype(np.int16)) * factor
+    return np.minimum(gap, 255).astype(np.uint8)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How a picture compares with the reference's."""
+
+    passed: bool
+    wrong_share: float
+    message: str
+
+
+def _size(pixels: Pixels) -> str:
+    return f"{pixels.shape[1]}x{pixels.shape[0]}"
+
+
+def compare(mine: Pixels, reference: Pixels, max_wrong: float) -> Comparison:
+    """Passes when the share of pixels whose largest channel difference exceeds 2/255 is small enough."""
+    if mine.shape != reference.shape:
+        return Comparison(False, 1.0, f"The picture is {_size(mine)} pixels, expected {_size(reference)}.")
+    gap = np.abs(mine.astype(np.int16) - reference.astype(np.int16)).max(axis=2)
+    wrong = gap > _TOLERANCE
+    share = float(wrong.mean())
+    if is_flat(mine) and not is_flat(reference):
+        return Comparison(False, share, "The whole picture has one colour.")
+    if share <= max_wrong:
+        return Comparison(True, share, "")
+    y, x = (int(index) for index in np.argwhere(wrong)[0])
+    colors = f"{tuple(mine[y, x].tolist())}, expected {tuple(reference[y, x].tolist())}"
+    message = (
+        f"{share:.2%} of the pixels are wrong (at most {max_wrong:.2%} may be); "
+        f"the first is x={x}, y={y}: its colour is {colors}."
+    )
+    return Comparison(False, share, message)

@@ -1,0 +1,40 @@
+"""Where things are in the repository."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Project:
+    """The repository that a command works in."""
+
+    root: Path
+
+    @property
+    def steps(self) -> Path:
+        return self.root / "steps"
+
+    @property
+    def solutions(self) -> Path:
+        return self.root / "solutions"
+
+    @property
+    def scenes(self) -> Path:
+        return self.root / "scenes"
+
+    @property
+    def generated_scenes(self) -> Path:
+        return self.scenes / "generated"
+
+    @property
+    def samples(self) -> Path:
+        return self.root / "grader" / "samples"
+
+    @property
+    def build(self) -> Path:
+        return self.root / "build"
+
+
+def here() -> Project:
+    """The repository that this package is installed from (the install is editable)."""
+    return Project(Path(__file__).resolve().parents[3])

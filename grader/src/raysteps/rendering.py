@@ -1,0 +1,64 @@
+"""Runs one of the raytrace programs."""
+
+import hashlib
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.errors import GraderFault
+from raysteps.files import write_bytes
+from raysteps.manifest import ImageCase
+from raysteps.pictures import PictureError, Pixels, read_ppm
+from raysteps.process import Outcome, run
+from raysteps.project import Project
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """A picture, or why there is none."""
+
+    outcome: Outcome
+    pixels: Pixels | None
+    problem: str = ""
+
+
+def render(project: Project, program: Path, case: ImageCase, seconds: float) -> Rendered:
+    """Renders a picture of a step into a folder of its own."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        picture = Path(folder) / "picture.ppm"
+        scene = project.root / case.scene
+        outcome = run([program, scene, *case.args, "-o", picture, "--quiet"], seconds=seconds, cwd=Path(folder))
+        if outcome.timed_out or outcome.code != 0:
+            return Rendered(outcome, None)
+        try:
+            return Rendered(outcome, read_ppm(picture))
+        except PictureError as error:
+            return Rendered(outcome, None, str(error))
+
+
+class ReferencePictures:
+    """The reference's pictures, kept by scene, arguments and program."""
+
+    def __init__(self, project: Project, program: Path, folder: Path) -> None:
+        self._project = project
+        self._program = program
+        self._folder = folder
+        self._program_hash = hashlib.sha256(program.read_bytes()).digest()
+
+    def get(self, case: ImageCase) -> Pixels:
+        """Renders at the first call; a reference that cannot is the kit's fault."""
+        scene = self._project.root / case.scene
+        if not scene.is_file():
+            raise GraderFault(f"the scene {case.scene} is missing")
+        key = hashlib.sha256(self._program_hash + scene.read_bytes() + "\0".join(case.args).encode()).hexdigest()
+        path = self._folder / f"{key[:32]}.ppm"
+        try:
+            return read_ppm(path)
+        except PictureError:
+            rendered = render(self._project, self._program, case, 600)
+        if rendered.pixels is None:
+            said = rendered.outcome.stderr.strip() or rendered.problem
+            raise GraderFault(f"the reference cannot render {case.name} ({case.scene}): {said}")
+        height, width, _ = rendered.pixels.shape
+        write_bytes(path, f"P6\n{width} {height}\n255\n".encode() + rendered.pixels.tobytes())
+        return rendered.pixels

@@ -1,0 +1,118 @@
+"""The results of a grading and their JSON form, raysteps/results/v1."""
+
+import json
+from dataclasses import asdict, dataclass, field
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, Literal
+
+import jsonschema
+
+from raysteps.errors import GraderFault
+from raysteps.files import write_json
+
+Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
+
+
+@dataclass
+class TestResult:
+    """One visible test case."""
+
+    __test__ = False  # not a test class for pytest
+
+    name: str
+    passed: bool
+    message: str = ""
+    expression: str = ""
+    expanded: str = ""
+    location: str = ""
+    outcome: Literal["ok", "wrong", "crashed", "timeout"] = "ok"
+
+
+@dataclass
+class ImageResult:
+    """One picture; paths are relative to the folder of results.json."""
+
+    name: str
+    scene: str
+    passed: bool
+    max_wrong: float
+    wrong_share: float | None = None
+    message: str = ""
+    mine: str | None = None
+    reference: str | None = None
+    difference: str | None = None
+    seconds: float = 0.0
+    outcome: Literal["ok", "wrong", "crashed", "timeout"] = "ok"
+
+
+@dataclass
+class Cumulative:
+    """Whether the student's steps up to this one work together; worth no points."""
+
+    passed: bool
+    message: str = ""
+
+
+@dataclass
+class StepResult:
+    """What became of one step."""
+
+    id: str
+    status: Status
+    points: float
+    max: float
+    bonus: bool
+    tests: list[TestResult] = field(default_factory=list)
+    images: list[ImageResult] = field(default_factory=list)
+    cumulative: Cumulative = field(default_factory=lambda: Cumulative(False))
+    messages: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Results:
+    """All steps of one submission."""
+
+    submission: str
+    steps: list[StepResult]
+
+    def to_json(self) -> dict[str, Any]:
+        """The document: max counts the steps without the bonus, points count everything."""
+        regular = [step for step in self.steps if not step.bonus]
+        bonus = [step for step in self.steps if step.bonus]
+        return {
+            "schema": "raysteps/results/v1",
+            "submission": self.submission,
+            "total": {
+                "points": round(sum(step.points for step in self.steps), 2),
+                "max": round(sum(step.max for step in regular), 2),
+                "bonus": {
+                    "points": round(sum(step.points for step in bonus), 2),
+                    "max": round(sum(step.max for step in bonus), 2),
+                },
+            },
+            "steps": [asdict(step) for step in self.steps],
+        }
+
+
+@cache
+def _schema() -> Any:
+    return json.loads(files("raysteps").joinpath("results.schema.json").read_text(encoding="utf-8"))
+
+
+def validate(document: Any) -> None:
+    """A document against the schema is the kit's fault."""
+    try:
+        jsonschema.validate(document, _schema())
+    except jsonschema.ValidationError as error:
+        raise GraderFault(f"results.json would break its schema: {error.json_path}: {error.message}") from error
+
+
+def write_results(results: Results, folder: Path) -> Path:
+    """Checks and writes FOLDER/results.json."""
+    document = results.to_json()
+    validate(document)
+    path = folder / "results.json"
+    write_json(path, document)
+    return path

@@ -1,0 +1,105 @@
+"""Makes the stubs in steps/ from the marked regions of solutions/."""
+
+import re
+from dataclasses import dataclass
+
+from raysteps.errors import GraderFault
+from raysteps.files import write_if_changed
+from raysteps.manifest import Step
+from raysteps.project import Project
+
+_BEGIN = re.compile(r"^(\s*)// BEGIN SOLUTION(?: (\S.*))?$")
+_END = re.compile(r"^\s*// END SOLUTION$")
+_MARKER = re.compile(r"^\s*// (BEGIN SOLUTION|END SOLUTION|TODO:|RETURN )")
+_TODO = re.compile(r'RAYSTEPS_TODO\s*\(\s*"[^"]*"\s*,\s*"([^"]*)"\s*\)')
+_COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+
+
+@dataclass(frozen=True)
+class _Region:
+    indent: str
+    name: str | None
+    body: list[str]
+
+
+def _stub_lines(region: _Region, step: Step, where: str) -> list[str]:
+    if region.name is None:
+        return []
+    todo = [line for line in region.body if line.strip().startswith("// TODO: ")]
+    returns = [line.strip() for line in region.body if line.strip().startswith("// RETURN")]
+    if len(todo) != 1 or len(returns) > 1:
+        raise GraderFault(f"{where}: region {region.name} needs one TODO line and at most one RETURN line")
+    lines = [todo[0], f'{region.indent}RAYSTEPS_TODO("{step.id}", "{region.name}");']
+    if returns and returns[0] != "// RETURN":
+        lines.append(f"{region.indent}return {returns[0].removeprefix('// RETURN ')};")
+    return lines
+
+
+def make_stub(solution: str, step: Step) -> str:
+    """The student's starting point: every named region becomes a TODO, unnamed regions vanish."""
+    where = f"solutions/{step.path.as_posix()}"
+    out: list[str] = []
+    names: list[str] = []
+    region: _Region | None = None
+    drop_blank = False
+    for line in solution.splitlines():
+        begin = _BEGIN.match(line)
+        if begin is not None:
+            if region is not None:
+                raise GraderFault(f"{where}: a region begins inside another")
+            region = _Region(begin.group(1), begin.group(2), [])
+        elif _END.match(line):
+            if region is None:
+                raise GraderFault(f"{where}: END SOLUTION without BEGIN SOLUTION")
+            out += _stub_lines(region, step, where)
+            names += [region.name] if region.name else []
+            drop_blank = region.name is None and (not out or not out[-1].strip())
+            region = None
+        elif region is not None:
+            region.body.append(line)
+        else:
+            if not (drop_blank and not line.strip()):
+                out.append(line)
+            drop_blank = False
+    if region is not None:
+        raise GraderFault(f"{where}: a region has no END SOLUTION")
+    if sorted(names) != sorted(step.functions):
+        raise GraderFault(f"{where}: its regions are {names}, but step.toml lists {list(step.functions)}")
+    return "\n".join(out).rstrip() + "\n"
+
+
+def without_markers(solution: str) -> str:
+    """The solution as a student would hand it in."""
+    return "\n".join(line for line in solution.splitlines() if not _MARKER.match(line)).rstrip() + "\n"
+
+
+def unfinished_functions(source: str, step: Step) -> list[str]:
+    """The functions whose RAYSTEPS_TODO line is still in the source (a commented-out one is not)."""
+    code = _COMMENT_OR_STRING.sub(lambda found: " " if found.group().startswith("/") else found.group(), source)
+    left = set(_TODO.findall(code))
+    return [name for name in step.functions if name in left]
+
+
+def same_but_for_space(one: str, other: str) -> bool:
+    """Whether two sources differ in white space only."""
+    return "".join(one.split()) == "".join(other.split())
+
+
+def stub_for(project: Project, step: Step) -> str:
+    """What the solution generates for this step."""
+    return make_stub((project.solutions / step.path).read_text(encoding="utf-8"), step)
+
+
+def outdated_stubs(project: Project, steps: list[Step]) -> list[Step]:
+    """The steps whose stub differs from what the solution generates."""
+    outdated = []
+    for step in steps:
+        path = project.steps / step.path
+        if not path.is_file() or path.read_bytes() != stub_for(project, step).encode():
+            outdated.append(step)
+    return outdated
+
+
+def write_stubs(project: Project, steps: list[Step]) -> list[Step]:
+    """Writes all stubs; returns the steps whose stub changed."""
+    return [step for step in steps if write_if_changed(project.steps / step.path, stub_for(project, step).encode())]

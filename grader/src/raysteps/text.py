@@ -1,0 +1,30 @@
+"""Small helpers for text."""
+
+import re
+
+_CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
+
+def printable(text: str) -> str:
+    """Without control characters, so that a program's output cannot steer a terminal."""
+    return _CONTROL.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))
+
+
+def shorten(text: str, limit: int = 2000) -> str:
+    """At most that many characters."""
+    return text if len(text) <= limit else text[: limit - 4] + " ..."
+
+
+def listed(words: list[str]) -> str:
+    """`a`, `a and b` or `a, b and c`."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def number(value: float) -> str:
+    """12 rather than 12.0, 12.5 rather than 12.50."""
+    return f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def count(amount: int, noun: str) -> str:
+    """`1 test`, `2 tests`."""
+    return f"{amount} {noun}" if amount == 1 else f"{amount} {noun}s"

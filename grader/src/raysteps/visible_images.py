@@ -1,0 +1,68 @@
+"""Renders the pictures of a step with the student's code and compares them."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.manifest import ImageCase, Step
+from raysteps.pictures import compare, difference, write_png
+from raysteps.project import Project
+from raysteps.rendering import ReferencePictures, Rendered, render
+from raysteps.results import Cumulative, ImageResult
+from raysteps.text import number, printable, shorten
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """What pictures are made and judged with."""
+
+    project: Project
+    references: ReferencePictures
+    out: Path
+
+
+def _trouble(rendered: Rendered, seconds: float) -> tuple[str, str]:
+    """What kept a picture from being made: outcome and message."""
+    outcome = rendered.outcome
+    if outcome.timed_out:
+        return "timeout", f"The picture was not ready after {number(seconds)} seconds."
+    if outcome.signal_name is not None:
+        return "crashed", f"The program crashed ({outcome.signal_name})."
+    if outcome.code != 0:
+        said = shorten(printable(outcome.stderr.strip().rpartition("\n")[2]), 200)
+        return "crashed", f"The program gave up with exit code {outcome.code}" + (f": {said}" if said else ".")
+    return "wrong", f"{rendered.problem.capitalize()}."
+
+
+def judge(gallery: Gallery, program: Path, step: Step, case: ImageCase) -> ImageResult:
+    """One picture, with copies of mine, reference and difference as PNG."""
+    reference = gallery.references.get(case)
+    rendered = render(gallery.project, program, case, step.seconds)
+    result = ImageResult(case.name, case.scene, False, case.max_wrong, seconds=round(rendered.outcome.seconds, 2))
+    folder = Path("pictures") / step.id
+    result.reference = (folder / f"{case.name}-reference.png").as_posix()
+    write_png(reference, gallery.out / result.reference)
+    if rendered.pixels is None:
+        outcome, result.message = _trouble(rendered, step.seconds)
+        result.outcome = "timeout" if outcome == "timeout" else "crashed" if outcome == "crashed" else "wrong"
+        return result
+    result.mine = (folder / f"{case.name}-mine.png").as_posix()
+    write_png(rendered.pixels, gallery.out / result.mine)
+    verdict = compare(rendered.pixels, reference, case.max_wrong)
+    result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
+    result.outcome = "ok" if verdict.passed else "wrong"
+    if rendered.pixels.shape == reference.shape:
+        result.difference = (folder / f"{case.name}-difference.png").as_posix()
+        write_png(difference(rendered.pixels, reference), gallery.out / result.difference)
+    return result
+
+
+def judge_together(gallery: Gallery, program: Path, step: Step) -> Cumulative:
+    """The step's pictures with all the student's steps up to this one."""
+    for case in step.images:
+        rendered = render(gallery.project, program, case, step.seconds)
+        if rendered.pixels is None:
+            return Cumulative(False, f"{case.name}: {_trouble(rendered, step.seconds)[1]}")
+        verdict = compare(rendered.pixels, gallery.references.get(case), case.max_wrong)
+        if not verdict.passed:
+            return Cumulative(False, f"{case.name}: {verdict.message}")
+    return Cumulative(True, "")

@@ -1,0 +1,20 @@
+#pragma once
+// Step 04: a light counts only where it is seen.
+#include "core/light.hpp"
+#include "core/tracer.hpp"
+
+namespace raysteps {
+
+/// Rounding can put a hit a little below its own surface. What is nearer than this is taken for the
+/// surface itself (the paper's threshold against "noise"). World units.
+inline constexpr float k_shadow_threshold = 1e-3F;
+
+/// The ray from the hit towards the light; unit direction. It starts off the surface by the threshold,
+/// on the side that hit.normal points to.
+[[nodiscard]] Ray shadow_ray(const HitRecord& hit, const Light& light);
+
+/// Whether nothing stands between the hit and the light. What is behind the light does not block it;
+/// a surface does not shade itself by rounding. Glass blocks like everything else.
+[[nodiscard]] bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light);
+
+}  // namespace raysteps

@@ -1,0 +1,174 @@
+// Visible tests of step 04: the shadow ray, and whether a light is seen.
+#include "steps/04-shadows/shadows.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "steps/02-intersection/intersection.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+constexpr float k_farthest_off = 0.01F;  ///< the starting point may be this far off the surface, no farther
+
+const glm::vec3 k_up{0.0F, 0.0F, 1.0F};
+
+HitRecord hit_at(const glm::vec3& position, const glm::vec3& normal) {
+    HitRecord hit;
+    hit.position = position;
+    hit.normal = normal;
+    hit.ray_direction = -normal;
+    hit.distance = 1.0F;
+    return hit;
+}
+
+/// A scene of surfaces, searched one by one.
+FakeCaster scene_of(SurfaceList surfaces) {
+    return FakeCaster([list = std::move(surfaces)](const Ray& ray) { return closest_hit(list, ray); });
+}
+
+Sphere ball(const glm::vec3& center, float radius) { return {center, radius, Fill{}}; }
+
+}  // namespace
+
+TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-shadows]") {
+    const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
+    const Light light{{4.0F, 2.0F, 4.0F}, k_white};
+    const Ray ray = shadow_ray(hit, light);
+    CAPTURE(ray);
+    INFO("the origin is off the surface, on the side of the normal, by no more than 0.01");
+    CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+    CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+    CHECK_THAT(ray.direction, IsUnitLength());
+    INFO("from (1, 2, 0) to (4, 2, 4) is 5 times (0.6, 0, 0.8)");
+    CHECK_THAT(ray.direction, IsNear({0.6F, 0.0F, 0.8F}, 5e-3F));
+}
+
+TEST_CASE("shadow_ray, for any hit and light", "[04-shadows]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 200; ++i) {
+        const HitRecord hit = hit_at(random.point(3.0F), random.unit_vector());
+        const float distance = random.uniform(2.0F, 30.0F);
+        const Light light{hit.position + distance * random.unit_vector_above(hit.normal, 0.2F), k_white};
+        CAPTURE(hit.position, hit.normal, light.position);
+        const Ray ray = shadow_ray(hit, light);
+        CAPTURE(ray);
+        REQUIRE(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+        REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+        REQUIRE_THAT(ray.direction, IsUnitLength());
+        INFO("the ray must pass through the light");
+        const glm::vec3 reached = ray.origin + glm::distance(ray.origin, light.position) * ray.direction;
+        REQUIRE(glm::distance(reached, light.position) <= 1.5F * k_farthest_off);
+    }
+}
+
+TEST_CASE("is_lit: in an empty scene, every light is seen", "[04-shadows]") {
+    FakeCaster scene;
+    const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
+    CHECK(is_lit(scene, hit, {{0.0F, 0.0F, 10.0F}, k_white}));
+    CHECK(is_lit(scene, hit, {{3.0F, -2.0F, 1.0F}, k_white}));
+    INFO("the scene must have been asked, at least once for each light");
+    CHECK(scene.rays.size() >= 2);
+}
+
+TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows]") {
+    const Sphere blocker = ball({0.0F, 0.0F, 5.0F}, 1.0F);
+    FakeCaster scene = scene_of({&blocker});
+    const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
+    INFO("hit at 0, ball from 4 to 6, light at 10");
+    CHECK_FALSE(is_lit(scene, hit, {{0.0F, 0.0F, 10.0F}, k_white}));
+    INFO("a light to the side passes the ball");
+    CHECK(is_lit(scene, hit, {{10.0F, 0.0F, 5.0F}, k_white}));
+}
+
+TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows]") {
+    const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
+    const Light light{{0.0F, 0.0F, 5.0F}, k_white};
+    SECTION("hit at 0, light at 5, ball from 5.5 to 7.5: lit") {
+        const Sphere behind = ball({0.0F, 0.0F, 6.5F}, 1.0F);
+        FakeCaster scene = scene_of({&behind});
+        CHECK(is_lit(scene, hit, light));
+    }
+    SECTION("a lamp in a round room: the wall behind the lamp must not darken it") {
+        const Sphere room = ball({0.0F, 0.0F, 0.0F}, 20.0F);
+        FakeCaster scene = scene_of({&room});
+        CHECK(is_lit(scene, hit, light));
+        CHECK(is_lit(scene, hit_at({0.0F, 0.0F, -3.0F}, k_up), light));
+    }
+    SECTION("hit at 0, ball from 4.4 to 4.8, light at 5: in shadow") {
+        const Sphere before = ball({0.0F, 0.0F, 4.6F}, 0.2F);
+        FakeCaster scene = scene_of({&before});
+        CHECK_FALSE(is_lit(scene, hit, light));
+    }
+}
+
+TEST_CASE("is_lit: what lies on the other side of the surface does not block", "[04-shadows]") {
+    const Sphere below = ball({0.0F, 0.0F, -5.0F}, 1.0F);
+    FakeCaster scene = scene_of({&below});
+    INFO("the ball is under the floor, on the line through light and hit but not between them");
+    CHECK(is_lit(scene, hit_at({0.0F, 0.0F, 0.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
+}
+
+TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shadows]") {
+    Random random;
+    INFO(random);
+    const Sphere sphere = ball({0.3F, -0.2F, 0.1F}, 1.7F);
+    FakeCaster scene = scene_of({&sphere});
+    int dark = 0;
+    const int count = 500;
+    for (int i = 0; i < count; ++i) {
+        const std::optional<HitRecord> hit = sphere.intersect(random.ray_towards(sphere.center(), 12.0F));
+        REQUIRE(hit.has_value());
+        const Light light{hit->position + 15.0F * random.unit_vector_above(hit->normal, 0.2F), k_white};
+        dark += is_lit(scene, *hit, light) ? 0 : 1;
+    }
+    INFO("points on the lit side that came out dark, of " << count << ": rounding puts the hit below the surface");
+    CHECK(dark == 0);
+}
+
+TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows]") {
+    Random random;
+    INFO(random);
+    const glm::vec3 corner{-9.0F, -7.0F, 0.3F};
+    const Triangle floor(corner, corner + glm::vec3{31.0F, 0.0F, 2.1F}, corner + glm::vec3{0.0F, 29.0F, 1.3F}, Fill{});
+    FakeCaster scene = scene_of({&floor});
+    int dark = 0;
+    const int count = 500;
+    for (int i = 0; i < count; ++i) {
+        const float u = random.uniform(0.05F, 0.9F);
+        const float v = random.uniform(0.02F, 0.95F - u);
+        const glm::vec3 target = floor.a() + u * (floor.b() - floor.a()) + v * (floor.c() - floor.a());
+        const glm::vec3 eye = target + 10.0F * random.unit_vector_above(k_up, 0.4F);
+        const std::optional<HitRecord> hit = floor.intersect({eye, glm::normalize(target - eye)});
+        REQUIRE(hit.has_value());
+        const Light light{hit->position + 15.0F * random.unit_vector_above(hit->normal, 0.2F), k_white};
+        dark += is_lit(scene, *hit, light) ? 0 : 1;
+    }
+    INFO("points of the floor that came out dark, of " << count << ", although nothing stands on it");
+    CHECK(dark == 0);
+}
+
+TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", "[04-shadows]") {
+    const Sphere pebble = ball({0.0F, 0.0F, 0.05F}, 0.02F);
+    FakeCaster scene = scene_of({&pebble});
+    const Light light{{0.0F, 0.0F, 10.0F}, k_white};
+    INFO("the pebble floats from 0.03 to 0.07 above the floor: a threshold as large as that would lose it");
+    CHECK_FALSE(is_lit(scene, hit_at({0.0F, 0.0F, 0.0F}, k_up), light));
+    INFO("beside the pebble the floor is lit");
+    CHECK(is_lit(scene, hit_at({0.1F, 0.0F, 0.0F}, k_up), light));
+}
+
+TEST_CASE("is_lit: inside a hollow ball, the wall is lit by a lamp inside", "[04-shadows]") {
+    const Sphere room = ball({0.0F, 0.0F, 0.0F}, 5.0F);
+    FakeCaster scene = scene_of({&room});
+    const std::optional<HitRecord> hit = room.intersect({{0.0F, 0.0F, 0.0F}, {0.0F, 0.6F, -0.8F}});
+    REQUIRE(hit.has_value());
+    INFO("the hit's normal points inwards; an origin pushed outwards sees nothing but the wall");
+    CHECK(is_lit(scene, *hit, {{1.0F, 1.0F, 1.0F}, k_white}));
+    INFO("a lamp outside is hidden by the wall");
+    CHECK_FALSE(is_lit(scene, *hit, {{0.0F, 0.0F, 9.0F}, k_white}));
+}

@@ -1,0 +1,38 @@
+#pragma once
+// Step 06: boxes within boxes, so that a ray is tested against a few surfaces and not against all.
+//
+// Three of the functions are members that core/ declares:
+//     std::optional<Interval> Box::clip(const Ray& ray) const;
+//         The part of the ray inside the box (Liang and Barsky 1984): enter <= leave, both >= 0.
+//         An origin inside gives enter = 0. A ray along a face or an edge, and a flat box, count as hit.
+//         A direction with zeros in it is fine.
+//     bool Sphere::overlaps(const Box& box) const;
+//     bool Triangle::overlaps(const Box& box) const;
+//         true wherever surface and box have a point in common. A true too many is allowed, a false is not:
+//         comparing bounds() with the box is a correct answer, only not a fast one.
+#include <array>
+
+#include "core/node.hpp"
+#include "core/sphere.hpp"
+#include "core/triangle.hpp"
+#include "steps/02-intersection/intersection.hpp"
+
+namespace raysteps {
+
+/// The smallest box around the bounds of all surfaces. No surfaces: an empty box, min above max.
+[[nodiscard]] Box bounds_of(const SurfaceList& surfaces);
+
+/// The eight halves of halves of the box, cut in the middle of each axis. Child i lies in the upper half of
+/// x when i & 1, of y when i & 2, of z when i & 4.
+[[nodiscard]] std::array<Box, 8> split(const Box& box);
+
+/// The tree over all surfaces. A surface is in the list of each leaf that it overlaps, or in the list of a
+/// node above them. No surfaces: a leaf with an empty list.
+/// Depth and size of the leaves are yours to choose; the paper's three levels (1, 8 and 64 boxes) will do.
+[[nodiscard]] Node build_octree(const SurfaceList& surfaces);
+
+/// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Ask a box with
+/// box.hit(ray) and a surface with surface->hit(ray): they count.
+[[nodiscard]] std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray);
+
+}  // namespace raysteps

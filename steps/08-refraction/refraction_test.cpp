@@ -1,0 +1,182 @@
+// Visible tests of step 08: Snell's law, the ray that goes through glass, and the light that it brings.
+#include "steps/08-refraction/refraction.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+constexpr float k_farthest_off = 0.01F;  ///< the starting point may be this far off the surface, no farther
+
+const glm::vec3 k_up{0.0F, 0.0F, 1.0F};
+
+/// Travels downwards and to the right, at `degrees` from the vertical.
+glm::vec3 downwards(float degrees) {
+    const float angle = degrees * 3.14159265F / 180.0F;
+    return {std::sin(angle), 0.0F, -std::cos(angle)};
+}
+
+/// On a glass surface at the origin; the ray comes from the side of +z.
+HitRecord glass_hit(const glm::vec3& direction, float index, bool from_outside) {
+    HitRecord hit;
+    hit.position = {0.0F, 0.0F, 0.0F};
+    hit.fill.transmittance = 0.5F;
+    hit.fill.index_of_refraction = index;
+    hit.normal = k_up;
+    hit.ray_direction = direction;
+    hit.distance = 1.0F;
+    hit.from_outside = from_outside;
+    return hit;
+}
+
+/// The sine of the angle between direction and normal.
+float sine(const glm::vec3& direction, const glm::vec3& normal) { return glm::length(glm::cross(direction, normal)); }
+
+}  // namespace
+
+TEST_CASE("refract: straight down goes straight on, whatever the glass", "[08-refraction]") {
+    for (const float eta : {1.0F / 1.5F, 1.0F, 1.5F}) {
+        CAPTURE(eta);
+        const std::optional<glm::vec3> out = refract({0.0F, 0.0F, -1.0F}, k_up, eta);
+        REQUIRE(out.has_value());
+        CHECK_THAT(*out, IsNear({0.0F, 0.0F, -1.0F}));
+    }
+}
+
+TEST_CASE("refract: into glass the ray bends towards the normal", "[08-refraction]") {
+    INFO("45 degrees, index 1.5: sin = 0.707107 / 1.5 = 0.471405, that is 28.13 degrees");
+    const std::optional<glm::vec3> out = refract(downwards(45.0F), k_up, 1.0F / 1.5F);
+    REQUIRE(out.has_value());
+    CHECK_THAT(*out, IsNear({0.471405F, 0.0F, -0.881917F}));
+}
+
+TEST_CASE("refract: out of glass the ray bends away from the normal", "[08-refraction]") {
+    INFO("30 degrees inside, index 1.5: sin = 0.5 * 1.5 = 0.75, that is 48.59 degrees");
+    const std::optional<glm::vec3> out = refract(downwards(30.0F), k_up, 1.5F);
+    REQUIRE(out.has_value());
+    CHECK_THAT(*out, IsNear({0.75F, 0.0F, -0.661438F}));
+}
+
+TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction]") {
+    INFO("index 1.5: the critical angle is asin(1 / 1.5) = 41.81 degrees");
+    CHECK(refract(downwards(41.0F), k_up, 1.5F).has_value());
+    CHECK_FALSE(refract(downwards(42.5F), k_up, 1.5F).has_value());
+    CHECK_FALSE(refract(downwards(80.0F), k_up, 1.5F).has_value());
+    INFO("into glass there is no such angle");
+    CHECK(refract(downwards(89.0F), k_up, 1.0F / 1.5F).has_value());
+}
+
+TEST_CASE("refract: Snell's law for any direction", "[08-refraction]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 normal = random.unit_vector();
+        const glm::vec3 direction = -random.unit_vector_above(normal, 0.05F);
+        const float eta = random.uniform(0.4F, 2.5F);
+        const float expected_sine = eta * sine(direction, normal);
+        if (std::abs(expected_sine - 1.0F) < 1e-3F) {
+            continue;  // at the critical angle rounding decides
+        }
+        CAPTURE(direction, normal, eta);
+        const std::optional<glm::vec3> out = refract(direction, normal, eta);
+        REQUIRE(out.has_value() == (expected_sine < 1.0F));
+        if (!out) {
+            continue;
+        }
+        REQUIRE_THAT(*out, IsUnitLength());
+        INFO("n1 sin(angle 1) = n2 sin(angle 2)");
+        REQUIRE(sine(*out, normal) == about(expected_sine, 1e-3));
+        INFO("the ray goes on to the other side");
+        REQUIRE(glm::dot(*out, normal) < 0.0F);
+        INFO("the part along the surface keeps its direction");
+        REQUIRE_THAT(glm::cross(*out, normal), IsNear(eta * glm::cross(direction, normal), 1e-3F));
+        INFO("light finds the same way back");
+        const std::optional<glm::vec3> back = refract(-*out, -normal, 1.0F / eta);
+        REQUIRE(back.has_value());
+        REQUIRE_THAT(*back, IsNear(-direction, 1e-2F));
+    }
+}
+
+TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction]") {
+    SECTION("from outside eta is 1 / index") {
+        const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
+        CHECK_THAT(transmitted_ray(hit).direction, IsNear({0.471405F, 0.0F, -0.881917F}));
+    }
+    SECTION("from inside eta is index / 1") {
+        const HitRecord hit = glass_hit(downwards(30.0F), 1.5F, false);
+        CHECK_THAT(transmitted_ray(hit).direction, IsNear({0.75F, 0.0F, -0.661438F}));
+    }
+    SECTION("the origin is behind the surface, by no more than 0.01") {
+        const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
+        const Ray ray = transmitted_ray(hit);
+        CAPTURE(ray);
+        CHECK(glm::dot(ray.origin - hit.position, hit.normal) < 0.0F);
+        CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+    }
+}
+
+TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refraction]") {
+    const HitRecord hit = glass_hit(downwards(60.0F), 1.5F, false);
+    const Ray ray = transmitted_ray(hit);
+    CAPTURE(ray);
+    INFO("60 degrees is beyond the critical angle: the mirrored ray, on the side that the ray came from");
+    CHECK_THAT(ray.direction, IsNear({0.866025F, 0.0F, 0.5F}));
+    CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+    CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+}
+
+TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction]") {
+    for (const bool from_outside : {true, false}) {
+        for (const float index : {1.0F, 0.0F}) {
+            CAPTURE(index, from_outside);
+            const HitRecord hit = glass_hit(downwards(50.0F), index, from_outside);
+            const Ray ray = transmitted_ray(hit);
+            CHECK_THAT(ray.direction, IsNear(downwards(50.0F)));
+            CHECK(glm::dot(ray.origin - hit.position, hit.normal) < 0.0F);
+        }
+    }
+}
+
+TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refraction]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec3 direction = -random.unit_vector_above(k_up, 0.1F);
+        const float index = random.uniform(1.1F, 2.4F);
+        CAPTURE(direction, index);
+        const Ray inside = transmitted_ray(glass_hit(direction, index, true));
+        INFO("in the glass the ray is steeper");
+        REQUIRE(-inside.direction.z >= -direction.z - 1e-4F);
+        const Ray outside = transmitted_ray(glass_hit(inside.direction, index, false));
+        REQUIRE_THAT(outside.direction, IsNear(direction, 1e-2F));
+        REQUIRE(outside.origin.z < 0.0F);
+    }
+}
+
+TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refraction]") {
+    FakeTracer tracer;
+    tracer.on_trace = [](const Ray&, int) { return Color(0.8F, 0.4F, 0.2F); };
+    const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
+    CHECK_THAT(transmitted_light(tracer, hit, 3), IsNear({0.4F, 0.2F, 0.1F}));
+    INFO("one ray, along the transmitted direction, one deeper than the hit");
+    REQUIRE(tracer.traced.size() == 1);
+    CHECK(tracer.traced[0].depth == 4);
+    CHECK_THAT(tracer.traced[0].ray.direction, IsNear({0.471405F, 0.0F, -0.881917F}));
+}
+
+TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction]") {
+    FakeTracer tracer;
+    tracer.on_trace = [](const Ray&, int) { return k_white; };
+    HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
+    hit.fill.transmittance = 0.0F;
+    CHECK_THAT(transmitted_light(tracer, hit, 1), IsNear(k_black));
+    CHECK(tracer.traced.empty());
+    INFO("for comparison: with transmittance 1 all the light comes through");
+    hit.fill.transmittance = 1.0F;
+    CHECK_THAT(transmitted_light(tracer, hit, 1), IsNear(k_white));
+}
