@@ -27,10 +27,9 @@ struct Stats {
     }
 };
 
-/// The counters of the calling thread.
-inline Stats& thread_stats() {
-    thread_local Stats stats;
-    return stats;
-}
+/// The counters of the calling thread. One for the whole program, whatever file counts.
+extern constinit thread_local Stats t_stats;
+
+inline Stats& thread_stats() { return t_stats; }
 
 }  // namespace raysteps

@@ -46,13 +46,16 @@ std::vector<Light> StepTracer::lights_that_reach(const HitRecord& hit) {
 Color StepTracer::local_light(const HitRecord& hit, int depth) {
     Color color = options_.step < 4 ? shade(hit, scene_.lights) : shade(hit, lights_that_reach(hit));
     if (options_.step >= 8) {
+        through_glass_ = true;
         color += transmitted_light(*this, hit, depth);
+        through_glass_ = false;
     }
     return color;
 }
 
 Color StepTracer::trace(const Ray& ray, int depth) {
-    const RayKind before = std::exchange(next_, depth == 1 ? RayKind::eye : RayKind::refract);
+    const RayKind bounced = std::exchange(through_glass_, false) ? RayKind::refract : RayKind::reflect;
+    const RayKind before = std::exchange(next_, depth == 1 ? RayKind::eye : bounced);
     const Color color = raysteps::trace(*this, ray, depth);
     next_ = before;
     return color;

@@ -17,8 +17,8 @@ namespace raysteps {
 namespace {
 
 constexpr int k_max_depth = 12;
-constexpr std::size_t k_leaf_size = 4;
-constexpr std::size_t k_max_growth = 3;    // children may hold this many times the parent's surfaces
+constexpr std::size_t k_leaf_size = 8;
+constexpr std::size_t k_max_growth = 4;    // children may hold this many times the parent's surfaces
 constexpr float k_padding = 2e-6F;         // share of the scene's size by which boxes are grown against rounding
 constexpr float k_distance_slack = 1e-5F;  // share of a distance within which rounding may move it
 

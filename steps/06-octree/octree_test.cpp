@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "core/scene.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;

@@ -1,7 +1,9 @@
 """Configures and builds with CMake; the compiler is heard only when it fails."""
 
 import fcntl
+import os
 import re
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,7 +15,9 @@ from raysteps.project import Project
 from raysteps.text import printable, shorten
 
 _ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<text>.+)$", re.M)
-_LINK_ERROR = re.compile(r"^.*(?:undefined reference to|multiple definition of|undefined symbol|duplicate symbol).*$", re.M)
+_LINK_ERROR = re.compile(
+    r"^.*(?:undefined reference to|multiple definition of|undefined symbol|duplicate symbol).*$", re.M
+)
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
 
@@ -54,6 +58,8 @@ class BuildTree:
             return
         command: list[str | Path] = ["cmake", "--preset", self.preset, "-S", self.project.root, "-B", self.folder]
         command += [f"-DRAYSTEPS_MINE_DIR={self.mine}", *self.options]
+        generator = self.cached("CMAKE_GENERATOR") or ("Ninja" if shutil.which("ninja") else "")
+        command += ["-G", generator] if generator else []
         outcome = run(command, seconds=_CONFIGURE_SECONDS, cwd=self.project.root, limited=False)
         if outcome.code != 0:
             raise GraderFault("CMake cannot configure the kit:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
@@ -61,7 +67,9 @@ class BuildTree:
     def build(self, targets: list[str], *, keep_going: bool = False, seconds: float = _BUILD_SECONDS) -> Outcome:
         """Builds the targets (all of them when there are none)."""
         self.configure()
-        command: list[str | Path] = ["cmake", "--build", self.folder, "--parallel"]
+        command: list[str | Path] = ["cmake", "--build", self.folder]
+        if "CMAKE_BUILD_PARALLEL_LEVEL" not in os.environ:
+            command.append("--parallel")
         if targets:
             command += ["--target", *targets]
         if keep_going:
@@ -80,6 +88,13 @@ class BuildTree:
 def release_tree(project: Project) -> BuildTree:
     """What `render`, `check` and `bench` build: the steps in the repository."""
     return BuildTree(project, "release", project.build / "release", project.steps)
+
+
+def what_failed(outcome: Outcome) -> str:
+    """The part of a failed build that a person needs: from its first failure on."""
+    text = printable(outcome.stdout + outcome.stderr)
+    starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400) if at > 0]
+    return shorten(text[min(starts, default=0) :], 6000)
 
 
 def first_error(output: str, mine: Path) -> str:

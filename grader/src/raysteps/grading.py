@@ -4,13 +4,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.building import BuildTree, first_error
+from raysteps.building import BuildTree, first_error, what_failed
 from raysteps.errors import GraderFault
 from raysteps.manifest import Step
 from raysteps.rendering import ReferencePictures
 from raysteps.results import Cumulative, Results, Status, StepResult
 from raysteps.stubs import same_but_for_space, stub_for, unfinished_functions
-from raysteps.text import count, listed, shorten
+from raysteps.text import count, listed
 from raysteps.visible_images import Gallery, judge, judge_together
 from raysteps.visible_tests import expected_cases, run_tests
 
@@ -32,6 +32,10 @@ class Job:
 
 def _targets(step: Step) -> list[str]:
     return [f"test-isolated-{step.number}", f"raytrace-isolated-{step.number}"]
+
+
+def _together_target(step: Step) -> str:
+    return f"raytrace-cumulative-{step.number}"
 
 
 def source_of(job: Job, step: Step) -> str | None:
@@ -67,7 +71,9 @@ def _sum_up(result: StepResult) -> list[str]:
     wrong = [image for image in result.images if not image.passed]
     if wrong:
         messages.append(f"{len(wrong)} of {count(len(result.images), 'picture')} did not pass.")
-    bad = [item.message for item in [*result.tests, *result.images] if item.outcome in ("crashed", "timeout")]
+    outcomes = [(item.outcome, item.message) for item in result.tests]
+    outcomes += [(item.outcome, item.message) for item in result.images]
+    bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
     return messages + bad[:1]
 
 
@@ -79,13 +85,10 @@ class Grader:
         self._gallery: Gallery | None = None
 
     def grade(self) -> Results:
-        """All chosen steps."""
-        job = self._job
-        with job.tree.locked():
-            self._build_reference()
-            started = [step for step in job.chosen if self._finished_functions(step)]
-            self._build_ahead(started)
-            return Results(job.name, [self._grade_step(step) for step in job.chosen])
+        """All chosen steps. The caller holds the lock of the build folder."""
+        self._build_reference()
+        self._build_ahead([step for step in self._job.chosen if self._finished_functions(step)])
+        return Results(self._job.name, [self._grade_step(step) for step in self._job.chosen])
 
     def _finished_functions(self, step: Step) -> list[str]:
         source = source_of(self._job, step)
@@ -94,13 +97,17 @@ class Grader:
         left = unfinished_functions(source, step)
         return [name for name in step.functions if name not in left]
 
+    def _unstarted_before(self, step: Step) -> list[str]:
+        earlier = [other for other in self._job.all_steps if other.index < step.index]
+        return [other.id for other in earlier if not self._finished_functions(other)]
+
     def _build_reference(self) -> None:
         job = self._job
         job.say("building the reference and the tests")
         targets = ["raytrace-reference", *(f"test-reference-{step.number}" for step in job.chosen)]
         outcome = job.tree.build(targets)
         if outcome.code != 0:
-            raise GraderFault("the kit's own programs do not build:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
+            raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
         program = job.tree.program("raytrace-reference")
         pictures = ReferencePictures(job.tree.project, program, job.tree.project.build / "grade" / "reference")
         self._gallery = Gallery(job.tree.project, pictures, job.out)
@@ -109,7 +116,8 @@ class Grader:
         """Builds what builds, all at once; what does not is built again, alone, for its message."""
         if steps:
             self._job.say(f"building {listed([step.id for step in steps])}")
-            targets = [target for step in steps for target in [*_targets(step), f"raytrace-cumulative-{step.number}"]]
+            targets = [target for step in steps for target in _targets(step)]
+            targets += [_together_target(step) for step in steps if not self._unstarted_before(step)]
             self._job.tree.build(targets, keep_going=True)
 
     def _grade_step(self, step: Step) -> StepResult:
@@ -137,7 +145,7 @@ class Grader:
 
     def _run_step(self, step: Step, result: StepResult) -> None:
         job = self._job
-        assert self._gallery is not None  # noqa: S101
+        assert self._gallery is not None
         names = expected_cases(job.tree.program(f"test-reference-{step.number}"))
         result.tests = run_tests(job.tree.program(f"test-isolated-{step.number}"), names, step.seconds)
         program = job.tree.program(f"raytrace-isolated-{step.number}")
@@ -148,12 +156,11 @@ class Grader:
 
     def _together(self, step: Step) -> Cumulative:
         job = self._job
-        assert self._gallery is not None  # noqa: S101
-        earlier = [other for other in job.all_steps if other.index < step.index]
-        missing = [other.id for other in earlier if not self._finished_functions(other)]
+        assert self._gallery is not None
+        missing = self._unstarted_before(step)
         if missing:
             return Cumulative(False, f"Not started yet: {listed(missing)}.")
-        target = f"raytrace-cumulative-{step.number}"
+        target = _together_target(step)
         built = job.tree.build([target], seconds=_BUILD_STEP_SECONDS)
         if built.code != 0:
             error = first_error(built.stdout + built.stderr, job.tree.mine)
@@ -161,14 +168,7 @@ class Grader:
         return judge_together(self._gallery, job.tree.program(target), step)
 
     def _why_not_started(self, step: Step) -> str:
-        path = self._job.tree.mine / step.path
-        if not path.is_file() or step.id not in self._present():
-            return f"{step.file} was not handed in."
-        source = path.read_text(encoding="utf-8", errors="replace")
-        if same_but_for_space(source, stub_for(self._job.tree.project, step)):
+        source = source_of(self._job, step)
+        if source is None:
             return f"{step.file} is still the stub."
         return f"The RAYSTEPS_TODO lines of all functions are still in {step.file}: {listed(list(step.functions))}."
-
-    def _present(self) -> set[str]:
-        """The steps that the submission holds; a missing one was filled in with the stub."""
-        return {step.id for step in self._job.all_steps} - set(self._job.notes)

@@ -132,7 +132,7 @@ def _collect(
         elif isinstance(archive, tarfile.TarFile) and isinstance(entry.where, tarfile.TarInfo):
             data = _read_tar(archive, entry.where)
         else:
-            assert isinstance(entry.where, Path)  # noqa: S101
+            assert isinstance(entry.where, Path)
             data = entry.where.read_bytes()
         if len(data) > _MAX_SOURCE:
             notes[step] = f"{entry.path.name} is larger than 1 MB and was not taken."

@@ -61,7 +61,8 @@ def is_flat(pixels: Pixels) -> bool:
 def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
     """The absolute difference of two pictures of one size, made brighter."""
     gap = np.abs(mine.astype(np.int16) - reference.astype(np.int16)) * factor
-    return np.minimum(gap, 255).astype(np.uint8)
+    bright: Pixels = np.minimum(gap, 255).astype(np.uint8)
+    return bright
 
 
 @dataclass(frozen=True)

@@ -49,12 +49,13 @@ def _kill_group(pid: int) -> None:
 
 def _drain(process: "subprocess.Popen[bytes]", deadline: float, cap: int) -> tuple[bool, bytes, bytes]:
     """Reads both pipes until they close, the program is gone for a second, or time is up."""
-    assert process.stdout is not None and process.stderr is not None  # noqa: S101
+    assert process.stdout is not None
+    assert process.stderr is not None
     kept = {process.stdout: bytearray(), process.stderr: bytearray()}
     ended_at: float | None = None
     with selectors.DefaultSelector() as selector:
-        for pipe in kept:
-            selector.register(pipe, selectors.EVENT_READ)
+        for opened in kept:
+            selector.register(opened, selectors.EVENT_READ)
         while selector.get_map():
             now = time.monotonic()
             if now > deadline and process.poll() is None:
@@ -66,13 +67,13 @@ def _drain(process: "subprocess.Popen[bytes]", deadline: float, cap: int) -> tup
                 break
             for key, _ in selector.select(min(0.2, max(0.0, deadline - now))):
                 pipe = key.fileobj
-                assert not isinstance(pipe, int)  # noqa: S101
+                assert not isinstance(pipe, int)
                 data = os.read(key.fd, 65536)
                 if not data:
                     selector.unregister(pipe)
                 for known, buffer in kept.items():
-                    if known is pipe and len(buffer) < cap:
-                        buffer += data[: cap - len(buffer)]
+                    if known is pipe:
+                        buffer += data[: max(0, cap - len(buffer))]
     try:
         process.wait(max(0.0, deadline - time.monotonic()))
     except subprocess.TimeoutExpired:

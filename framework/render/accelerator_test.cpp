@@ -1,0 +1,94 @@
+// All structures give brute force's hits, to the last bit.
+#include "render/accelerator.hpp"
+
+#include "core/scene.hpp"
+#include "core/sphere.hpp"
+#include "core/triangle.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+Scene random_scene(Random& random, int surfaces, float size) {
+    Scene scene;
+    for (int i = 0; i < surfaces; ++i) {
+        const glm::vec3 at = random.point(10.0F);
+        Fill fill;
+        fill.kd = static_cast<float>(i);  // to tell which one was hit
+        if (i % 2 == 0) {
+            scene.add(std::make_unique<Sphere>(at, random.uniform(0.1F, 1.0F) * size, fill));
+        } else {
+            scene.add(std::make_unique<Triangle>(at, at + random.point(size), at + random.point(size), fill));
+        }
+    }
+    return scene;
+}
+
+/// Rays from anywhere, among them some along an axis and some that start on a plane that splits boxes.
+Ray any_ray(Random& random, int i) {
+    Ray ray = random.ray(15.0F);
+    if (i % 4 == 1) {
+        ray.direction = glm::vec3(0.0F);
+        ray.direction[i % 3] = i % 8 == 1 ? 1.0F : -1.0F;
+    }
+    if (i % 4 == 2) {
+        ray.origin[i % 3] = 0.0F;
+    }
+    return ray;
+}
+
+void check_same(const std::optional<HitRecord>& expected, const std::optional<HitRecord>& actual) {
+    REQUIRE(actual.has_value() == expected.has_value());
+    if (expected) {
+        CHECK(actual->distance == expected->distance);
+        CHECK(actual->fill.kd == expected->fill.kd);
+        CHECK(actual->normal == expected->normal);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Boxes and octree find what brute force finds", "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    const int surfaces = GENERATE(0, 1, 7, 60, 400);
+    const float size = GENERATE(0.5F, 5.0F);
+    const Scene scene = random_scene(random, surfaces, size);
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    const auto other = make_accelerator(GENERATE(Acceleration::boxes, Acceleration::octree), scene.surfaces());
+    for (int i = 0; i < 2000; ++i) {
+        const Ray ray = any_ray(random, i);
+        INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
+        check_same(brute->closest_hit(ray), other->closest_hit(ray));
+    }
+}
+
+TEST_CASE("Many copies of one triangle do not make the octree grow without end", "[render][accelerator]") {
+    Scene scene;
+    for (int i = 0; i < 3000; ++i) {
+        Fill fill;
+        fill.kd = static_cast<float>(i);
+        scene.add(std::make_unique<Triangle>(glm::vec3(0.0F), glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 1.0F, 0.0F), fill));
+    }
+    const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
+    const auto hit = octree->closest_hit({{0.2F, 0.2F, 3.0F}, {0.0F, 0.0F, -1.0F}});
+    REQUIRE(hit);
+    INFO("of coincident surfaces the first in the scene counts, as with brute force");
+    CHECK(hit->fill.kd == 0.0F);
+}
+
+TEST_CASE("The octree spares nearly all tests", "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    const Scene scene = random_scene(random, 2000, 0.3F);
+    const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
+    const auto tests_before = thread_stats().surface_tests;
+    constexpr int k_rays = 1000;
+    for (int i = 0; i < k_rays; ++i) {
+        static_cast<void>(octree->closest_hit(random.ray(15.0F)));
+    }
+    const auto tests = thread_stats().surface_tests - tests_before;
+    CHECK(tests < k_rays * scene.surfaces().size() / 50);
+}

@@ -1,0 +1,47 @@
+// The tools of the tests themselves.
+#include "testing/testing.hpp"
+
+#include <limits>
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+TEST_CASE("IsNear allows rounding and nothing more", "[testing]") {
+    CHECK_THAT(glm::vec3(1.00001F, 2.0F, 3.0F), IsNear({1.0F, 2.0F, 3.0F}));
+    CHECK_FALSE(IsNear({1.0F, 2.0F, 3.0F}).match({1.01F, 2.0F, 3.0F}));
+    CHECK_FALSE(IsNear({0.0F, 0.0F, 0.0F}).match(glm::vec3(std::numeric_limits<float>::quiet_NaN())));
+    CHECK(IsNear({1000.0F, 0.0F, 0.0F}).match({1000.05F, 0.0F, 0.0F}));
+}
+
+TEST_CASE("IsParallelTo minds the sign and not the length", "[testing]") {
+    CHECK(IsParallelTo({0.0F, 0.0F, 2.0F}).match({0.0F, 0.0F, 0.1F}));
+    CHECK_FALSE(IsParallelTo({0.0F, 0.0F, 2.0F}).match({0.0F, 0.0F, -2.0F}));
+    CHECK_FALSE(IsParallelTo({0.0F, 0.0F, 2.0F}).match({0.0F, 0.0F, 0.0F}));
+}
+
+TEST_CASE("Random gives the same numbers for the same seed", "[testing]") {
+    Random one(5);
+    Random same(5);
+    Random other(6);
+    const glm::vec3 first = one.point(1.0F);
+    CHECK(first == same.point(1.0F));
+    CHECK(first != other.point(1.0F));
+    CHECK_THAT(one.unit_vector(), IsUnitLength());
+}
+
+TEST_CASE("A failure prints vectors with all their digits", "[testing]") {
+    CHECK(Catch::Detail::stringify(glm::vec3(0.1F, -2.0F, 0.0F)) == "(0.100000001, -2, 0)");
+}
+
+TEST_CASE("FakeTracer answers from a list and remembers", "[testing]") {
+    FakeTracer tracer;
+    HitRecord hit;
+    hit.distance = 3.0F;
+    tracer.answer_in_order({hit});
+    const Ray ray{};
+    REQUIRE(tracer.closest_hit(ray).has_value());
+    CHECK_FALSE(tracer.closest_hit(ray).has_value());
+    CHECK(tracer.cast.size() == 2);
+    CHECK(tracer.trace(ray, 4) == k_black);
+    CHECK(tracer.traced.at(0).depth == 4);
+}

@@ -1,0 +1,20 @@
+#include "steps/04-shadows/shadows.hpp"
+
+#include "core/unfinished.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace raysteps {
+
+Ray shadow_ray(const HitRecord& hit, const Light& light) {
+    const glm::vec3 origin = hit.position + k_shadow_threshold * hit.normal;
+    return {origin, glm::normalize(light.position - origin)};
+}
+
+bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+    const Ray ray = shadow_ray(hit, light);
+    const std::optional<HitRecord> blocker = scene.closest_hit(ray);
+    return !blocker || blocker->distance >= glm::distance(ray.origin, light.position);
+}
+
+}  // namespace raysteps

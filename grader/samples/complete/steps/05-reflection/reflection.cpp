@@ -1,0 +1,29 @@
+#include "steps/05-reflection/reflection.hpp"
+
+#include "core/unfinished.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace raysteps {
+
+Ray reflected_ray(const HitRecord& hit) {
+    const glm::vec3 direction = mirror(hit.ray_direction, hit.normal);
+    return {hit.position + k_bounce_threshold * hit.normal, glm::normalize(direction)};
+}
+
+Color trace(Tracer& tracer, const Ray& ray, int depth) {
+    if (depth > tracer.max_ray_depth()) {
+        return k_black;
+    }
+    const std::optional<HitRecord> hit = tracer.closest_hit(ray);
+    if (!hit) {
+        return depth == 1 ? tracer.background() : k_black;
+    }
+    Color color = tracer.local_light(*hit, depth);
+    if (hit->fill.ks > 0.0F) {
+        color += hit->fill.ks * trace(tracer, reflected_ray(*hit), depth + 1);
+    }
+    return color;
+}
+
+}  // namespace raysteps

@@ -1,0 +1,244 @@
+#include "steps/06-octree/octree.hpp"
+
+#include "core/unfinished.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace raysteps {
+
+namespace {
+
+constexpr int k_max_depth = 12;
+constexpr std::size_t k_leaf_size = 8;
+constexpr std::size_t k_max_growth = 4;    // children may hold this many times the parent's surfaces
+constexpr float k_padding = 2e-6F;         // share of the scene's size by which boxes are grown against rounding
+constexpr float k_distance_slack = 1e-5F;  // share of a distance within which rounding may move it
+
+float diagonal(const Box& box) { return glm::length(box.max - box.min); }
+
+void include(Box& box, const Box& other) {
+    box.min = glm::min(box.min, other.min);
+    box.max = glm::max(box.max, other.max);
+}
+
+/// Whether a line of direction `axis` separates the triangle from a box centred at the origin.
+bool separates(const glm::vec3& axis, const std::array<glm::vec3, 3>& corners, const glm::vec3& half) {
+    const float a = glm::dot(axis, corners[0]);
+    const float b = glm::dot(axis, corners[1]);
+    const float c = glm::dot(axis, corners[2]);
+    const float reach = glm::dot(glm::abs(axis), half);
+    return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+}
+
+bool boxes_overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+
+/// The part of the cell that its surfaces reach, grown a little: rays miss a smaller box more often.
+Box tight_box(const Box& cell, const SurfaceList& surfaces, float padding) {
+    const Box all = bounds_of(surfaces);
+    return {glm::max(cell.min, all.min) - padding, glm::min(cell.max, all.max) + padding};
+}
+
+SurfaceList touching(const Box& cell, const SurfaceList& surfaces, float padding) {
+    const Box grown{cell.min - padding, cell.max + padding};
+    SurfaceList list;
+    std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(list),
+                 [&](const Surface* surface) { return surface->overlaps(grown); });
+    return list;
+}
+
+Node build_node(const Box& cell, SurfaceList surfaces, int depth, float padding) {
+    Node node{tight_box(cell, surfaces, padding), {}, {}};
+    if (surfaces.size() > k_leaf_size && depth < k_max_depth) {
+        const std::array<Box, 8> cells = split(cell);
+        std::array<SurfaceList, 8> lists;
+        std::size_t references = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            lists[i] = touching(cells[i], surfaces, padding);
+            references += lists[i].size();
+        }
+        // Where the boxes are already smaller than the surfaces, splitting multiplies lists and sorts nothing out.
+        if (references <= k_max_growth * surfaces.size()) {
+            for (std::size_t i = 0; i < cells.size(); ++i) {
+                if (!lists[i].empty()) {
+                    node.children.push_back(build_node(cells[i], std::move(lists[i]), depth + 1, padding));
+                }
+            }
+            return node;
+        }
+    }
+    node.surfaces = std::move(surfaces);
+    return node;
+}
+
+/// Surfaces so large that they would stretch the boxes over everything else: a ground under a flake of spheres.
+SurfaceList oversized(const SurfaceList& surfaces) {
+    constexpr float k_share_of_scene = 0.25F;
+    constexpr float k_times_median = 20.0F;
+    constexpr std::size_t k_most = 8;
+    std::vector<float> sizes;
+    for (const Surface* surface : surfaces) {
+        sizes.push_back(diagonal(surface->bounds()));
+    }
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const float limit = std::max(k_share_of_scene * diagonal(bounds_of(surfaces)), k_times_median * *middle);
+    SurfaceList large;
+    std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(large),
+                 [limit](const Surface* surface) { return diagonal(surface->bounds()) > limit; });
+    return large.size() <= k_most ? large : SurfaceList{};
+}
+
+using Closest = std::optional<HitRecord>;
+
+void test_list(const SurfaceList& surfaces, const Ray& ray, float farthest, Closest& closest) {
+    for (const Surface* surface : surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        // A hit beyond this box is found again in the box where it lies, among its neighbours.
+        if (hit && hit->distance <= farthest && (!closest || hit->distance < closest->distance)) {
+            closest = hit;
+        }
+    }
+}
+
+void visit(const Node& node, const Ray& ray, const Interval& inside, Closest& closest) {
+    constexpr float k_infinity = std::numeric_limits<float>::infinity();
+    const float leave = node.children.empty() ? inside.leave * (1.0F + k_distance_slack) : k_infinity;
+    test_list(node.surfaces, ray, leave, closest);
+
+    struct Entry {
+        Interval part;
+        const Node* child = nullptr;
+    };
+    std::array<Entry, 8> order;  // sorted by where the ray enters
+    std::size_t count = 0;
+    for (const Node& child : node.children) {
+        if (const std::optional<Interval> part = child.box.hit(ray)) {
+            std::size_t place = count++;
+            for (; place > 0 && part->enter < order[place - 1].part.enter; --place) {
+                order[place] = order[place - 1];
+            }
+            order[place] = {*part, &child};
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& [part, child] = order[i];
+        if (closest && closest->distance < part.enter * (1.0F - k_distance_slack)) {
+            return;  // this box and all after it begin behind the hit
+        }
+        visit(*child, ray, part, closest);
+    }
+}
+
+}  // namespace
+
+Box bounds_of(const SurfaceList& surfaces) {
+    Box box;
+    for (const Surface* surface : surfaces) {
+        include(box, surface->bounds());
+    }
+    return box;
+}
+
+std::array<Box, 8> split(const Box& box) {
+    const glm::vec3 middle = 0.5F * box.min + 0.5F * box.max;
+    std::array<Box, 8> parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const glm::bvec3 upper((i & 1U) != 0U, (i & 2U) != 0U, (i & 4U) != 0U);
+        parts[i] = {glm::mix(box.min, middle, upper), glm::mix(middle, box.max, upper)};
+    }
+    return parts;
+}
+
+std::optional<Interval> Box::clip(const Ray& ray) const {
+    Interval inside;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float origin = ray.origin[axis];
+        const float direction = ray.direction[axis];
+        if (direction == 0.0F) {
+            if (origin < min[axis] || origin > max[axis]) {
+                return std::nullopt;  // along this slab, outside it
+            }
+            continue;
+        }
+        const float at_min = (min[axis] - origin) / direction;
+        const float at_max = (max[axis] - origin) / direction;
+        inside.enter = std::max(inside.enter, std::min(at_min, at_max));
+        inside.leave = std::min(inside.leave, std::max(at_min, at_max));
+        if (inside.enter > inside.leave) {
+            return std::nullopt;
+        }
+    }
+    return inside;
+}
+
+bool Sphere::overlaps(const Box& box) const {
+    const glm::vec3 nearest = glm::clamp(center_, box.min, box.max);
+    const glm::vec3 farthest = glm::max(glm::abs(box.min - center_), glm::abs(box.max - center_));
+    const float slack = 1.0F + 1e-5F;
+    const bool reaches = glm::distance(center_, nearest) <= radius_ * slack;
+    const bool holds_all_of_box = glm::length(farthest) * slack < radius_;  // a sphere is a shell, not a ball
+    return reaches && !holds_all_of_box;
+}
+
+bool Triangle::overlaps(const Box& box) const {
+    if (!boxes_overlap(bounds(), box)) {
+        return false;
+    }
+    // Separating axes (Akenine-Moller 2001): the triangle's normal, and each edge with each axis of the box.
+    const glm::vec3 center = 0.5F * (box.min + box.max);
+    const glm::vec3 half = 0.5F * (box.max - box.min);
+    const glm::vec3 padded = half + 1e-6F * (glm::abs(center) + half);
+    const std::array<glm::vec3, 3> corners{a_ - center, b_ - center, c_ - center};
+    const std::array<glm::vec3, 3> edges{b_ - a_, c_ - b_, a_ - c_};
+    if (separates(glm::cross(edges[0], edges[1]), corners, padded)) {
+        return false;
+    }
+    for (const glm::vec3& edge : edges) {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 unit(0.0F);
+            unit[axis] = 1.0F;
+            if (separates(glm::cross(unit, edge), corners, padded)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+Node build_octree(const SurfaceList& surfaces) {
+    if (surfaces.empty()) {
+        return {};
+    }
+    const SurfaceList large = oversized(surfaces);
+    SurfaceList others;
+    std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(others), [&large](const Surface* surface) {
+        return std::find(large.begin(), large.end(), surface) == large.end();
+    });
+    const Box all = bounds_of(surfaces);
+    const float padding = k_padding * (diagonal(all) + glm::length(all.min) + glm::length(all.max));
+    Node root{{all.min - padding, all.max + padding}, large, {}};
+    if (!others.empty()) {
+        const Box box = bounds_of(others);
+        root.children.push_back(build_node(box, std::move(others), 0, padding));
+    }
+    return root;
+}
+
+std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+    Closest closest;
+    if (const std::optional<Interval> inside = root.box.hit(ray)) {
+        visit(root, ray, *inside, closest);
+    }
+    return closest;
+}
+
+}  // namespace raysteps

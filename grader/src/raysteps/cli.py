@@ -1,0 +1,99 @@
+"""The commands of ./raysteps."""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+
+from raysteps import bench, maintenance
+from raysteps.demo import demo
+from raysteps.errors import RaystepsError
+from raysteps.project import here
+from raysteps.render_command import render
+from raysteps.selftest import selftest
+from raysteps.submissions import check, exit_code, grade
+
+_EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault"""
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="raysteps",
+        description="A ray tracer in eight graded steps.",
+        epilog=_EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
+    add.add_argument("args", nargs=argparse.REMAINDER)
+
+    add = commands.add_parser("check", help="check your own steps")
+    add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
+
+    add = commands.add_parser("grade", help="grade a submission: a folder, zip or tar")
+    add.add_argument("submission", type=Path)
+    add.add_argument("--out", type=Path, help="where results.json and the pictures go")
+
+    add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
+    add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
+
+    add = commands.add_parser("bench", help="measure the reference")
+    add.add_argument("what", choices=["boxes"])
+    add.add_argument("--scenes", nargs="*", type=Path, default=[], metavar="FILE", help="more scenes to measure")
+    add.add_argument("--size", default="256x256", metavar="WxH", help="pixels of each picture (256x256)")
+
+    add = commands.add_parser("test", help="test the kit itself")
+    add.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
+
+    add = commands.add_parser("dev", help="for maintainers: make the stubs or the samples from the solutions")
+    add.add_argument("what", choices=["stubs", "samples"])
+    add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    return parser
+
+
+def _run(arguments: argparse.Namespace, console: Console) -> int:
+    project = here()
+    match arguments.command:
+        case "check":
+            return check(project, arguments.steps, console)
+        case "grade":
+            return exit_code(grade(project, arguments.submission, arguments.out, console))
+        case "demo":
+            return demo(project, arguments.out, console)
+        case "bench":
+            return bench.boxes(project, arguments.scenes, arguments.size, console)
+        case "test":
+            return selftest(project, console, full=arguments.full)
+        case _:
+            work = maintenance.stubs if arguments.what == "stubs" else maintenance.samples
+            return work(project, check=arguments.check)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs one command and returns its exit code."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    parser = _parser()
+    if not words:
+        parser.print_help(sys.stderr)
+        return 2
+    console = Console(width=None if sys.stdout.isatty() else max(120, int(os.environ.get("COLUMNS", "0") or "0")))
+    try:
+        if words[0] == "render":
+            return render(here(), words[1:])
+        return _run(parser.parse_args(words), console)
+    except RaystepsError as error:
+        print(f"raysteps: {error}", file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt:
+        return 130
+    except Exception:
+        if os.environ.get("RAYSTEPS_DEBUG"):
+            raise
+        Console(stderr=True).print_exception(max_frames=4)
+        print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
+        return 4

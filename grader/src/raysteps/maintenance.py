@@ -1,0 +1,30 @@
+"""The commands `dev stubs` and `dev samples`, for those who maintain the kit."""
+
+from pathlib import Path
+
+from raysteps.manifest import read_steps
+from raysteps.project import Project
+from raysteps.samples import outdated_samples, write_samples
+from raysteps.stubs import outdated_stubs, write_stubs
+
+
+def stubs(project: Project, *, check: bool) -> int:
+    """Makes the stubs, or tells which are out of date."""
+    steps = read_steps(project)
+    changed = [Path("steps") / step.path for step in (outdated_stubs if check else write_stubs)(project, steps)]
+    return _tell([path.as_posix() for path in changed], "dev stubs", check=check)
+
+
+def samples(project: Project, *, check: bool) -> int:
+    """Makes the samples, or tells which are out of date."""
+    changed = (outdated_samples if check else write_samples)(project, read_steps(project))
+    return _tell([path.relative_to(project.root).as_posix() for path in changed], "dev samples", check=check)
+
+
+def _tell(changed: list[str], command: str, *, check: bool) -> int:
+    for name in changed:
+        if check:
+            print(f"{name} differs from what the solution generates; ./raysteps {command} makes it anew")
+        else:
+            print(f"{name} written")
+    return 1 if check and changed else 0

@@ -1,0 +1,97 @@
+"""Prints results for people."""
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.manifest import Step
+from raysteps.results import ImageResult, Results, StepResult, TestResult
+from raysteps.text import number
+
+_COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
+
+
+def _status(result: StepResult) -> str:
+    color = _COLORS.get(result.status, "red")
+    return f"[{color}]{result.status}[/{color}]"
+
+
+def _points(result: StepResult) -> str:
+    return f"{number(result.points)} of {number(result.max)}" + (" bonus" if result.bonus else "")
+
+
+def _print_test(console: Console, test: TestResult) -> None:
+    console.print(f"  [red]test[/red]     {escape(test.name)}")
+    if test.expression:
+        console.print(f"             expected  {escape(test.expression)}")
+        console.print(f"             actual    {escape(test.expanded)}")
+    if test.message:
+        for line in test.message.splitlines():
+            console.print(f"             {escape(line)}")
+    if test.location:
+        console.print(f"             [dim]{escape(test.location)}[/dim]")
+
+
+def _print_image(console: Console, image: ImageResult, out: Path) -> None:
+    color = "green" if image.passed else "red"
+    share = "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
+    console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
+    if not image.passed:
+        console.print(f"             {escape(image.message)}")
+        if image.difference or image.mine:
+            shown = out / (image.difference or image.mine or "")
+            console.print(f"             see {escape(_short(shown))}")
+
+
+def _short(path: Path) -> str:
+    """Relative to where the person is, when that is shorter."""
+    try:
+        return str(path.relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def print_details(console: Console, results: Results, steps: list[Step], out: Path) -> None:
+    """What happened in each step: what failed, in full, and what passed in one line."""
+    titles = {step.id: step.title for step in steps}
+    for result in results.steps:
+        console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
+        for message in result.messages:
+            console.print(f"  {escape(message)}")
+        for test in result.tests:
+            if not test.passed:
+                _print_test(console, test)
+        if result.tests and all(test.passed for test in result.tests):
+            console.print(f"  [green]tests[/green]    all {len(result.tests)} passed")
+        for image in result.images:
+            _print_image(console, image, out)
+        if result.cumulative.message and result.status != "not-started":
+            console.print(f"  together with your earlier steps: {escape(result.cumulative.message)}")
+
+
+def print_table(console: Console, results: Results) -> None:
+    """One row per step and the total."""
+    table = Table(title=escape(results.submission), title_justify="left")
+    for heading in ("step", "status", "points", "tests", "pictures", "together"):
+        table.add_column(heading)
+    for result in results.steps:
+        ran = bool(result.tests or result.images)
+        table.add_row(
+            result.id,
+            _status(result),
+            _points(result),
+            f"{sum(test.passed for test in result.tests)}/{len(result.tests)}" if ran else "",
+            f"{sum(image.passed for image in result.images)}/{len(result.images)}" if ran else "",
+            "yes" if result.cumulative.passed else "no",
+        )
+    console.print(table)
+    total = results.to_json()["total"]
+    bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
+    console.print(f"{number(total['points'])} points of {number(total['max'])}{bonus}")
+
+
+def print_files(console: Console, path: Path) -> None:
+    """Where the results are."""
+    console.print(f"Results: {escape(_short(path))}, pictures beside it", soft_wrap=True)

@@ -1,0 +1,37 @@
+"""Whether the three accelerations give the same picture, byte for byte."""
+
+import tempfile
+from pathlib import Path
+
+from raysteps.process import run
+from raysteps.project import Project
+
+_SIZE = "96x96"
+_SECONDS = 300
+
+
+def _bytes(program: Path, scene: Path, accel: str, folder: Path) -> tuple[bytes, str]:
+    picture = folder / f"{accel}.ppm"
+    command: list[str | Path] = [program, scene, "-o", picture, "--accel", accel, "--size", _SIZE, "--quiet"]
+    outcome = run(command, seconds=_SECONDS)
+    if outcome.code != 0 or outcome.timed_out:
+        return b"", outcome.stderr.strip() or "it did not end"
+    return picture.read_bytes(), ""
+
+
+def scenes_that_differ(project: Project, program: Path) -> list[str]:
+    """One line for each scene whose pictures differ or that cannot be rendered."""
+    scenes = sorted(project.scenes.rglob("*.nff"))
+    if not scenes:
+        return ["scenes/ holds no scene"]
+    lines = []
+    for scene in scenes:
+        name = scene.relative_to(project.root).as_posix()
+        with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+            first = b""
+            for accel in ("none", "boxes", "octree"):
+                picture, problem = _bytes(program, scene, accel, Path(folder))
+                first = first or picture
+                if problem or picture != first:
+                    lines.append(f"{name}: --accel {accel}: {problem or 'another picture than --accel none'}")
+    return lines

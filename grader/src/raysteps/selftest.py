@@ -1,0 +1,142 @@
+"""The command `test`: everything that shows the kit works."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from rich.console import Console
+
+from raysteps.building import BuildTree, what_failed
+from raysteps.checks import Check, Report, run_checks
+from raysteps.manifest import read_steps
+from raysteps.process import run
+from raysteps.project import Project
+from raysteps.same_picture import scenes_that_differ
+from raysteps.samples import outdated_samples
+from raysteps.stubs import outdated_stubs
+
+_TEST_SECONDS = 900
+_FUZZ_SECONDS = 60
+
+
+def _command(words: list[str | Path], cwd: Path, seconds: float = _TEST_SECONDS) -> Report:
+    """Passes when the program exits with 0."""
+    outcome = run(words, seconds=seconds, cwd=cwd, limited=False)
+    if outcome.code == 0 and not outcome.timed_out:
+        return Report("passed")
+    output = (outcome.stdout + outcome.stderr)[-6000:]
+    return Report("failed", f"it ran longer than {seconds:.0f} s\n{output}" if outcome.timed_out else output)
+
+
+def _build(tree: BuildTree, targets: list[str]) -> Report:
+    with tree.locked():
+        outcome = tree.build(targets)
+    return Report("passed") if outcome.code == 0 else Report("failed", what_failed(outcome))
+
+
+def _programs(tree: BuildTree, project: Project) -> list[str]:
+    return ["test-framework", *(f"test-reference-{step.number}" for step in read_steps(project))]
+
+
+def _dev_checks(project: Project, tree: BuildTree) -> list[Check]:
+    checks = [Check("build everything, warnings are errors", lambda: _build(tree, []))]
+    for name in [*_programs(tree, project), "fuzz-readers-replay"]:
+        checks.append(Check(name, lambda name=name: _command([tree.program(name)], project.root)))  # type: ignore[misc]
+    return checks
+
+
+def _stubs(project: Project) -> Report:
+    names = [step.path.as_posix() for step in outdated_stubs(project, read_steps(project))]
+    text = "these stubs differ from what the solutions generate (./raysteps dev stubs makes them anew): "
+    return Report("failed", text + ", ".join(names)) if names else Report("passed")
+
+
+def _samples(project: Project) -> Report:
+    names = [path.relative_to(project.root).as_posix() for path in outdated_samples(project, read_steps(project))]
+    text = "these samples differ from what the solutions make (./raysteps dev samples makes them anew): "
+    return Report("failed", text + ", ".join(names)) if names else Report("passed")
+
+
+def _same_pictures(project: Project, tree: BuildTree) -> Report:
+    different = scenes_that_differ(project, tree.program("raytrace-reference"))
+    return Report("failed", "\n".join(different)) if different else Report("passed")
+
+
+def _python_checks(project: Project) -> list[Check]:
+    grader = project.root / "grader"
+    python = Path(sys.executable)
+    generator = project.scenes / "generate.py"
+    return [
+        Check("stubs match the solutions", lambda: _stubs(project)),
+        Check("samples match the solutions", lambda: _samples(project)),
+        Check("generated scenes match the generator", lambda: _command([python, generator, "--check"], project.root)),
+        Check("ruff check", lambda: _command([python, "-m", "ruff", "check", "."], grader)),
+        Check("ruff format", lambda: _command([python, "-m", "ruff", "format", "--check", "."], grader)),
+        Check("mypy --strict", lambda: _command([python, "-m", "mypy"], grader)),
+        Check("pytest, with grading from end to end", lambda: _command([python, "-m", "pytest", "-q"], grader)),
+    ]
+
+
+def _asan_checks(project: Project) -> list[Check]:
+    tree = BuildTree(project, "asan", project.build / "asan", project.steps)
+    names = [*_programs(tree, project), "fuzz-readers-replay"]
+    checks = [Check("build with address and undefined behaviour sanitizers", lambda: _build(tree, names))]
+    for name in names:
+        program = tree.program(name)
+        checks.append(Check(f"{name}, sanitized", lambda program=program: _command([program], project.root)))  # type: ignore[misc]
+    return checks
+
+
+def _install_clang() -> bool:
+    """Whether clang++ is there, after an attempt to install it where that is possible."""
+    if shutil.which("clang++") is None and shutil.which("apt-get") is not None:
+        admin = [] if os.geteuid() == 0 else ["sudo", "-n"]
+        install = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "install", "-y", "clang"]
+        for words in ([*admin, "apt-get", "update"], install):
+            try:
+                subprocess.run(words, check=False, capture_output=True, stdin=subprocess.DEVNULL, timeout=900)
+            except (OSError, subprocess.TimeoutExpired):
+                return False
+    return shutil.which("clang++") is not None
+
+
+def _fuzz(project: Project, tree: BuildTree) -> Report:
+    corpus = project.build / "fuzz" / "corpus"
+    corpus.mkdir(parents=True, exist_ok=True)
+    words: list[str | Path] = [tree.program("fuzz-readers"), corpus]
+    seeds = project.root / "framework" / "io" / "fuzz" / "corpus"
+    words += [seeds] if seeds.is_dir() else []
+    words += [f"-max_total_time={_FUZZ_SECONDS}", "-timeout=10", "-rss_limit_mb=2048", "-print_final_stats=1"]
+    return _command([*words, f"-artifact_prefix={corpus.parent}/"], project.root)
+
+
+def _clang_checks(project: Project) -> list[Check]:
+    if not _install_clang():
+        missing = Report("skipped", "install: clang")
+        return [Check(name, lambda: missing) for name in ("build everything with clang", "fuzz-readers for 60 s")]
+    compiler = ("-DCMAKE_CXX_COMPILER=clang++",)
+    tree = BuildTree(project, "dev", project.build / "clang", project.steps, compiler)
+    fuzzer = BuildTree(project, "dev", project.build / "fuzz", project.steps, (*compiler, "-DRAYSTEPS_FUZZ=ON"))
+    return [
+        Check("build everything with clang", lambda: _build(tree, [])),
+        Check("test-framework, clang", lambda: _command([tree.program("test-framework")], project.root)),
+        Check("build the fuzz target", lambda: _build(fuzzer, ["fuzz-readers"])),
+        Check(f"fuzz-readers for {_FUZZ_SECONDS} s", lambda: _fuzz(project, fuzzer)),
+    ]
+
+
+def selftest(project: Project, console: Console, *, full: bool) -> int:
+    """All checks, or all that need no more than the basic tools."""
+    tree = BuildTree(project, "dev", project.build / "dev", project.steps)
+    checks = _dev_checks(project, tree)
+    checks.append(Check("none, boxes and octree give the same picture", lambda: _same_pictures(project, tree)))
+    checks += _python_checks(project)
+    if full:
+        checks += _asan_checks(project) + _clang_checks(project)
+    else:
+        more = Report("skipped", "run: ./raysteps test --full")
+        names = ("sanitizers", "build everything with clang", "fuzz-readers for 60 s")
+        checks += [Check(name, lambda: more) for name in names]
+    return run_checks(checks, console)

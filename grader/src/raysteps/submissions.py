@@ -1,0 +1,92 @@
+"""The commands `check` and `grade`: a student's own steps, and somebody else's."""
+
+import shutil
+from pathlib import Path
+
+from rich.console import Console
+
+from raysteps.building import BuildTree, release_tree
+from raysteps.files import write_if_changed
+from raysteps.grading import Grader, Job
+from raysteps.intake import Submission, take_in
+from raysteps.manifest import Step, choose, read_steps
+from raysteps.project import Project
+from raysteps.report import print_details, print_files, print_table
+from raysteps.results import Results, write_results
+from raysteps.stubs import stub_for
+
+
+def exit_code(results: Results) -> int:
+    """0 all passed (a bonus need not be started), 3 when building is the only trouble, else 1."""
+    open_steps = [
+        step for step in results.steps if step.status != "passed" and not (step.bonus and step.status == "not-started")
+    ]
+    if not open_steps:
+        return 0
+    return 3 if all(step.status == "does-not-build" for step in open_steps) else 1
+
+
+def _clear(out: Path) -> None:
+    """Old results must not be taken for new ones."""
+    (out / "results.json").unlink(missing_ok=True)
+    pictures = out / "pictures"
+    if pictures.is_dir() and not pictures.is_symlink():
+        shutil.rmtree(pictures)
+
+
+def check(project: Project, names: list[str], console: Console) -> int:
+    """Checks the steps in the repository and explains what is wrong."""
+    steps = read_steps(project)
+    chosen = choose(steps, names)
+    out = project.build / "check"
+    _clear(out)
+    tree = release_tree(project)
+    with console.status("starting") as status, tree.locked():
+        job = Job("steps", tree, steps, chosen, out, {}, lambda text: status.update(text))
+        results = Grader(job).grade()
+    path = write_results(results, out)
+    print_details(console, results, steps, out)
+    console.print()
+    print_table(console, results)
+    print_files(console, path)
+    return exit_code(results)
+
+
+def _lay_out(project: Project, steps: list[Step], submission: Submission, folder: Path) -> dict[str, str]:
+    """Copies the sources to where the build expects them; the stub stands in for what is missing."""
+    notes = {}
+    for step in steps:
+        source = submission.sources.get(step.id)
+        if source is None:
+            source = stub_for(project, step).encode()
+            notes[step.id] = submission.notes.get(step.id, f"{step.file} was not handed in.")
+        write_if_changed(folder / step.path, source)
+    return notes
+
+
+def grade_to(project: Project, path: Path, out: Path, console: Console) -> Results:
+    """Grades one submission and writes its results."""
+    steps = read_steps(project)
+    submission = take_in(path, steps)
+    _clear(out)
+    mine = project.build / "grade-submission"
+    tree = BuildTree(project, "release", project.build / "grade", mine)
+    with console.status("starting") as status, tree.locked():
+        notes = _lay_out(project, steps, submission, mine)
+        job = Job(submission.name, tree, steps, steps, out, notes, lambda text: status.update(text))
+        results = Grader(job).grade()
+    write_results(results, out)
+    return results
+
+
+def grade(project: Project, path: Path, out: Path | None, console: Console, *, details: bool = True) -> Results:
+    """Grades one submission and prints what came out."""
+    name = path.resolve().name if path.is_dir() else take_in(path, read_steps(project)).name
+    folder = (out or project.build / "grade" / "results" / name).resolve()
+    results = grade_to(project, path, folder, console)
+    if details:
+        print_details(console, results, read_steps(project), folder)
+        console.print()
+    print_table(console, results)
+    print_files(console, folder / "results.json")
+    return results
