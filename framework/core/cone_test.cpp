@@ -1,0 +1,155 @@
+// Cones and hollow spheres: surfaces that the framework brings itself.
+#include "core/cone.hpp"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "core/hollow_sphere.hpp"
+#include "testing/matchers.hpp"
+#include "testing/random.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+Cone cone(const Cone::Ring& base, const Cone::Ring& apex, Cone::Visible visible = Cone::Visible::both) {
+    return {base, apex, visible, Fill{}};
+}
+
+const Cone::Ring k_base{{0, 0, 0}, 1};
+const Cone::Ring k_apex{{0, 0, 2}, 1};
+
+}  // namespace
+
+TEST_CASE("a cylinder is hit from outside", "[cone]") {
+    const auto hit = cone(k_base, k_apex).hit({{5, 0, 1}, {-1, 0, 0}});
+    REQUIRE(hit);
+    CHECK(hit->distance == about(4));
+    CHECK_THAT(hit->position, IsNear({1, 0, 1}));
+    CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
+    CHECK(hit->from_outside);
+    CHECK(hit->ray_direction == glm::vec3(-1, 0, 0));
+}
+
+TEST_CASE("a cylinder is hit from inside, through its open end too", "[cone]") {
+    const auto hit = cone(k_base, k_apex).hit({{0, 0, 1}, {1, 0, 0}});
+    REQUIRE(hit);
+    CHECK(hit->distance == about(1));
+    CHECK_THAT(hit->normal, IsNear({-1, 0, 0}));
+    CHECK_FALSE(hit->from_outside);
+    const auto through_end = cone(k_base, k_apex).hit({{0, 0, 3}, glm::normalize(glm::vec3(0.5F, 0, -1))});
+    REQUIRE(through_end);
+    CHECK_THAT(through_end->position, IsNear({1, 0, 1}));
+}
+
+TEST_CASE("rays past, along or away from a cylinder miss it", "[cone]") {
+    const Cone cylinder = cone(k_base, k_apex);
+    CHECK_FALSE(cylinder.hit({{5, 0, 2.1F}, {-1, 0, 0}}));
+    CHECK_FALSE(cylinder.hit({{5, 1.1F, 1}, {-1, 0, 0}}));
+    CHECK_FALSE(cylinder.hit({{5, 0, 1}, {1, 0, 0}}));
+    CHECK_FALSE(cylinder.hit({{0.5F, 0, 5}, {0, 0, -1}}));  // in at one end, out at the other
+}
+
+TEST_CASE("a cone's normal leans by its slope", "[cone]") {
+    const auto hit = cone(k_base, {{0, 0, 1}, 0}).hit({{5, 0, 0.5F}, {-1, 0, 0}});
+    REQUIRE(hit);
+    CHECK(hit->distance == about(4.5));
+    CHECK_THAT(hit->normal, IsParallelTo({1, 0, 1}));
+    CHECK_THAT(hit->normal, IsUnitLength());
+    const auto along_axis = cone(k_base, {{0, 0, 1}, 0}).hit({{0.25F, 0, 9}, {0, 0, -1}});
+    REQUIRE(along_axis);
+    CHECK_THAT(along_axis->position, IsNear({0.25F, 0, 0.75F}));
+    CHECK_FALSE(cone(k_base, {{0, 0, 1}, 0}).hit({{5, 0, 1.5F}, {-1, 0, 0}}));  // the mirror cone above the tip
+}
+
+TEST_CASE("a ray parallel to a cone's side", "[cone]") {
+    const glm::vec3 side = glm::normalize(glm::vec3(-1, 0, 1));
+    const auto hit = cone(k_base, {{0, 0, 1}, 0}).hit({{0.5F, 0, -0.25F}, side});
+    REQUIRE(hit);
+    CHECK_THAT(hit->position, IsNear({-0.375F, 0, 0.625F}));
+}
+
+TEST_CASE("with negative radii only the inside is there", "[cone]") {
+    const auto hit = cone(k_base, k_apex, Cone::Visible::inside).hit({{5, 0, 1}, {-1, 0, 0}});
+    REQUIRE(hit);
+    CHECK(hit->distance == about(6));
+    CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
+    CHECK(hit->from_outside);
+}
+
+TEST_CASE("a thin cone far away is hit where it is", "[cone]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 500; ++i) {
+        const glm::vec3 from = random.point(50.0F);
+        const glm::vec3 to = random.point(50.0F);
+        const Cone thin = cone({from, 0.001F}, {to, 0.0008F});
+        const Ray ray = random.ray_towards(from + random.uniform(0.1F, 0.9F) * (to - from), 100.0F);
+        const auto hit = thin.hit(ray);
+        if (hit) {  // the target itself is rounded by up to 4e-6, and so is the direction
+            const glm::dvec3 axis = glm::normalize(glm::dvec3(to) - glm::dvec3(from));
+            const glm::dvec3 spoke = glm::dvec3(hit->position) - glm::dvec3(from);
+            const double apart = glm::length(spoke - glm::dot(spoke, axis) * axis);
+            CHECK(apart == Approx(0.0009).margin(0.00012));
+            CHECK_THAT(hit->normal, IsUnitLength());
+            CHECK(glm::dot(hit->normal, ray.direction) <= 1e-6F);
+        }
+    }
+    const auto straight = cone({{-50, 0, 0}, 0.001F}, {{50, 0, 0}, 0.001F}).hit({{3, 0.0005F, 100}, {0, 0, -1}});
+    REQUIRE(straight);
+    CHECK_THAT(straight->normal, IsNear({0, 0.5F, std::sqrt(0.75F)}, 1e-3F));
+}
+
+TEST_CASE("bounds are tight, and every hit lies in them and in a box that overlaps", "[cone]") {
+    const Box upright = cone(k_base, {{0, 0, 2}, 0.5F}).bounds();
+    CHECK_THAT(upright.min, IsNear({-1, -1, 0}));
+    CHECK_THAT(upright.max, IsNear({1, 1, 2}));
+    Random random;
+    INFO(random);
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Cone shape = cone({random.point(3), random.uniform(0, 1)}, {random.point(3), random.uniform(0.1F, 1)});
+        const auto hit = shape.hit(random.ray_towards(random.point(3), 10));
+        if (hit) {
+            ++hits;
+            const glm::vec3 corner = hit->position + glm::abs(random.point(1));
+            const Box box{hit->position, corner};
+            INFO("hit " << text(hit->position));
+            CHECK(shape.overlaps(box));
+            CHECK(shape.overlaps(Box{hit->position, hit->position}));
+            const Box bounds = shape.bounds();
+            CHECK(glm::all(glm::lessThanEqual(bounds.min, hit->position + 1e-5F)));
+            CHECK(glm::all(glm::lessThanEqual(hit->position - 1e-5F, bounds.max)));
+        }
+    }
+    CHECK(hits > 100);
+}
+
+TEST_CASE("a thin diagonal cone does not overlap the far corners of its bounds", "[cone]") {
+    const Cone thin = cone({{0, 0, 0}, 0.01F}, {{1, 1, 1}, 0.01F});
+    CHECK(thin.overlaps(Box{glm::vec3(0.4F), glm::vec3(0.6F)}));
+    CHECK_FALSE(thin.overlaps(Box{{0, 0, 0.8F}, {0.2F, 0.2F, 1}}));
+    CHECK_FALSE(thin.overlaps(Box{glm::vec3(2), glm::vec3(3)}));
+}
+
+TEST_CASE("a hollow sphere is seen from inside only", "[hollow_sphere]") {
+    const HollowSphere sphere({1, 2, 3}, 2, Fill{});
+    for (const float start : {6.0F, 1.0F}) {  // the near wall is not there
+        const auto hit = sphere.hit({{start, 2, 3}, {-1, 0, 0}});
+        REQUIRE(hit);
+        CHECK(hit->distance == about(start + 1));
+        CHECK_THAT(hit->position, IsNear({-1, 2, 3}));
+        CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
+        CHECK(hit->from_outside);
+    }
+    CHECK_FALSE(sphere.hit({{6, 2, 3}, {1, 0, 0}}));
+    CHECK_FALSE(sphere.hit({{6, 4.1F, 3}, {-1, 0, 0}}));
+    CHECK(sphere.overlaps(Box{{-5, -5, -5}, {5, 5, 5}}));
+    CHECK_FALSE(sphere.overlaps(Box{{0.5F, 1.5F, 2.5F}, {1.5F, 2.5F, 3.5F}}));  // wholly inside
+    CHECK_FALSE(sphere.overlaps(Box{{2.5F, 3.5F, 4.5F}, {9, 9, 9}}));            // past the corner
+    CHECK_THAT(sphere.bounds().min, IsNear({-1, 0, 1}));
+    CHECK_THAT(sphere.bounds().max, IsNear({3, 4, 5}));
+}
