@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes procedural NFF scenes of any size.
 
-    python scenes/generate.py KIND [--size N] [--seed S] -o FILE.nff
-    python scenes/generate.py --check     are the committed scenes what this program makes?
-    python scenes/generate.py --update    make the committed scenes anew
+python scenes/generate.py KIND [--size N] [--seed S] -o FILE.nff
+python scenes/generate.py --check     are the committed scenes what this program makes?
+python scenes/generate.py --update    make the committed scenes anew
 """
 
 import argparse
@@ -74,7 +74,8 @@ def check() -> int:
 
 def parser() -> argparse.ArgumentParser:
     sizes = ", ".join(f"{name} {kind.size} (1 to {kind.largest})" for name, kind in KINDS.items())
-    result = argparse.ArgumentParser(prog="generate.py", description="Makes procedural NFF scenes of any size.")
+    about = "Makes procedural NFF scenes of any size."
+    result = argparse.ArgumentParser(prog="generate.py", description=about)
     result.add_argument("kind", metavar="KIND", nargs="?", choices=tuple(KINDS), help=", ".join(KINDS))
     result.add_argument("--size", type=int, metavar="N", help=f"default and range: {sizes}")
     result.add_argument("--seed", type=int, metavar="S", default=1, help="default: 1; same seed, same scene")

@@ -1,10 +1,9 @@
 #include "io/ear_clipper.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <deque>
-#include <limits>
+#include <glm/common.hpp>
 #include <utility>
+
+#include "io/point_grid.hpp"
 
 namespace raysteps {
 namespace {
@@ -12,8 +11,8 @@ namespace {
 using Point = glm::dvec2;
 using Indices = std::array<std::size_t, 3>;
 
-// Corners looked at before a polygon is given up: a second or two.
-constexpr std::int64_t k_most_work = 400'000'000;
+// Corners and cells looked at before a polygon is given up: a second or two.
+constexpr std::size_t k_most_work = 400'000'000;
 
 // Twice the area of the triangle, above 0 where a, b, c run counter-clockwise.
 double area(const Point& a, const Point& b, const Point& c) {
@@ -30,35 +29,44 @@ struct Corner {
     std::size_t after;
     double turn;  // the area of the corner's triangle: above 0 convex, below 0 a dent
     bool left;
+    std::size_t waits;  // the round in which it lost a neighbour
 };
+
+double turn(std::span<const Point> points, const Corner& corner, std::size_t i) {
+    return area(points[corner.before], points[i], points[corner.after]);
+}
+
+std::vector<Corner> ring(std::span<const Point> points) {
+    const std::size_t count = points.size();
+    std::vector<Corner> corners;
+    corners.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        corners.push_back({(i + count - 1) % count, (i + 1) % count, 0.0, true, 0});
+        corners.back().turn = turn(points, corners.back(), i);
+    }
+    return corners;
+}
+
+std::vector<std::size_t> dents_of(const std::vector<Corner>& corners) {
+    std::vector<std::size_t> dents;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (corners[i].turn <= 0.0) {
+            dents.push_back(i);
+        }
+    }
+    return dents;
+}
 
 class EarClipper {
 public:
-    explicit EarClipper(std::span<const Point> points) : points_(points), corners_(points.size()), left_(points.size()) {
-        const std::size_t count = points.size();
-        for (std::size_t i = 0; i < count; ++i) {
-            corners_[i] = {(i + count - 1) % count, (i + 1) % count, 0.0, true};
-            measure(i);
-        }
-        choose_sorting_axis();
-        for (std::size_t i = 0; i < count; ++i) {
-            if (corners_[i].turn <= 0.0) {
-                dents_.push_back(i);
-            }
-        }
-        std::sort(dents_.begin(), dents_.end(), [this](std::size_t a, std::size_t b) { return key(a) < key(b); });
-    }
+    explicit EarClipper(std::span<const Point> points)
+        : points_(points), corners_(ring(points)), left_(points.size()), dents_(points, dents_of(corners_)) {}
 
     std::optional<std::vector<Indices>> run() {
-        queue_all();
-        std::size_t left_at_refill = left_;
+        std::size_t left_at_refill = left_ + 1;
         while (left_ > 3 && work_ < k_most_work) {
-            if (!queue_.empty()) {
-                const std::size_t i = queue_.front();
-                queue_.pop_front();
-                if (corners_[i].left && is_ear(i)) {
-                    cut(i);
-                }
+            if (!next_.empty()) {
+                run_round();
             } else if (left_ < left_at_refill) {
                 left_at_refill = left_;
                 queue_all();
@@ -74,22 +82,18 @@ public:
     }
 
 private:
-    void measure(std::size_t i) {
-        corners_[i].turn = area(points_[corners_[i].before], points_[i], points_[corners_[i].after]);
-    }
-
-    // Dents are sorted along the polygon's longer side: an ear then looks at those within its own stretch only.
-    void choose_sorting_axis() {
-        Point low(std::numeric_limits<double>::infinity());
-        Point high = -low;
-        for (const Point& p : points_) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    // A corner whose neighbour was cut waits for the next round, or one corner would become the tip of a long fan.
+    void run_round() {
+        ++round_;
+        const std::vector<std::size_t> now = std::exchange(next_, {});
+        for (const std::size_t i : now) {
+            if (left_ > 3 && work_ < k_most_work && corners_[i].left && corners_[i].waits != round_ && is_ear(i)) {
+                cut(i);
+            }
         }
-        axis_ = high.x - low.x >= high.y - low.y ? 0 : 1;
     }
 
-    double key(std::size_t i) const { return points_[i][axis_]; }
+    void measure(std::size_t i) { corners_[i].turn = turn(points_, corners_[i], i); }
 
     // Only dents can lie in an ear. Convex corners that lie in it come with a dent that does.
     bool is_ear(std::size_t i) {
@@ -98,17 +102,9 @@ private:
         }
         const std::size_t before = corners_[i].before;
         const std::size_t after = corners_[i].after;
-        const double from = std::min({key(before), key(i), key(after)});
-        const double to = std::max({key(before), key(i), key(after)});
-        auto dent = std::lower_bound(dents_.begin(), dents_.end(), from,
-                                     [this](std::size_t d, double value) { return key(d) < value; });
-        for (; dent != dents_.end() && key(*dent) <= to; ++dent) {
-            ++work_;
-            if (blocks(*dent, before, i, after)) {
-                return false;
-            }
-        }
-        return true;
+        const Point low = glm::min(points_[i], glm::min(points_[before], points_[after]));
+        const Point high = glm::max(points_[i], glm::max(points_[before], points_[after]));
+        return !dents_.any_in(low, high, work_, [&](std::size_t dent) { return blocks(dent, before, i, after); });
     }
 
     // A corner at the same place as one of the ear's does not block it: holes are joined by such pairs.
@@ -131,17 +127,20 @@ private:
         corners_[before].after = after;
         corners_[after].before = before;
         start_ = after;
-        measure(before);
-        measure(after);
-        queue_.push_back(before);
-        queue_.push_back(after);
+        for (const std::size_t neighbour : {before, after}) {
+            measure(neighbour);
+            if (corners_[neighbour].waits != round_) {
+                corners_[neighbour].waits = round_;
+                next_.push_back(neighbour);
+            }
+        }
     }
 
     void queue_all() {
         std::size_t i = any_left();
         for (std::size_t count = 0; count < left_; ++count, i = corners_[i].after) {
             ++work_;
-            queue_.push_back(i);
+            next_.push_back(i);
         }
     }
 
@@ -163,10 +162,10 @@ private:
     std::vector<Corner> corners_;
     std::size_t left_;
     std::size_t start_ = 0;
-    int axis_ = 0;
-    std::vector<std::size_t> dents_;
-    std::deque<std::size_t> queue_;
-    std::int64_t work_ = 0;
+    PointGrid dents_;
+    std::vector<std::size_t> next_;  // corners that the next round looks at
+    std::size_t round_ = 0;
+    std::size_t work_ = 0;
     std::vector<Indices> triangles_;
 };
 

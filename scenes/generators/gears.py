@@ -60,7 +60,7 @@ def build(size: int, rng: random.Random) -> Scene:
             odd = (row + column) % 2 == 1
             # Turned by the same amount, but the other way round, so that teeth meet gaps everywhere.
             turn = step * (0.5 - start) if odd else step * start
-            glass = (row * size + column) % 4 == 3
+            glass = (row + 2 * column) % 4 == 3
             color = METALS[(2 * row + column) % len(METALS)]
             shiny = Material(color, kd=0.6, ks=0.35, shine=25.0)
             scene.material(Material((0.5, 0.85, 0.9), 0.15, 0.15, 60.0, 0.85, 1.1) if glass else shiny)

@@ -11,6 +11,9 @@ HALF = 4.0
 WATER = 0.0
 Heights = list[list[float]]
 
+# Position, radius and height above the ground of each glass sphere.
+BALLS = ((-1.9, 2.1, 0.55, 0.25), (0.2, 2.6, 0.4, 0.2), (1.7, 1.2, 0.75, 0.35), (2.6, 2.9, 0.3, 0.2))
+
 # Lowest height of each band of rock, from the foot to the top, and its colour.
 BANDS: tuple[tuple[float, Vec], ...] = (
     (-9.0, (0.8, 0.66, 0.36)),
@@ -37,8 +40,9 @@ def terrain(size: int, rng: random.Random) -> Heights:
                 settle(row, column, [(row + r, column + c) for r in (-half, half) for c in (-half, half)])
         for row in range(0, count + 1, half):
             for column in range(half if row % step == 0 else 0, count + 1, step):
-                near = [(row - half, column), (row + half, column), (row, column - half), (row, column + half)]
-                settle(row, column, near)
+                ends = [(row + sign * half, column) for sign in (-1, 1)]
+                sides = [(row, column + sign * half) for sign in (-1, 1)]
+                settle(row, column, ends + sides)
         step, rough = half, rough * 0.52
     return heights
 
@@ -74,7 +78,7 @@ def band_of(face: tuple[Vec, Vec, Vec]) -> int:
 
 def glass(scene: Scene, height_at: Callable[[float, float], float]) -> None:
     scene.material(Material((0.9, 0.95, 1.0), kd=0.05, ks=0.15, shine=90.0, transmittance=0.85, index=1.5))
-    for x, z, radius, gap in ((-1.9, 2.1, 0.55, 0.25), (0.2, 2.6, 0.4, 0.2), (1.7, 1.2, 0.75, 0.35), (2.6, 2.9, 0.3, 0.2)):
+    for x, z, radius, gap in BALLS:
         scene.sphere((x, max(WATER, height_at(x, z)) + gap + radius, z), radius)
 
 

@@ -59,7 +59,8 @@ class Scene:
 
     def floor(self, half: float, height: float) -> None:
         """A square around the y axis that faces up."""
-        self.polygon([(-half, height, half), (half, height, half), (half, height, -half), (-half, height, -half)])
+        corners = ((-half, half), (half, half), (half, -half), (-half, -half))
+        self.polygon([(x, height, z) for x, z in corners])
 
     def text(self, title: str) -> str:
         return "\n".join([f"# {title}", *self.lines]) + "\n"

@@ -68,12 +68,12 @@ TEST_CASE("view_frame of a camera that looks along +x", "[01-camera-rays]") {
 TEST_CASE("view_frame turns a slanted up vector upright", "[01-camera-rays]") {
     Camera camera = straight_camera(100, 100);
     camera.from = {0.0F, 0.0F, 0.0F};
-    camera.at = {0.0F, 0.0F, -2.0F};
-    camera.up = {0.0F, 4.0F, -3.0F};
+    camera.at = {0.0F, 0.0F, 2.0F};
+    camera.up = {0.0F, 4.0F, 3.0F};
     const ViewFrame frame = view_frame(camera);
-    INFO("up leans forward by 37 degrees; the frame's up is at a right angle to forward");
+    INFO("the camera looks along +z, up leans forward by 37 degrees; the frame's up is at a right angle to forward");
     CHECK_THAT(frame.up, IsNear({0.0F, 1.0F, 0.0F}));
-    CHECK_THAT(frame.right, IsNear({1.0F, 0.0F, 0.0F}));
+    CHECK_THAT(frame.right, IsNear({-1.0F, 0.0F, 0.0F}));
 }
 
 TEST_CASE("view_frame: the angle is the full vertical one, in degrees", "[01-camera-rays]") {

@@ -1,0 +1,49 @@
+"""What the tests share: the repository, its steps, and submissions made from the solutions."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from raysteps.manifest import Step, read_steps
+from raysteps.project import Project, here
+from raysteps.stubs import stub_for, without_markers
+
+Sources = dict[str, str]
+MakeSubmission = Callable[[str, Sources], Path]
+
+
+@pytest.fixture(scope="session")
+def project() -> Project:
+    return here()
+
+
+@pytest.fixture(scope="session")
+def steps(project: Project) -> list[Step]:
+    return read_steps(project)
+
+
+@pytest.fixture(scope="session")
+def solved(project: Project, steps: list[Step]) -> Sources:
+    """Every step as a student would hand it in, by step id."""
+    return {step.id: without_markers((project.solutions / step.path).read_text(encoding="utf-8")) for step in steps}
+
+
+@pytest.fixture(scope="session")
+def unsolved(project: Project, steps: list[Step]) -> Sources:
+    return {step.id: stub_for(project, step) for step in steps}
+
+
+@pytest.fixture
+def make_submission(tmp_path: Path, steps: list[Step]) -> MakeSubmission:
+    """Writes sources to a folder of that name, as steps/NN-name/name.cpp."""
+
+    def make(name: str, sources: Sources) -> Path:
+        for step in steps:
+            if step.id in sources:
+                path = tmp_path / name / "steps" / step.path
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(sources[step.id], encoding="utf-8")
+        return tmp_path / name
+
+    return make

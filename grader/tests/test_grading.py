@@ -1,0 +1,109 @@
+"""Grading from end to end: what goes wrong in a step costs that step only."""
+
+from pathlib import Path
+
+import pytest
+from conftest import MakeSubmission, Sources
+from rich.console import Console
+
+from raysteps.manifest import Step
+from raysteps.project import Project
+from raysteps.results import Results
+from raysteps.submissions import grade_to
+
+
+def _grade(project: Project, path: Path, out: Path) -> Results:
+    results = grade_to(project, path, out, Console(quiet=True))
+    assert (out / "results.json").is_file()
+    return results
+
+
+def _points(results: Results) -> float:
+    return float(results.to_json()["total"]["points"])
+
+
+def _status(results: Results) -> dict[str, str]:
+    return {step.id[:2]: step.status for step in results.steps}
+
+
+def _inserted(source: str, function: str, statement: str) -> str:
+    """The source with a statement at the start of a function's body."""
+    at = source.index("{\n", source.index(f" {function}(")) + 2
+    return source[:at] + f"    {statement}\n" + source[at:]
+
+
+def test_the_complete_sample_gets_everything(project: Project, tmp_path: Path) -> None:
+    results = _grade(project, project.samples / "complete", tmp_path)
+    assert set(_status(results).values()) == {"passed"}
+    assert _points(results) == 110
+    assert all(step.cumulative.passed for step in results.steps)
+
+
+def test_the_stubs_get_nothing(
+    project: Project, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources
+) -> None:
+    results = _grade(project, make_submission("stubs", unsolved), tmp_path)
+    assert set(_status(results).values()) == {"not-started"}
+    assert _points(results) == 0
+    assert "still the stub" in results.steps[0].messages[0]
+
+
+def test_the_partial_sample_loses_points_in_step_04_and_nowhere_before(project: Project, tmp_path: Path) -> None:
+    results = _grade(project, project.samples / "partial", tmp_path)
+    status = _status(results)
+    assert [status[number] for number in ("01", "02", "03", "04")] == ["passed", "passed", "passed", "partial"]
+    assert {status[number] for number in ("05", "06", "07", "08")} == {"not-started"}
+    assert 0 < results.steps[3].points < results.steps[3].max
+    wrong = [image for image in results.steps[3].images if not image.passed]
+    assert wrong
+    assert wrong[0].difference is not None
+    assert (tmp_path / wrong[0].difference).is_file()
+
+
+def test_broken_steps_cost_themselves_only(
+    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, unsolved: Sources
+) -> None:
+    """Step 01 does not build, 02 crashes, 03 ends the process, 04 is missing, 05 is only formatted, 07 hangs."""
+    sources = dict(solved)
+    sources["01-camera-rays"] += "\nint syntax error here;\n"
+    sources["02-intersection"] = _inserted(
+        solved["02-intersection"], "Sphere::intersect", "volatile int* nowhere = nullptr; *nowhere = 1;"
+    )
+    sources["03-phong-shading"] = "#include <cstdlib>\n" + _inserted(
+        solved["03-phong-shading"], "shade", "std::_Exit(0);"
+    )
+    del sources["04-shadows"]
+    sources["05-reflection"] = unsolved["05-reflection"].replace("    ", "\t")
+    sources["07-tone-mapping"] = _inserted(
+        solved["07-tone-mapping"], "tone_map", "for (volatile bool on = true; on;) {}"
+    )
+    results = _grade(project, make_submission("broken", sources), tmp_path)
+    status = _status(results)
+    assert status["01"] == "does-not-build"
+    assert results.steps[0].messages[-1].startswith("It does not build: camera_rays.cpp:")
+    assert status["02"] == "crashed"
+    assert "SIGSEGV" in " ".join(results.steps[1].messages)
+    assert any(test.passed for test in results.steps[1].tests), "a crash hides the other tests"
+    assert status["03"] == "crashed"
+    assert "shadows.cpp was not handed in." in results.steps[3].messages
+    assert status["04"] == status["05"] == "not-started"
+    assert status["07"] == "timeout"
+    assert any(test.passed for test in results.steps[6].tests), "a hang hides the other tests"
+    assert status["06"] == status["08"] == "passed"
+
+
+def test_partly_done_steps_name_what_is_left(
+    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
+) -> None:
+    left = 'RAYSTEPS_TODO("03-phong-shading", "specular");'
+    source = _inserted(solved["03-phong-shading"], "specular", f"{left} if (ks_is_zero()) return k_black;")
+    source = source.replace(" if (ks_is_zero()) return k_black;", "")
+    results = _grade(project, make_submission("partly", {steps[2].id: source}), tmp_path)
+    assert "Still to be written: specular." in results.steps[2].messages
+
+
+@pytest.mark.parametrize("name", ["with space", "unicöde"])
+def test_names_of_submissions(
+    project: Project, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources, name: str
+) -> None:
+    assert _grade(project, make_submission(name, unsolved), tmp_path / "o u t").submission == name

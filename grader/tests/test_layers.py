@@ -1,0 +1,62 @@
+"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- apps."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from raysteps.project import Project
+
+_INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+_LAYERS = ("core", "io", "render", "apps", "testing")
+_ALLOWED = {
+    "core": {"core"},
+    "io": {"core", "io"},
+    "render": {"core", "io", "steps", "render"},
+    "apps": {"core", "io", "steps", "render", "apps"},
+    "testing": {"core", "testing"},
+}
+
+
+def _sources(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.rglob("*") if path.suffix in (".hpp", ".cpp"))
+
+
+def _layer(include: str) -> str | None:
+    """The layer that an include belongs to; nothing for libraries."""
+    first = include.split("/", 1)[0]
+    return first if first in (*_LAYERS, "steps", "solutions") else None
+
+
+def _includes(path: Path) -> list[str]:
+    return _INCLUDE.findall(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("layer", _LAYERS)
+def test_framework(project: Project, layer: str) -> None:
+    files = _sources(project.root / "framework" / layer)
+    assert files, f"framework/{layer} is empty"
+    for path in files:
+        allowed = set(_ALLOWED[layer])
+        if path.name.endswith("_test.cpp"):
+            allowed |= {"testing", "io", "render"} if layer in ("render", "apps") else {"testing"}
+        for include in _includes(path):
+            found = _layer(include)
+            assert ".." not in include, f"{path}: {include}"
+            assert found is None or found in allowed, f"{path}: {layer} must not include {include}"
+            assert not include.endswith(".cpp"), f"{path}: {include}"
+
+
+@pytest.mark.parametrize("room", ["steps", "solutions"])
+def test_steps_know_core_and_earlier_contracts(project: Project, room: str) -> None:
+    for path in _sources(project.root / room):
+        step = path.relative_to(project.root / room).parts[0]
+        for include in _includes(path):
+            found = _layer(include)
+            if found == "steps":
+                assert include.split("/")[1] <= step, f"{path}: {include} belongs to a later step"
+                assert include.endswith(".hpp"), f"{path}: {include}"
+            elif path.name.endswith("_test.cpp"):
+                assert found in (None, "core", "testing"), f"{path}: {include}"
+            else:
+                assert found in (None, "core"), f"{path}: {include}"

@@ -1,0 +1,83 @@
+"""Reading and comparing pictures."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from raysteps.pictures import PictureError, Pixels, compare, difference, is_flat, read_ppm, write_png
+
+
+def _ramp() -> Pixels:
+    return np.arange(300, dtype=np.uint16).astype(np.uint8).reshape(10, 10, 3)
+
+
+def test_reads_what_raytrace_writes(tmp_path: Path) -> None:
+    path = tmp_path / "a.ppm"
+    path.write_bytes(b"P6\n2 1\n255\n\x01\x02\x03\x04\x05\x06")
+    assert read_ppm(path).tolist() == [[[1, 2, 3], [4, 5, 6]]]
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"P3\n1 1\n255\n1 2 3",
+        b"P6\n2 2\n255\n\0\0\0",
+        b"P6\n0 0\n255\n",
+        b"P6\n1 1\n65535\n\0\0\0\0\0\0",
+        b"P6\n99999 99999\n255\n\0",
+        b"P6\n1 1\n255\n\0\0\0\0",
+    ],
+)
+def test_refuses_bad_pictures(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "a.ppm"
+    path.write_bytes(data)
+    with pytest.raises(PictureError):
+        read_ppm(path)
+
+
+def test_refuses_what_is_no_regular_file(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to(tmp_path / "pipe")
+    for name in ("pipe", "link", "missing", "."):
+        with pytest.raises(PictureError):
+            read_ppm(tmp_path / name)
+
+
+def test_small_differences_pass() -> None:
+    reference = _ramp() // 2
+    assert compare(reference + 2, reference, 0.0).passed
+
+
+def test_the_share_of_wrong_pixels_decides() -> None:
+    reference = _ramp() // 2
+    mine = reference.copy()
+    mine[4, 7, 1] += 3
+    assert compare(mine, reference, 0.01).passed
+    verdict = compare(mine, reference, 0.009)
+    assert not verdict.passed
+    assert verdict.wrong_share == 0.01
+    assert "x=7, y=4" in verdict.message
+
+
+def test_a_flat_picture_fails_where_the_reference_is_not() -> None:
+    reference = np.zeros((10, 10, 3), dtype=np.uint8)
+    mine = reference.copy()
+    assert compare(mine, reference, 0.0).passed
+    reference[0, 0] = 255
+    assert not compare(mine, reference, 0.5).passed
+    assert is_flat(mine)
+
+
+def test_size_must_agree() -> None:
+    assert "10x10 pixels, expected 5x10" in compare(_ramp(), _ramp()[:, :5], 1.0).message
+
+
+def test_difference_is_brightened_and_written(tmp_path: Path) -> None:
+    reference = _ramp() // 2
+    shown = difference(reference + 1, reference)
+    assert (shown == 8).all()
+    write_png(shown, tmp_path / "new" / "d.png")
+    assert [path.name for path in (tmp_path / "new").iterdir()] == ["d.png"]

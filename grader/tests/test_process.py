@@ -1,0 +1,45 @@
+"""Programs that misbehave."""
+
+import sys
+import time
+
+from raysteps.process import Outcome, run
+
+
+def _python(code: str, seconds: float = 20.0, cap: int = 1 << 20) -> Outcome:
+    return run([sys.executable, "-c", code], seconds=seconds, cap=cap)
+
+
+def test_output_and_code() -> None:
+    outcome = _python("import sys; print('out'); print('err', file=sys.stderr); sys.exit(3)")
+    assert (outcome.code, outcome.stdout, outcome.stderr) == (3, "out\n", "err\n")
+    assert outcome.signal_name is None
+
+
+def test_a_crash_has_a_name() -> None:
+    assert _python("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)").signal_name == "SIGSEGV"
+
+
+def test_a_hang_is_stopped() -> None:
+    start = time.monotonic()
+    outcome = _python("import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); time.sleep(60)", seconds=1)
+    assert outcome.timed_out
+    assert time.monotonic() - start < 10
+
+
+def test_closed_pipes_do_not_hide_a_hang() -> None:
+    assert _python("import os, time; os.close(1); os.close(2); time.sleep(60)", seconds=1).timed_out
+
+
+def test_a_flood_is_capped() -> None:
+    assert len(_python("print('x' * 5_000_000)", cap=1000).stdout) == 1000
+
+
+def test_a_child_that_holds_the_pipe_does_not_hold_the_grader() -> None:
+    start = time.monotonic()
+    code = (
+        "import os, time\nif os.fork() == 0:\n    os.setsid()\n    time.sleep(8)\nelse:\n    print('done', flush=True)"
+    )
+    outcome = _python(code)
+    assert outcome.stdout == "done\n"
+    assert time.monotonic() - start < 6
