@@ -15,6 +15,10 @@ public:
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
 
+    [[nodiscard]] const glm::vec3& normal_a() const { return normal_a_; }
+    [[nodiscard]] const glm::vec3& normal_b() const { return normal_b_; }
+    [[nodiscard]] const glm::vec3& normal_c() const { return normal_c_; }
+
 private:
     glm::vec3 normal_a_;
     glm::vec3 normal_b_;

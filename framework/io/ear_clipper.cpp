@@ -110,7 +110,8 @@ private:
     // A corner at the same place as one of the ear's does not block it: holes are joined by such pairs.
     bool blocks(std::size_t dent, std::size_t a, std::size_t b, std::size_t c) const {
         const Point& p = points_[dent];
-        if (!corners_[dent].left || corners_[dent].turn > 0.0 || p == points_[a] || p == points_[b] || p == points_[c]) {
+        const bool is_dent = corners_[dent].left && corners_[dent].turn <= 0.0;
+        if (!is_dent || p == points_[a] || p == points_[b] || p == points_[c]) {
             return false;
         }
         return inside(p, points_[a], points_[b], points_[c]);

@@ -32,7 +32,8 @@ TEST_CASE("a viewpoint that is missing, incomplete or given twice", "[nff][error
     CHECK(error_of("") == "bad.nff:1:1: expected a viewpoint `v`, found the end of the file");
     CHECK(error_of("v\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\n") ==
           "bad.nff:5:1: expected `angle` of the viewpoint `v` in line 1, found the end of the file");
-    CHECK(error_of("v\nat 0 0 0\nb 0 0 0\n") == "bad.nff:3:1: expected `from` of the viewpoint `v` in line 1, found `b`");
+    CHECK(error_of("v\nat 0 0 0\nb 0 0 0\n") ==
+          "bad.nff:3:1: expected `from` of the viewpoint `v` in line 1, found `b`");
     CHECK(error_of(k_view + k_view) == "bad.nff:6:1: expected only one `v`, found another");
     CHECK(error_of("v from 1 2 3 from 1 2 3") == "bad.nff:1:14: expected `from` once, found it twice");
 }
@@ -63,7 +64,8 @@ TEST_CASE("numbers that are none, not finite or out of range", "[nff][errors]") 
     CHECK(error_of(k_start + "s 0 1e40") ==
           "bad.nff:7:5: expected y of the sphere's centre, a number from -1e+09 to 1e+09, found `1e40`");
     CHECK(error_of(k_start + "s 1e999 0").find("found `1e999`") != std::string::npos);
-    CHECK(error_of("b 0 -0.5 0") == "bad.nff:1:5: expected green of the background, a number of at least 0, found `-0.5`");
+    CHECK(error_of("b 0 -0.5 0") ==
+          "bad.nff:1:5: expected green of the background, a number of at least 0, found `-0.5`");
     CHECK(error_of("f 1 1 1 1 -1").find("expected Ks of the fill, a number of at least 0") != std::string::npos);
     CHECK(error_of("f 1 1 1 1 0 1 0 -1").find("expected index of refraction of the fill") != std::string::npos);
 }

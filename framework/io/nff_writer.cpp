@@ -7,6 +7,7 @@
 
 #include "core/cone.hpp"
 #include "core/hollow_sphere.hpp"
+#include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
 #include "io/numbers.hpp"
@@ -76,6 +77,11 @@ private:
             line("s", hollow->center(), {-hollow->radius()});
         } else if (const auto* cone = dynamic_cast<const Cone*>(&surface)) {
             write_cone(*cone);
+        } else if (const auto* smooth = dynamic_cast<const SmoothTriangle*>(&surface)) {
+            text_ += "pp 3\n";
+            corner(smooth->a(), smooth->normal_a());
+            corner(smooth->b(), smooth->normal_b());
+            corner(smooth->c(), smooth->normal_c());
         } else if (const auto* triangle = dynamic_cast<const Triangle*>(&surface)) {
             text_ += "p 3\n";
             line("", triangle->a(), {});
@@ -84,6 +90,10 @@ private:
         } else {
             text_ += "# a surface that NFF has no entity for\n";
         }
+    }
+
+    void corner(const glm::vec3& position, const glm::vec3& normal) {
+        line("", position, {normal.x, normal.y, normal.z});
     }
 
     void write_cone(const Cone& cone) {

@@ -6,8 +6,8 @@
 
 namespace raysteps {
 
-/// Text that read_nff turns into the same scene, number for number. A smooth triangle becomes a flat one, for the
-/// kit's type does not give its normals away. A surface of any other type becomes a comment.
+/// Text that read_nff turns into the same scene, number for number (the normals of a patch up to rounding, since
+/// they are made unit length again). A surface of a type that NFF does not know becomes a comment.
 [[nodiscard]] std::string write_nff(const Scene& scene);
 
 }  // namespace raysteps

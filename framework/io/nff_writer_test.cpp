@@ -19,7 +19,8 @@ TEST_CASE("the writer gives NFF that the reader takes back number for number", "
         "f 1 1 1 1 0 1 0 1\n"
         "c 0 0 0 1\n0 0 1 0.25\n"
         "c 0 0 0 -1\n0 0 1 -0.25\n"
-        "p 3\n0 0 0\n1 0 0\n0 1 0\n";
+        "p 3\n0 0 0\n1 0 0\n0 1 0\n"
+        "pp 3\n0 0 0 0 0 1\n1 0 0 1 0 0\n0 1 0 0 1 0\n";
     CHECK(write_nff(read_nff(text, "text")) == text);
 }
 

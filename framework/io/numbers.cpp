@@ -62,8 +62,8 @@ std::optional<double> parse_number(std::string_view text) {
     }
     double number = 0.0;
 #if defined(__cpp_lib_to_chars)
-    const std::string_view unsigned_plus = text.front() == '+' ? text.substr(1) : text;
-    const auto result = std::from_chars(unsigned_plus.data(), unsigned_plus.data() + unsigned_plus.size(), number);
+    const std::string_view no_plus = text.front() == '+' ? text.substr(1) : text;
+    const auto result = std::from_chars(no_plus.data(), no_plus.data() + no_plus.size(), number);
     return result.ec == std::errc::result_out_of_range ? out_of_range(text, *exponent) : number;
 #else
     std::istringstream stream{std::string(text)};
@@ -92,11 +92,18 @@ std::string number_text(float number) {
     const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
     return {buffer.data(), result.ptr};
 #else
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream.precision(std::numeric_limits<float>::max_digits10);
-    stream << number;
-    return stream.str();
+    std::string text;
+    for (int digits = 1; digits <= std::numeric_limits<float>::max_digits10; ++digits) {
+        std::ostringstream stream;
+        stream.imbue(std::locale::classic());
+        stream.precision(digits);
+        stream << number;
+        text = stream.str();
+        if (static_cast<float>(parse_number(text).value_or(0.0)) == number) {
+            break;
+        }
+    }
+    return text;
 #endif
 }
 

@@ -14,7 +14,8 @@ constexpr int k_largest_maxval = 65535;
 
 class PpmReader {
 public:
-    PpmReader(std::string_view bytes, const std::string& name) : bytes_(bytes), scanner_(bytes, name), fields_(scanner_) {}
+    PpmReader(std::string_view bytes, const std::string& name)
+        : bytes_(bytes), scanner_(bytes, name), fields_(scanner_) {}
 
     Image read() {
         const Token magic = scanner_.next();

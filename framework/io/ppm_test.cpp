@@ -44,7 +44,8 @@ TEST_CASE("any maxval is scaled to 255, with rounding", "[ppm]") {
 
 TEST_CASE("what follows a picture may only be white space", "[ppm]") {
     CHECK(error_of("P6 1 1 255\nabc\n \t") == "no error");
-    CHECK(error_of("P6 1 1 255\nabc\nd") == "bad.ppm:1:11: expected nothing after the last pixel, found `\\x0ad` from byte 15");
+    CHECK(error_of("P6 1 1 255\nabc\nd") ==
+          "bad.ppm:1:11: expected nothing after the last pixel, found `\\x0ad` from byte 15");
     CHECK(error_of("P3 1 1 255 1 2 3 4") == "bad.ppm:1:18: expected nothing after the last pixel, found `4`");
 }
 
@@ -63,7 +64,8 @@ TEST_CASE("malformed pictures are refused with a message", "[ppm]") {
     CHECK(error_of("P3 1 1 3 1 2 4") == "bad.ppm:1:14: expected a sample, a whole number from 0 to 3, found `4`");
     CHECK(error_of("P3 1 1 255 -1 2 3").find("found `-1`") != std::string::npos);
     CHECK(error_of("P3 1 1 255 1 200 ").find("found the end of the file") != std::string::npos);
-    CHECK(error_of("P6 1 1 255#comment\nabc").find("expected one white space after maxval, found `#`") != std::string::npos);
+    CHECK(error_of("P6 1 1 255#comment\nabc").find("expected one white space after maxval, found `#`") !=
+          std::string::npos);
 }
 
 TEST_CASE("a picture survives being written and read", "[ppm]") {

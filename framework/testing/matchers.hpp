@@ -28,7 +28,7 @@ public:
     }
 
     [[nodiscard]] std::string describe() const override {
-        return "is the expected " + text(expected_) + " within " + Catch::Detail::stringify(tolerance_);
+        return "is expected to be " + text(expected_) + " within " + Catch::Detail::stringify(tolerance_);
     }
 
 private:
@@ -42,7 +42,7 @@ public:
         return std::abs(glm::length(actual) - 1.0F) <= k_tolerance;
     }
 
-    [[nodiscard]] std::string describe() const override { return "has length 1"; }
+    [[nodiscard]] std::string describe() const override { return "is expected to have length 1"; }
 };
 
 /// Points the same way: the angle between the two is near 0 (a factor does not matter, a sign does).
@@ -55,7 +55,7 @@ public:
         return glm::length(actual) > 0.0F && glm::distance(glm::normalize(actual), expected_) <= tolerance_;
     }
 
-    [[nodiscard]] std::string describe() const override { return "points along " + text(expected_); }
+    [[nodiscard]] std::string describe() const override { return "is expected to point along " + text(expected_); }
 
 private:
     glm::vec3 expected_;

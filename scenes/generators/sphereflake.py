@@ -36,7 +36,7 @@ def children(center: Vec, radius: float, axis: Vec, turn: float) -> list[tuple[V
 def build(size: int, rng: random.Random) -> Scene:
     """`size` is the number of generations after the first sphere: 4 gives 7381 spheres and the floor."""
     scene = Scene()
-    scene.camera((0.4, 0.62, 1.1), (3.9, 3.7, 6.9), (0.0, 0.05, 0.0), 37.0)
+    scene.camera((0.4, 0.62, 1.1), (3.9, 3.7, 6.9), (0.0, 0.05, 0.0), 38.5)
     scene.light((8.0, 9.0, 6.0), (2.6, 2.5, 2.3))
     scene.light((-7.0, 8.0, 7.0), (1.2, 1.3, 1.5))
     scene.light((2.0, 7.0, -9.0), (1.0, 0.9, 0.8))

@@ -76,7 +76,7 @@ TEST_CASE("view_frame turns a slanted up vector upright", "[01-camera-rays]") {
     CHECK_THAT(frame.right, IsNear({-1.0F, 0.0F, 0.0F}));
 }
 
-TEST_CASE("view_frame: the angle is the full vertical one, in degrees", "[01-camera-rays]") {
+TEST_CASE("view_frame: the angle is the full vertical one in degrees", "[01-camera-rays]") {
     Camera camera = straight_camera(100, 100);
     INFO("half_height = tan(angle / 2)");
     camera.angle = 90.0F;
@@ -87,7 +87,7 @@ TEST_CASE("view_frame: the angle is the full vertical one, in degrees", "[01-cam
     CHECK(view_frame(camera).half_height == about(0.414214));
 }
 
-TEST_CASE("view_frame: a wide picture is wider, not less high", "[01-camera-rays]") {
+TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays]") {
     INFO("half_width = half_height * width / height; pixels are square");
     const ViewFrame wide = view_frame(straight_camera(320, 160));
     CHECK(wide.half_height == about(1.0));
@@ -97,7 +97,7 @@ TEST_CASE("view_frame: a wide picture is wider, not less high", "[01-camera-rays
     CHECK(tall.half_width == about(1.0 / 3.0));
 }
 
-TEST_CASE("view_frame: three unit vectors at right angles, for any camera", "[01-camera-rays]") {
+TEST_CASE("view_frame: three unit vectors at right angles for any camera", "[01-camera-rays]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -127,7 +127,7 @@ TEST_CASE("primary_ray of the middle pixel goes straight ahead", "[01-camera-ray
     CHECK_THAT(primary_ray(camera, frame, 2, 1).direction, IsParallelTo({2.0F / 3.0F, 0.0F, -1.0F}));
 }
 
-TEST_CASE("primary_ray goes through the pixel's centre, not its corner", "[01-camera-rays]") {
+TEST_CASE("primary_ray goes through the pixel's centre and not its corner", "[01-camera-rays]") {
     // The plane from -1 to 1 holds two pixels each way: their centres lie at -0.5 and 0.5.
     const Camera camera = straight_camera(2, 2);
     const ViewFrame frame = straight_frame(1.0F, 1.0F);
@@ -147,7 +147,7 @@ TEST_CASE("primary_ray: x runs to the right and y down", "[01-camera-rays]") {
     CHECK_THAT(primary_ray(camera, frame, 1, 1).direction, IsParallelTo({-0.5F, -0.5F, -1.0F}));
 }
 
-TEST_CASE("primary_ray: a pixel's point on the image plane, for any camera", "[01-camera-rays]") {
+TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01-camera-rays]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {

@@ -27,7 +27,7 @@ Ray down_onto(float x, float y) { return {{x, y, 2.0F}, {0.0F, 0.0F, -1.0F}}; }
 
 }  // namespace
 
-TEST_CASE("Triangle: a hit in the middle, seen from the front", "[02-intersection]") {
+TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection]") {
     const Triangle triangle({0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, colored({0.1F, 0.2F, 0.3F}));
     const Ray ray = down_onto(0.25F, 0.25F);
     const std::optional<HitRecord> hit = triangle.intersect(ray);
@@ -41,7 +41,7 @@ TEST_CASE("Triangle: a hit in the middle, seen from the front", "[02-intersectio
     CHECK(hit->from_outside);
 }
 
-TEST_CASE("Triangle: seen from behind, the normal turns towards the ray", "[02-intersection]") {
+TEST_CASE("Triangle: seen from behind the normal turns towards the ray", "[02-intersection]") {
     const Ray up{{0.25F, 0.25F, -3.0F}, {0.0F, 0.0F, 1.0F}};
     const std::optional<HitRecord> hit = corner_triangle().intersect(up);
     INFO("a triangle has two sides: the ray comes from below and hits its back");
@@ -89,7 +89,7 @@ TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection
     }
 }
 
-TEST_CASE("Triangle: any triangle, any point inside it, from any side", "[02-intersection]") {
+TEST_CASE("Triangle: any triangle from any side", "[02-intersection]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -122,7 +122,7 @@ TEST_CASE("Triangle: any triangle, any point inside it, from any side", "[02-int
     }
 }
 
-TEST_CASE("Sphere: head-on, the nearer of the two points", "[02-intersection]") {
+TEST_CASE("Sphere: head-on the nearer of the two points", "[02-intersection]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 2.0F, colored({0.9F, 0.8F, 0.7F}));
     const Ray ray{{0.0F, 0.0F, 5.0F}, {0.0F, 0.0F, -1.0F}};
     const std::optional<HitRecord> hit = sphere.intersect(ray);
@@ -136,7 +136,7 @@ TEST_CASE("Sphere: head-on, the nearer of the two points", "[02-intersection]") 
     CHECK(hit->from_outside);
 }
 
-TEST_CASE("Sphere: off-centre, a 3-4-5 triangle gives the distance", "[02-intersection]") {
+TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-intersection]") {
     const Sphere sphere({1.0F, 2.0F, 3.0F}, 5.0F, Fill{});
     const std::optional<HitRecord> hit = sphere.intersect({{4.0F, 2.0F, 13.0F}, {0.0F, 0.0F, -1.0F}});
     INFO("the line passes the centre at 3; the half chord is 4; the origin is 10 above the centre");
@@ -146,7 +146,7 @@ TEST_CASE("Sphere: off-centre, a 3-4-5 triangle gives the distance", "[02-inters
     CHECK_THAT(hit->normal, IsNear({0.6F, 0.0F, 0.8F}));
 }
 
-TEST_CASE("Sphere: from inside, the far wall", "[02-intersection]") {
+TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 2.0F, Fill{});
     const std::optional<HitRecord> hit = sphere.intersect({{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}});
     INFO("the points are at distances -3 and 1: the nearer one that is above 0 counts");
@@ -171,7 +171,7 @@ TEST_CASE("Sphere: misses beside and behind", "[02-intersection]") {
     }
 }
 
-TEST_CASE("Sphere: any sphere, position on the surface and unit normal", "[02-intersection]") {
+TEST_CASE("Sphere: position on the surface and unit normal for any sphere", "[02-intersection]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -195,7 +195,7 @@ TEST_CASE("Sphere: any sphere, position on the surface and unit normal", "[02-in
     }
 }
 
-TEST_CASE("closest_hit: the nearest surface, in any order of the list", "[02-intersection]") {
+TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-intersection]") {
     const Sphere near_red({0.0F, 0.0F, -4.0F}, 1.0F, colored({1.0F, 0.0F, 0.0F}));
     const Sphere far_green({0.0F, 0.0F, -9.0F}, 1.0F, colored({0.0F, 1.0F, 0.0F}));
     const Sphere behind({0.0F, 0.0F, 3.0F}, 1.0F, colored({0.0F, 0.0F, 1.0F}));
@@ -213,7 +213,7 @@ TEST_CASE("closest_hit: the nearest surface, in any order of the list", "[02-int
     }
 }
 
-TEST_CASE("closest_hit: nothing to hit, and every test counted", "[02-intersection]") {
+TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersection]") {
     const Sphere one({0.0F, 0.0F, -4.0F}, 1.0F, Fill{});
     const Sphere two({0.0F, 0.0F, -8.0F}, 1.0F, Fill{});
     const Ray away{{0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};

@@ -60,7 +60,7 @@ TEST_CASE("mirror: a ball bounces off the floor", "[03-phong-shading]") {
     CHECK_THAT(mirror({0.0F, -1.0F, 0.0F}, {0.6F, 0.8F, 0.0F}), IsNear({0.96F, 0.28F, 0.0F}));
 }
 
-TEST_CASE("mirror: angle in is angle out, and twice is the way back", "[03-phong-shading]") {
+TEST_CASE("mirror: angle in is angle out and twice is the way back", "[03-phong-shading]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("diffuse: kd times colours times cosine", "[03-phong-shading]") {
     CHECK_THAT(diffuse(fill, light, k_up, leaning(-60.0F)), IsNear({0.2F, 0.2F, 0.16F}));
 }
 
-TEST_CASE("diffuse: a light behind the surface adds nothing, and takes nothing", "[03-phong-shading]") {
+TEST_CASE("diffuse: a light behind the surface adds nothing and takes nothing", "[03-phong-shading]") {
     const Fill fill = diffuse_fill({1.0F, 1.0F, 1.0F}, 1.0F);
     const Light light = light_of(k_white);
     CHECK_THAT(diffuse(fill, light, k_up, leaning(45.0F)), IsNear(Color(0.707107F)));
@@ -171,7 +171,7 @@ TEST_CASE("shade: the eye is where the ray came from", "[03-phong-shading]") {
     CHECK_THAT(shade(hit, std::vector<Light>{{5.0F * leaning(40.0F), k_white}}), IsNear(k_black));
 }
 
-TEST_CASE("shade: lights add up, near or far", "[03-phong-shading]") {
+TEST_CASE("shade: lights add up whether near or far", "[03-phong-shading]") {
     const HitRecord hit = floor_hit(diffuse_fill(k_white, 1.0F), {0.0F, 0.0F, -1.0F});
     const Light red{5.0F * leaning(0.0F), {1.0F, 0.0F, 0.0F}};
     const Light far_red{500.0F * leaning(0.0F), {1.0F, 0.0F, 0.0F}};

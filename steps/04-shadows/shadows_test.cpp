@@ -12,7 +12,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-constexpr float k_farthest_off = 0.01F;  ///< the starting point may be this far off the surface, no farther
+constexpr float k_farthest_off = 0.0101F;  ///< the starting point may be 0.01 off the surface, and rounding
 
 const glm::vec3 k_up{0.0F, 0.0F, 1.0F};
 
@@ -47,7 +47,7 @@ TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-s
     CHECK_THAT(ray.direction, IsNear({0.6F, 0.0F, 0.8F}, 5e-3F));
 }
 
-TEST_CASE("shadow_ray, for any hit and light", "[04-shadows]") {
+TEST_CASE("shadow_ray for any hit and light", "[04-shadows]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("shadow_ray, for any hit and light", "[04-shadows]") {
     }
 }
 
-TEST_CASE("is_lit: in an empty scene, every light is seen", "[04-shadows]") {
+TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows]") {
     FakeCaster scene;
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
     CHECK(is_lit(scene, hit, {{0.0F, 0.0F, 10.0F}, k_white}));
@@ -162,7 +162,7 @@ TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", 
     CHECK(is_lit(scene, hit_at({0.1F, 0.0F, 0.0F}, k_up), light));
 }
 
-TEST_CASE("is_lit: inside a hollow ball, the wall is lit by a lamp inside", "[04-shadows]") {
+TEST_CASE("is_lit: a lamp inside a hollow ball lights its wall", "[04-shadows]") {
     const Sphere room = ball({0.0F, 0.0F, 0.0F}, 5.0F);
     FakeCaster scene = scene_of({&room});
     const std::optional<HitRecord> hit = room.intersect({{0.0F, 0.0F, 0.0F}, {0.0F, 0.6F, -0.8F}});

@@ -100,7 +100,7 @@ TEST_CASE("Box::clip: an origin inside enters at 0", "[06-octree]") {
     CHECK(part->leave == about(1.25));
 }
 
-TEST_CASE("Box::clip: slanted, hit and miss", "[06-octree]") {
+TEST_CASE("Box::clip: slanted hit and miss", "[06-octree]") {
     const glm::vec3 slanted{0.6F, 0.0F, -0.8F};
     const std::optional<Interval> part = k_cube.clip({{-3.0F, 0.0F, 3.0F}, slanted});
     INFO("x in [-1, 1] for distances 10/3 to 20/3, z for 2.5 to 5: both from 10/3 to 5");
@@ -111,7 +111,7 @@ TEST_CASE("Box::clip: slanted, hit and miss", "[06-octree]") {
     CHECK_FALSE(k_cube.clip({{-1.0F, 0.0F, 5.0F}, slanted}).has_value());
 }
 
-TEST_CASE("Box::clip: zeros in the direction, faces and edges", "[06-octree]") {
+TEST_CASE("Box::clip: zeros in the direction and rays along faces and edges", "[06-octree]") {
     SECTION("minus zero is zero") {
         const std::optional<Interval> part = k_cube.clip({{0.5F, 0.5F, 5.0F}, {-0.0F, 0.0F, -1.0F}});
         REQUIRE(part.has_value());
@@ -142,7 +142,7 @@ TEST_CASE("Box::clip: zeros in the direction, faces and edges", "[06-octree]") {
     }
 }
 
-TEST_CASE("Box::clip: the interval holds what is inside, for any box", "[06-octree]") {
+TEST_CASE("Box::clip: the interval holds what is inside for any box", "[06-octree]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -177,7 +177,7 @@ TEST_CASE("bounds_of: the smallest box around all", "[06-octree]") {
     CHECK(none.min.x > none.max.x);
 }
 
-TEST_CASE("split: eight parts, upper half of x for bit 0, y for bit 1, z for bit 2", "[06-octree]") {
+TEST_CASE("split: bit 0 is the upper half of x and bit 1 of y and bit 2 of z", "[06-octree]") {
     const Box box{{0.0F, 10.0F, -4.0F}, {2.0F, 14.0F, 4.0F}};
     const std::array<Box, 8> parts = split(box);
     const glm::vec3 middle{1.0F, 12.0F, 0.0F};

@@ -33,7 +33,7 @@ TEST_CASE("tone_map: each channel by itself", "[07-tone-mapping]") {
     CHECK_THAT(tone_map({0.0F, 1.0F, 1000.0F}), IsNear({0.0F, 0.5F, 1000.0F / 1001.0F}));
 }
 
-TEST_CASE("tone_map: more light is never darker, and never reaches past 1", "[07-tone-mapping]") {
+TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-tone-mapping]") {
     float before = 0.0F;
     for (float light = 0.001F; light < 1e6F; light *= 1.5F) {
         CAPTURE(light);
@@ -47,7 +47,7 @@ TEST_CASE("tone_map: more light is never darker, and never reaches past 1", "[07
     CHECK(before == about(1.0, 1e-3));
 }
 
-TEST_CASE("tone_map: infinite, very large, negative and NaN", "[07-tone-mapping]") {
+TEST_CASE("tone_map: infinite and very large and negative and NaN", "[07-tone-mapping]") {
     const Color light = tone_map({k_infinity, 1.0F, k_largest});
     INFO("infinity / (infinity + 1) is NaN in floats: an infinite channel must become 1 all the same");
     CHECK(light.r == about(1.0));
@@ -66,7 +66,7 @@ TEST_CASE("to_byte: the ends and the middle", "[07-tone-mapping]") {
     CHECK((byte(0.5F) == 127 || byte(0.5F) == 128));
 }
 
-TEST_CASE("to_byte: rounds to the nearest, does not cut off", "[07-tone-mapping]") {
+TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mapping]") {
     INFO("100.4 of 255 -> 100, 100.6 of 255 -> 101");
     CHECK(byte(100.4F / 255.0F) == 100);
     CHECK(byte(100.6F / 255.0F) == 101);
@@ -82,7 +82,7 @@ TEST_CASE("to_byte: every byte comes back", "[07-tone-mapping]") {
     }
 }
 
-TEST_CASE("to_byte: clamps, and survives what is no colour", "[07-tone-mapping]") {
+TEST_CASE("to_byte: clamps and survives what is no colour", "[07-tone-mapping]") {
     INFO("above 1 is white, below 0 is black; without a clamp 1.1 would wrap round to almost black");
     CHECK(byte(1.1F) == 255);
     CHECK(byte(2.0F) == 255);

@@ -37,7 +37,8 @@ private:
 
     void change(std::string& bytes) {
         static const std::vector<std::string_view> k_pieces{
-            "nan", "-inf", "1e40", "-1e-45", "0", "-1", "1000000", "99999999999", "p", "pp", "v", "f", "#", "\n", "\r\n"};
+            "nan", "-inf", "1e40", "-1e-45", "0",  "-1", "1000000", "99999999999",
+            "p",   "pp",   "v",    "f",      "#", "\n", "\r\n"};
         const std::size_t at = below(bytes.size() + 1);
         const std::size_t length = std::min(bytes.size() - at, below(12));
         switch (below(6)) {

@@ -28,11 +28,14 @@ def read_ppm(path: Path) -> Pixels:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError as error:
         raise PictureError("no picture was written") from error
-    with os.fdopen(handle, "rb") as file:
+    try:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode) or status.st_size > _MAX_BYTES:
             raise PictureError("the picture is not a regular file of a sensible size")
-        data = file.read(_MAX_BYTES)
+        with os.fdopen(handle, "rb", closefd=False) as file:
+            data = file.read(_MAX_BYTES)
+    finally:
+        os.close(handle)
     header = _HEADER.match(data)
     if header is None:
         raise PictureError("the picture is not a binary PPM with 8-bit channels")

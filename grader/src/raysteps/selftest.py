@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
@@ -36,15 +37,21 @@ def _build(tree: BuildTree, targets: list[str]) -> Report:
     return Report("passed") if outcome.code == 0 else Report("failed", what_failed(outcome))
 
 
-def _programs(tree: BuildTree, project: Project) -> list[str]:
-    return ["test-framework", *(f"test-reference-{step.number}" for step in read_steps(project))]
+def _program(tree: BuildTree, name: str, *args: str | Path) -> Report:
+    """Builds the program, so that an old one never passes for a new one, and runs it."""
+    built = _build(tree, [name])
+    return _command([tree.program(name), *args], tree.project.root) if built.verdict == "passed" else built
 
 
-def _dev_checks(project: Project, tree: BuildTree) -> list[Check]:
-    checks = [Check("build everything, warnings are errors", lambda: _build(tree, []))]
-    for name in [*_programs(tree, project), "fuzz-readers-replay"]:
-        checks.append(Check(name, lambda name=name: _command([tree.program(name)], project.root)))  # type: ignore[misc]
-    return checks
+def _program_checks(tree: BuildTree, suffix: str = "") -> list[Check]:
+    names = ["test-framework", *(f"test-reference-{step.number}" for step in read_steps(tree.project))]
+    checks = [Check(name + suffix, partial(_program, tree, name)) for name in names]
+    replay = "fuzz-readers-replay"
+    return [*checks, Check(replay + suffix, partial(_program, tree, replay, _corpus(tree.project)))]
+
+
+def _corpus(project: Project) -> Path:
+    return project.root / "framework" / "io" / "fuzz" / "corpus"
 
 
 def _stubs(project: Project) -> Report:
@@ -60,6 +67,9 @@ def _samples(project: Project) -> Report:
 
 
 def _same_pictures(project: Project, tree: BuildTree) -> Report:
+    built = _build(tree, ["raytrace-reference"])
+    if built.verdict != "passed":
+        return built
     different = scenes_that_differ(project, tree.program("raytrace-reference"))
     return Report("failed", "\n".join(different)) if different else Report("passed")
 
@@ -81,12 +91,10 @@ def _python_checks(project: Project) -> list[Check]:
 
 def _asan_checks(project: Project) -> list[Check]:
     tree = BuildTree(project, "asan", project.build / "asan", project.steps)
-    names = [*_programs(tree, project), "fuzz-readers-replay"]
-    checks = [Check("build with address and undefined behaviour sanitizers", lambda: _build(tree, names))]
-    for name in names:
-        program = tree.program(name)
-        checks.append(Check(f"{name}, sanitized", lambda program=program: _command([program], project.root)))  # type: ignore[misc]
-    return checks
+    tests = [f"test-reference-{step.number}" for step in read_steps(project)]
+    targets = ["test-framework", *tests, "fuzz-readers-replay"]
+    build = Check("build with address and undefined behaviour sanitizers", lambda: _build(tree, targets))
+    return [build, *_program_checks(tree, ", sanitized")]
 
 
 def _install_clang() -> bool:
@@ -105,11 +113,9 @@ def _install_clang() -> bool:
 def _fuzz(project: Project, tree: BuildTree) -> Report:
     corpus = project.build / "fuzz" / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
-    words: list[str | Path] = [tree.program("fuzz-readers"), corpus]
-    seeds = project.root / "framework" / "io" / "fuzz" / "corpus"
-    words += [seeds] if seeds.is_dir() else []
+    words: list[str | Path] = [corpus, _corpus(project)]
     words += [f"-max_total_time={_FUZZ_SECONDS}", "-timeout=10", "-rss_limit_mb=2048", "-print_final_stats=1"]
-    return _command([*words, f"-artifact_prefix={corpus.parent}/"], project.root)
+    return _program(tree, "fuzz-readers", *words, f"-artifact_prefix={corpus.parent}/")
 
 
 def _clang_checks(project: Project) -> list[Check]:
@@ -118,10 +124,11 @@ def _clang_checks(project: Project) -> list[Check]:
         return [Check(name, lambda: missing) for name in ("build everything with clang", "fuzz-readers for 60 s")]
     compiler = ("-DCMAKE_CXX_COMPILER=clang++",)
     tree = BuildTree(project, "dev", project.build / "clang", project.steps, compiler)
-    fuzzer = BuildTree(project, "dev", project.build / "fuzz", project.steps, (*compiler, "-DRAYSTEPS_FUZZ=ON"))
+    watched = (*compiler, "-DRAYSTEPS_FUZZ=ON", "-DRAYSTEPS_SANITIZE=address,undefined,fuzzer-no-link")
+    fuzzer = BuildTree(project, "asan", project.build / "fuzz", project.steps, watched)
     return [
         Check("build everything with clang", lambda: _build(tree, [])),
-        Check("test-framework, clang", lambda: _command([tree.program("test-framework")], project.root)),
+        Check("test-framework, clang", partial(_program, tree, "test-framework")),
         Check("build the fuzz target", lambda: _build(fuzzer, ["fuzz-readers"])),
         Check(f"fuzz-readers for {_FUZZ_SECONDS} s", lambda: _fuzz(project, fuzzer)),
     ]
@@ -130,7 +137,7 @@ def _clang_checks(project: Project) -> list[Check]:
 def selftest(project: Project, console: Console, *, full: bool) -> int:
     """All checks, or all that need no more than the basic tools."""
     tree = BuildTree(project, "dev", project.build / "dev", project.steps)
-    checks = _dev_checks(project, tree)
+    checks = [Check("build everything, warnings are errors", lambda: _build(tree, [])), *_program_checks(tree)]
     checks.append(Check("none, boxes and octree give the same picture", lambda: _same_pictures(project, tree)))
     checks += _python_checks(project)
     if full:
