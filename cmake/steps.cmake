@@ -9,7 +9,10 @@ set(RAYSTEPS_STEPS
 
 set(RAYSTEPS_SEAL OFF)
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT RAYSTEPS_SANITIZE AND CMAKE_LINKER AND CMAKE_OBJCOPY AND CMAKE_NM)
-    set(RAYSTEPS_SEAL ON)
+    execute_process(COMMAND "${CMAKE_LINKER}" --help OUTPUT_VARIABLE linker_help ERROR_QUIET)
+    if(linker_help MATCHES "force-group-allocation")
+        set(RAYSTEPS_SEAL ON)
+    endif()
 endif()
 
 # 02-intersection -> 02 and intersection

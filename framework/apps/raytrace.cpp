@@ -45,10 +45,10 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
     RenderOptions render_options{{options.step, options.view, options.depth}, acceleration_of(options),
                                  thread_count(options), options.crop, !options.quiet && stderr_is_terminal()};
     const Rendering rendering = render(scene, render_options);
-    write_ppm(rendering.image, options.output);
     if (!options.stats.empty()) {
         write_file(options.stats, stats_json(rendering, scene.surfaces().size()));
     }
+    write_ppm(rendering.image, options.output);
 }
 
 void run(const RaytraceOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 // Everything that a picture is made from.
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/camera.hpp"
@@ -16,6 +17,7 @@ public:
     std::vector<Light> lights;
 
     void add(std::unique_ptr<Surface> surface) {
+        surface->order_ = surfaces_.size();
         surfaces_.push_back(surface.get());
         owned_.push_back(std::move(surface));
     }

@@ -1,5 +1,6 @@
 #pragma once
 // What a ray can meet. Sphere and Triangle are the two that the steps deal with.
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,9 @@ public:
 
     [[nodiscard]] const Fill& fill() const { return fill_; }
 
+    /// Place in the scene, from 0. Of two hits at the same distance, the surface that comes first counts.
+    [[nodiscard]] std::size_t order() const { return order_; }
+
 protected:
     explicit Surface(const Fill& fill) : fill_(fill) {}
     Surface(const Surface&) = default;
@@ -35,7 +39,10 @@ protected:
     [[nodiscard]] virtual std::optional<HitRecord> intersect(const Ray& ray) const = 0;
 
 private:
+    friend class Scene;  // gives out the order
+
     Fill fill_;
+    std::size_t order_ = 0;
 };
 
 /// Surfaces that somebody else owns, usually a Scene.

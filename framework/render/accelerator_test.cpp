@@ -79,6 +79,32 @@ TEST_CASE("Many copies of one triangle do not make the octree grow without end",
     CHECK(hit->fill.kd == 0.0F);
 }
 
+TEST_CASE("A huge ground and small squares in the same plane: the first in the scene counts", "[render][accelerator]") {
+    Scene scene;
+    const auto add_square = [&scene](float left, float bottom, float size, float mark) {
+        Fill fill;
+        fill.kd = mark;
+        const glm::vec3 a(left, bottom, 0.0F);
+        const glm::vec3 b(left + size, bottom, 0.0F);
+        const glm::vec3 c(left + size, bottom + size, 0.0F);
+        const glm::vec3 d(left, bottom + size, 0.0F);
+        scene.add(std::make_unique<Triangle>(a, b, c, fill));
+        scene.add(std::make_unique<Triangle>(a, c, d, fill));
+    };
+    for (int i = 0; i < 25; ++i) {
+        add_square(static_cast<float>(i % 5), static_cast<float>(i / 5), 0.25F, 1.0F);
+    }
+    add_square(-8.0F, -8.0F, 32.0F, 2.0F);  // the ground comes last, so the squares are seen
+    const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    for (int i = 0; i < 400; ++i) {
+        const Ray ray{{0.05F + 0.25F * static_cast<float>(i % 20), 0.1F + 0.25F * static_cast<float>(i / 20), 4.0F},
+                      {0.0F, 0.0F, -1.0F}};
+        INFO("ray " << i);
+        check_same(brute->closest_hit(ray), octree->closest_hit(ray));
+    }
+}
+
 TEST_CASE("The octree spares nearly all tests", "[render][accelerator]") {
     Random random;
     INFO(random);

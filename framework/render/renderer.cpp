@@ -3,10 +3,10 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <thread>
 
 #include "render/encode.hpp"
 #include "render/progress.hpp"
+#include "render/threads.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 
@@ -67,14 +67,7 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const std::size_t count = tiles.size();
     Job job{scene, *accelerator, options, view_frame(scene.camera), crop, std::move(tiles), {}, {}, {},
             Progress(count, options.show_progress), Image(crop.width, crop.height)};
-    std::vector<std::thread> others;
-    for (int i = 1; i < options.threads; ++i) {
-        others.emplace_back([&job] { work(job); });
-    }
-    work(job);
-    for (std::thread& other : others) {
-        other.join();
-    }
+    run_on_threads(options.threads, [&job] { work(job); });
     job.progress.finish();
     return {std::move(job.image), job.stats, build_seconds, seconds_since(render_start)};
 }

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <glm/geometric.hpp>
 #include <mutex>
-#include <thread>
 
 #include "core/tracer.hpp"
+#include "render/threads.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"
@@ -90,7 +90,7 @@ Stats count_spd_rays(const Scene& scene, const Accelerator& accelerator, int thr
     std::atomic<int> next_row{0};
     std::mutex mutex;
     Stats total;
-    const auto work = [&] {
+    run_on_threads(threads, [&] {
         thread_stats() = Stats{};
         SpdCounter counter(scene, accelerator);
         for (int row = next_row++; row < k_corners; row = next_row++) {
@@ -100,15 +100,7 @@ Stats count_spd_rays(const Scene& scene, const Accelerator& accelerator, int thr
         }
         const std::lock_guard lock(mutex);
         total += thread_stats();
-    };
-    std::vector<std::thread> others;
-    for (int i = 1; i < threads; ++i) {
-        others.emplace_back(work);
-    }
-    work();
-    for (std::thread& other : others) {
-        other.join();
-    }
+    });
     return total;
 }
 

@@ -3,12 +3,10 @@
 #include "core/unfinished.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 namespace raysteps {
@@ -22,11 +20,6 @@ constexpr float k_padding = 2e-6F;         // share of the scene's size by which
 constexpr float k_distance_slack = 1e-5F;  // share of a distance within which rounding may move it
 
 float diagonal(const Box& box) { return glm::length(box.max - box.min); }
-
-void include(Box& box, const Box& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
-}
 
 /// Whether a line of direction `axis` separates the triangle from a box centred at the origin.
 bool separates(const glm::vec3& axis, const std::array<glm::vec3, 3>& corners, const glm::vec3& half) {
@@ -97,25 +90,30 @@ SurfaceList oversized(const SurfaceList& surfaces) {
     return large.size() <= k_most ? large : SurfaceList{};
 }
 
-using Closest = std::optional<HitRecord>;
+struct Closest {
+    std::optional<HitRecord> hit;
+    std::size_t order = 0;
+};
 
-void test_list(const SurfaceList& surfaces, const Ray& ray, float farthest, Closest& closest) {
+/// Boxes are not visited in the order of the scene, so surfaces at the same distance are told apart by it.
+void test_list(const SurfaceList& surfaces, const Ray& ray, Closest& closest) {
     for (const Surface* surface : surfaces) {
         const std::optional<HitRecord> hit = surface->hit(ray);
-        // A hit beyond this box is found again in the box where it lies, among its neighbours.
-        if (hit && hit->distance <= farthest && (!closest || hit->distance < closest->distance)) {
-            closest = hit;
+        if (!hit) {
+            continue;
+        }
+        const bool nearer = !closest.hit || hit->distance < closest.hit->distance;
+        if (nearer || (hit->distance == closest.hit->distance && surface->order() < closest.order)) {
+            closest = {hit, surface->order()};
         }
     }
 }
 
-void visit(const Node& node, const Ray& ray, const Interval& inside, Closest& closest) {
-    constexpr float k_infinity = std::numeric_limits<float>::infinity();
-    const float leave = node.children.empty() ? inside.leave * (1.0F + k_distance_slack) : k_infinity;
-    test_list(node.surfaces, ray, leave, closest);
+void visit(const Node& node, const Ray& ray, Closest& closest) {
+    test_list(node.surfaces, ray, closest);
 
     struct Entry {
-        Interval part;
+        float enter = 0.0F;
         const Node* child = nullptr;
     };
     std::array<Entry, 8> order;  // sorted by where the ray enters
@@ -123,18 +121,17 @@ void visit(const Node& node, const Ray& ray, const Interval& inside, Closest& cl
     for (const Node& child : node.children) {
         if (const std::optional<Interval> part = child.box.hit(ray)) {
             std::size_t place = count++;
-            for (; place > 0 && part->enter < order[place - 1].part.enter; --place) {
+            for (; place > 0 && part->enter < order[place - 1].enter; --place) {
                 order[place] = order[place - 1];
             }
-            order[place] = {*part, &child};
+            order[place] = {part->enter, &child};
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const auto& [part, child] = order[i];
-        if (closest && closest->distance < part.enter * (1.0F - k_distance_slack)) {
+        if (closest.hit && closest.hit->distance < order[i].enter * (1.0F - k_distance_slack)) {
             return;  // this box and all after it begin behind the hit
         }
-        visit(*child, ray, part, closest);
+        visit(*order[i].child, ray, closest);
     }
 }
 
@@ -143,7 +140,9 @@ void visit(const Node& node, const Ray& ray, const Interval& inside, Closest& cl
 Box bounds_of(const SurfaceList& surfaces) {
     Box box;
     for (const Surface* surface : surfaces) {
-        include(box, surface->bounds());
+        const Box bounds = surface->bounds();
+        box.min = glm::min(box.min, bounds.min);
+        box.max = glm::max(box.max, bounds.max);
     }
     return box;
 }
@@ -235,10 +234,10 @@ Node build_octree(const SurfaceList& surfaces) {
 
 std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     Closest closest;
-    if (const std::optional<Interval> inside = root.box.hit(ray)) {
-        visit(root, ray, *inside, closest);
+    if (root.box.hit(ray)) {
+        visit(root, ray, closest);
     }
-    return closest;
+    return closest.hit;
 }
 
 }  // namespace raysteps

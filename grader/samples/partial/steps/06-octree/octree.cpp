@@ -3,12 +3,10 @@
 #include "core/unfinished.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 namespace raysteps {
