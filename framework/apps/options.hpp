@@ -17,10 +17,10 @@ struct Size {
 struct RaytraceOptions {
     std::string scene;
     std::string output;
-    std::string stats;                         ///< empty: none wanted
+    std::string stats;  ///< empty: none wanted
     int step = 8;
     View view = View::color;
-    std::optional<Size> size;                  ///< nothing: the scene's resolution
+    std::optional<Size> size;  ///< nothing: the scene's resolution
     int depth = 5;
     int threads = 0;                           ///< 0: one per core
     std::optional<Acceleration> acceleration;  ///< nothing: none before step 06, octree from there on

@@ -19,9 +19,9 @@ std::string complaint_about(const std::vector<std::string>& arguments) {
 }  // namespace
 
 TEST_CASE("All options are read, in any order", "[apps]") {
-    const RaytraceOptions options =
-        parse_options({"--step", "2", "a.nff", "--size", "320x240", "--crop", "1,2,3,4", "-o", "b.ppm", "--accel", "boxes",
-                       "--depth", "7", "--threads", "3", "--view", "normals", "--stats", "c.json", "--quiet"});
+    const RaytraceOptions options = parse_options(
+        {"--step", "2",       "a.nff", "--size",    "320x240", "--crop", "1,2,3,4", "-o",      "b.ppm",  "--accel",
+         "boxes",  "--depth", "7",     "--threads", "3",       "--view", "normals", "--stats", "c.json", "--quiet"});
     CHECK(options.scene == "a.nff");
     CHECK(options.output == "b.ppm");
     CHECK(options.stats == "c.json");
@@ -43,13 +43,16 @@ TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({}) == "expected a scene, like scenes/lessons/three-spheres.nff");
     CHECK(complaint_about({"a.nff"}) == "expected -o FILE for the picture");
     CHECK(complaint_about({"a.nff", "-o"}) == "-o: expected a value after it");
-    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "9"}) == "--step: expected a whole number from 1 to 8, found '9'");
-    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "2x"}) == "--step: expected a whole number from 1 to 8, found '2x'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "9"}) ==
+          "--step: expected a whole number from 1 to 8, found '9'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "2x"}) ==
+          "--step: expected a whole number from 1 to 8, found '2x'");
     CHECK(complaint_about({"a.nff", "-o", "b", "--size", "0x5"}) ==
           "--size: expected WxH in pixels, each from 1 to 16384, like 320x240, found '0x5'");
     CHECK(complaint_about({"a.nff", "-o", "b", "--crop", "1,2,3"}) ==
           "--crop: expected X,Y,W,H in pixels, like 10,20,64,48, found '1,2,3'");
-    CHECK(complaint_about({"a.nff", "-o", "b", "--accel", "bvh"}) == "--accel: expected none, boxes or octree, found 'bvh'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--accel", "bvh"}) ==
+          "--accel: expected none, boxes or octree, found 'bvh'");
     CHECK(complaint_about({"a.nff", "c.nff", "-o", "b"}) ==
           "argument: expected one scene and the options listed by --help, found 'c.nff'");
 }

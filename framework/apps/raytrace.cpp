@@ -42,8 +42,11 @@ void print_spd_counts(const Scene& scene, const RaytraceOptions& options) {
 }
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
-    RenderOptions render_options{{options.step, options.view, options.depth}, acceleration_of(options),
-                                 thread_count(options), options.crop, !options.quiet && stderr_is_terminal()};
+    RenderOptions render_options{{options.step, options.view, options.depth},
+                                 acceleration_of(options),
+                                 thread_count(options),
+                                 options.crop,
+                                 !options.quiet && stderr_is_terminal()};
     const Rendering rendering = render(scene, render_options);
     if (!options.stats.empty()) {
         write_file(options.stats, stats_json(rendering, scene.surfaces().size()));

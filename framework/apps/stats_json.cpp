@@ -15,8 +15,9 @@ std::string stats_json(const Rendering& rendering, std::size_t surfaces) {
     out.precision(9);
     out << "{\n"
         << "  \"schema\": \"raysteps/stats/v1\",\n"
-        << "  \"rays\": {\"eye\": " << stats.eye << ", \"eye_hit\": " << stats.eye_hit << ", \"shadow\": " << stats.shadow
-        << ", \"reflect\": " << stats.reflect << ", \"refract\": " << stats.refract << "},\n"
+        << "  \"rays\": {\"eye\": " << stats.eye << ", \"eye_hit\": " << stats.eye_hit
+        << ", \"shadow\": " << stats.shadow << ", \"reflect\": " << stats.reflect << ", \"refract\": " << stats.refract
+        << "},\n"
         << "  \"surfaces\": " << surfaces << ",\n"
         << "  \"surface_tests\": " << stats.surface_tests << ",\n"
         << "  \"box_tests\": " << stats.box_tests << ",\n"

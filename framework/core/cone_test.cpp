@@ -149,7 +149,7 @@ TEST_CASE("a hollow sphere is seen from inside only", "[hollow_sphere]") {
     CHECK_FALSE(sphere.hit({{6, 4.1F, 3}, {-1, 0, 0}}));
     CHECK(sphere.overlaps(Box{{-5, -5, -5}, {5, 5, 5}}));
     CHECK_FALSE(sphere.overlaps(Box{{0.5F, 1.5F, 2.5F}, {1.5F, 2.5F, 3.5F}}));  // wholly inside
-    CHECK_FALSE(sphere.overlaps(Box{{2.5F, 3.5F, 4.5F}, {9, 9, 9}}));            // past the corner
+    CHECK_FALSE(sphere.overlaps(Box{{2.5F, 3.5F, 4.5F}, {9, 9, 9}}));           // past the corner
     CHECK_THAT(sphere.bounds().min, IsNear({-1, 0, 1}));
     CHECK_THAT(sphere.bounds().max, IsNear({3, 4, 5}));
 }

@@ -5,7 +5,10 @@
 namespace raysteps {
 
 SmoothTriangle::SmoothTriangle(const Corner& a, const Corner& b, const Corner& c, const Fill& fill)
-    : Triangle(a.position, b.position, c.position, fill), normal_a_(a.normal), normal_b_(b.normal), normal_c_(c.normal) {}
+    : Triangle(a.position, b.position, c.position, fill),
+      normal_a_(a.normal),
+      normal_b_(b.normal),
+      normal_c_(c.normal) {}
 
 // The flat triangle finds the hit; here only the normal changes. A corner's weight is the area of the
 // small triangle opposite to it, as a share of the whole (barycentric coordinates).

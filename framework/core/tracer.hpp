@@ -32,7 +32,7 @@ public:
     /// The colour that arrives along the ray.
     [[nodiscard]] virtual Color trace(const Ray& ray, int depth) = 0;
 
-    [[nodiscard]] virtual int max_ray_depth() const = 0;   ///< deepest ray that is still followed, >= 1
+    [[nodiscard]] virtual int max_ray_depth() const = 0;  ///< deepest ray that is still followed, >= 1
     [[nodiscard]] virtual Color background() const = 0;
 };
 

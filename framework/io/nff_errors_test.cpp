@@ -23,8 +23,7 @@ std::string error_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("an entity that NFF does not know", "[nff][errors]") {
-    CHECK(error_of(k_view + "  x 1 2\n") ==
-          "bad.nff:6:3: expected an entity (v, b, l, f, s, c, p or pp), found `x`");
+    CHECK(error_of(k_view + "  x 1 2\n") == "bad.nff:6:3: expected an entity (v, b, l, f, s, c, p or pp), found `x`");
     CHECK(error_of("b 0 0 0 0\n") == "bad.nff:1:9: expected an entity (v, b, l, f, s, c, p or pp), found `0`");
 }
 
@@ -71,8 +70,7 @@ TEST_CASE("numbers that are none, not finite or out of range", "[nff][errors]") 
 }
 
 TEST_CASE("surfaces that are none", "[nff][errors]") {
-    CHECK(error_of(k_view + "s 0 0 0 1") ==
-          "bad.nff:6:1: expected a fill `f` before the first surface, found `s`");
+    CHECK(error_of(k_view + "s 0 0 0 1") == "bad.nff:6:1: expected a fill `f` before the first surface, found `s`");
     CHECK(error_of(k_start + "s 0 0 0 0.0") ==
           "bad.nff:7:9: expected radius of the sphere, a number other than 0, found `0.0`");
     CHECK(error_of(k_start + "c 0 0 0 1 0 0 0 2") ==
@@ -86,8 +84,8 @@ TEST_CASE("surfaces that are none", "[nff][errors]") {
 
 TEST_CASE("absurd counts and files cut short", "[nff][errors]") {
     for (const std::string count : {"2", "-3", "1000001", "4.0", "18446744073709551616"}) {
-        CHECK(error_of(k_start + "p " + count).find(
-                  "bad.nff:7:3: expected number of vertices, a whole number from 3 to 1000000, found `") == 0);
+        CHECK(error_of(k_start + "p " + count)
+                  .find("bad.nff:7:3: expected number of vertices, a whole number from 3 to 1000000, found `") == 0);
     }
     CHECK(error_of(k_start + "p 1000000\n0 0 0\n") ==
           "bad.nff:9:1: expected x of the vertex, a number, found the end of the file");

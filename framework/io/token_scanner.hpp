@@ -21,7 +21,7 @@ public:
     /// The text must outlive the scanner and its tokens.
     TokenScanner(std::string_view text, std::string name);
 
-    Token next();              ///< the next token, which is consumed
+    Token next();                ///< the next token, which is consumed
     [[nodiscard]] Token peek();  ///< the next token, which stays
 
     /// Bytes consumed so far: the end of the last token that next() gave.

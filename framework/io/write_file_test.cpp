@@ -30,9 +30,7 @@ public:
     Folder& operator=(const Folder&) = delete;
 
     [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
-    [[nodiscard]] auto files() const {
-        return std::distance(fs::directory_iterator(path_), fs::directory_iterator());
-    }
+    [[nodiscard]] auto files() const { return std::distance(fs::directory_iterator(path_), fs::directory_iterator()); }
 
 private:
     fs::path path_;

@@ -70,7 +70,8 @@ TEST_CASE("Many copies of one triangle do not make the octree grow without end",
     for (int i = 0; i < 3000; ++i) {
         Fill fill;
         fill.kd = static_cast<float>(i);
-        scene.add(std::make_unique<Triangle>(glm::vec3(0.0F), glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 1.0F, 0.0F), fill));
+        scene.add(std::make_unique<Triangle>(glm::vec3(0.0F), glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 1.0F, 0.0F),
+                                             fill));
     }
     const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
     const auto hit = octree->closest_hit({{0.2F, 0.2F, 3.0F}, {0.0F, 0.0F, -1.0F}});

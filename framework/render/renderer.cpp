@@ -65,8 +65,17 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const Clock::time_point render_start = Clock::now();
     std::vector<Rect> tiles = tiles_of(crop);
     const std::size_t count = tiles.size();
-    Job job{scene, *accelerator, options, view_frame(scene.camera), crop, std::move(tiles), {}, {}, {},
-            Progress(count, options.show_progress), Image(crop.width, crop.height)};
+    Job job{scene,
+            *accelerator,
+            options,
+            view_frame(scene.camera),
+            crop,
+            std::move(tiles),
+            {},
+            {},
+            {},
+            Progress(count, options.show_progress),
+            Image(crop.width, crop.height)};
     run_on_threads(options.threads, [&job] { work(job); });
     job.progress.finish();
     return {std::move(job.image), job.stats, build_seconds, seconds_since(render_start)};

@@ -40,7 +40,7 @@ private:
     const Accelerator& accelerator_;
     StepOptions options_;
     RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
-    bool through_glass_ = false;    ///< whether step 08 is at work, so that a ray given to trace is refracted
+    bool through_glass_ = false;   ///< whether step 08 is at work, so that a ray given to trace is refracted
 };
 
 }  // namespace raysteps

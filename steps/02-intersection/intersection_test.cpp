@@ -18,9 +18,7 @@ Fill colored(const Color& color) {
 }
 
 /// A right angle at the origin, legs of length 1 along x and y; its front faces +z.
-Triangle corner_triangle() {
-    return {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, Fill{}};
-}
+Triangle corner_triangle() { return {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, Fill{}}; }
 
 /// Straight down -z onto (x, y) of the plane z = 0, from height 2.
 Ray down_onto(float x, float y) { return {{x, y, 2.0F}, {0.0F, 0.0F, -1.0F}}; }

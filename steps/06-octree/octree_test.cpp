@@ -60,8 +60,8 @@ void check_same_hit(const Node& root, const SurfaceList& surfaces, const Ray& ra
 }
 
 struct Sight {
-    bool in_some_leaf = false;   ///< a leaf at the point has the surface
-    bool in_every_leaf = true;   ///< every leaf around the point has it
+    bool in_some_leaf = false;  ///< a leaf at the point has the surface
+    bool in_every_leaf = true;  ///< every leaf around the point has it
 };
 
 /// Looks from the root down to the leaves around a point of the surface. A list in a box above a leaf counts too.
@@ -128,9 +128,7 @@ TEST_CASE("Box::clip: zeros in the direction and rays along faces and edges", "[
             CHECK(part->leave == about(6.0));
         }
     }
-    SECTION("a ray along an edge counts as a hit") {
-        CHECK(k_cube.clip({{1.0F, -1.0F, 5.0F}, k_down}).has_value());
-    }
+    SECTION("a ray along an edge counts as a hit") { CHECK(k_cube.clip({{1.0F, -1.0F, 5.0F}, k_down}).has_value()); }
     SECTION("a flat box is hit as well") {
         const Box flat{{-1.0F, -1.0F, 2.0F}, {1.0F, 1.0F, 2.0F}};
         const std::optional<Interval> part = flat.clip({{0.3F, 0.2F, 5.0F}, k_down});

@@ -36,17 +36,27 @@ private:
     std::size_t below(std::size_t limit) { return static_cast<std::size_t>(engine_()) % limit; }
 
     void change(std::string& bytes) {
-        static const std::vector<std::string_view> k_pieces{
-            "nan", "-inf", "1e40", "-1e-45", "0",  "-1", "1000000", "99999999999",
-            "p",   "pp",   "v",    "f",      "#", "\n", "\r\n"};
+        static const std::vector<std::string_view> k_pieces{"nan", "-inf",    "1e40",        "-1e-45", "0",
+                                                            "-1",  "1000000", "99999999999", "p",      "pp",
+                                                            "v",   "f",       "#",           "\n",     "\r\n"};
         const std::size_t at = below(bytes.size() + 1);
         const std::size_t length = std::min(bytes.size() - at, below(12));
         switch (below(6)) {
-            case 0: bytes.resize(at); break;
-            case 1: bytes.erase(at, length); break;
-            case 2: bytes.insert(at, bytes.substr(at, length)); break;
-            case 3: bytes.insert(at, 1, static_cast<char>(below(256))); break;
-            case 4: bytes.replace(at, length, k_pieces[below(k_pieces.size())]); break;
+            case 0:
+                bytes.resize(at);
+                break;
+            case 1:
+                bytes.erase(at, length);
+                break;
+            case 2:
+                bytes.insert(at, bytes.substr(at, length));
+                break;
+            case 3:
+                bytes.insert(at, 1, static_cast<char>(below(256)));
+                break;
+            case 4:
+                bytes.replace(at, length, k_pieces[below(k_pieces.size())]);
+                break;
             default:
                 if (at < bytes.size()) {
                     bytes[at] = static_cast<char>(below(256));

@@ -10,7 +10,8 @@ namespace raysteps {
 namespace {
 
 /// Whether the point, which lies in the plane, is on the inner side of the edge.
-bool on_inner_side(const glm::vec3& start, const glm::vec3& end, const glm::vec3& plane_normal, const glm::vec3& point) {
+bool on_inner_side(const glm::vec3& start, const glm::vec3& end, const glm::vec3& plane_normal,
+                   const glm::vec3& point) {
     return glm::dot(glm::cross(end - start, point - start), plane_normal) >= 0.0F;
 }
 
