@@ -42,7 +42,8 @@ def test_the_complete_sample_gets_everything(project: Project, tmp_path: Path) -
 def test_the_stubs_get_nothing(
     project: Project, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources
 ) -> None:
-    results = _grade(project, make_submission("stubs", unsolved), tmp_path)
+    commented = {step: source + "// I looked at it.\n" for step, source in unsolved.items()}
+    results = _grade(project, make_submission("stubs", commented), tmp_path)
     assert set(_status(results).values()) == {"not-started"}
     assert _points(results) == 0
     assert "still the stub" in results.steps[0].messages[0]
@@ -98,7 +99,44 @@ def test_partly_done_steps_name_what_is_left(
     left = 'RAYSTEPS_TODO("03-phong-shading", "specular");'
     source = _inserted(solved["03-phong-shading"], "specular", left)
     results = _grade(project, make_submission("partly", {steps[2].id: source}), tmp_path)
-    assert "Still to be written: specular." in results.steps[2].messages
+    assert "RAYSTEPS_TODO is still in: specular." in results.steps[2].messages
+
+
+def test_todo_lines_above_finished_code_cost_nothing(
+    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
+) -> None:
+    source = solved["04-shadows"]
+    for function in steps[3].functions:
+        source = _inserted(source, function, f'RAYSTEPS_TODO("04-shadows", "{function}");')
+    results = _grade(project, make_submission("todo", {"04-shadows": source}), tmp_path / "out")
+    assert results.steps[3].status == "passed"
+    assert results.steps[3].points == results.steps[3].max
+    assert results.steps[3].messages[0].startswith("RAYSTEPS_TODO is still in: ")
+
+
+def test_brute_force_in_disguise_gets_at_most_half(
+    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    """An octree of one leaf makes the right picture, but spares the rays nothing."""
+    source = solved["06-octree"]
+    start = source.index("    if (surfaces.empty()) {\n        return {};", source.index("Node build_octree("))
+    source = (
+        source[:start]
+        + "    return Node{bounds_of(surfaces), surfaces, {}};\n"
+        + source[source.index("}\n\n", start) :]
+    )
+    source = '#pragma GCC diagnostic ignored "-Wunused-function"\n' + source
+    result = _grade(project, make_submission("leaf", {"06-octree": source}), tmp_path / "out").steps[5]
+    assert result.status == "partial", result.messages
+    assert 0 < result.points <= result.max / 2
+    for image in result.images:
+        assert not image.passed, image.name
+        assert image.wrong_share is not None
+        assert image.share_tested is not None
+        assert image.max_share is not None
+        assert image.wrong_share <= image.max_wrong
+        assert image.share_tested > image.max_share
+        assert image.message.startswith("The picture is right, but each ray tested ")
 
 
 @pytest.mark.parametrize("name", ["with space", "unicöde"])

@@ -4,12 +4,15 @@ import io
 import os
 import tarfile
 import zipfile
+from contextlib import suppress
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
+from raysteps import intake
 from raysteps.errors import UsageError
-from raysteps.intake import take_in
+from raysteps.intake import submission_name, take_in
 from raysteps.manifest import Step
 
 LAYOUTS = [
@@ -127,3 +130,55 @@ def test_junk_is_a_usage_error(tmp_path: Path, steps: list[Step], data: bytes) -
         take_in(path, steps)
     with pytest.raises(UsageError, match="no such submission"):
         take_in(tmp_path / "missing", steps)
+
+
+@pytest.mark.parametrize("kind", ["folder", "zip", "tar"])
+def test_too_many_files_are_refused(
+    tmp_path: Path, steps: list[Step], kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(intake, "_MAX_ENTRIES", 8)
+    files = {f"{place}/{number}": b"x" for number in range(20) for place in (".venv", "a/b/c/d/e")}
+    files["intersection.cpp"] = b"int x;"
+
+    def pack(name: str) -> Path:
+        if kind != "folder":
+            return (_zip if kind == "zip" else _tar)(tmp_path / f"{name}.{kind}", files)
+        for inner, data in files.items():
+            (tmp_path / name / inner).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / name / inner).write_bytes(data)
+        return tmp_path / name
+
+    assert take_in(pack("few"), steps).sources == {"02-intersection": b"int x;"}
+    files |= {f"more/{number}": b"x" for number in range(9)}
+    with pytest.raises(UsageError, match="more than 8 files"):
+        take_in(pack("many"), steps)
+
+
+def test_a_tar_bomb_is_refused(tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(intake, "_MAX_UNPACKED", 2 << 20)
+    path = _tar(tmp_path / "a.tgz", {"zeros": b"\0" * (3 << 20), "intersection.cpp": b"int x;"})
+    with pytest.raises(UsageError, match="MB unpacked"):
+        take_in(path, steps)
+
+
+@pytest.mark.parametrize("ending", ["gz", "xz", "bz2"])
+def test_damaged_archives_are_a_usage_error(tmp_path: Path, steps: list[Step], ending: str) -> None:
+    whole = tmp_path / f"whole.tar.{ending}"
+    modes: dict[str, Literal["w:gz", "w:xz", "w:bz2"]] = {"gz": "w:gz", "xz": "w:xz", "bz2": "w:bz2"}
+    with tarfile.open(whole, modes[ending]) as archive:
+        info = tarfile.TarInfo("intersection.cpp")
+        info.size = 200_000
+        archive.addfile(info, io.BytesIO(os.urandom(info.size)))
+    data = whole.read_bytes()
+    middle = len(data) // 2
+    for number, broken in enumerate([data[:middle], data[:middle] + b"\xff" * 5000 + data[middle + 5000 :]]):
+        path = tmp_path / f"{number}.tar.{ending}"
+        path.write_bytes(broken)
+        with suppress(UsageError):  # damage shows only where the format has a checksum; no other exception may come
+            take_in(path, steps)
+
+
+def test_names_that_are_not_utf8(tmp_path: Path) -> None:
+    folder = Path(os.fsdecode(os.fsencode(tmp_path) + b"/an\xffna"))
+    assert submission_name(folder) == "an?na"
+    assert submission_name(Path("/")) == "submission"

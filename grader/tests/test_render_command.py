@@ -1,9 +1,12 @@
 """The arguments of `render`."""
 
+from pathlib import Path
+
 import pytest
 
+from raysteps.cli import main
 from raysteps.errors import UsageError
-from raysteps.render_command import take_impl
+from raysteps.render_command import run_raytrace, take_impl
 
 
 def test_impl_is_taken_out() -> None:
@@ -16,3 +19,18 @@ def test_impl_is_taken_out() -> None:
 def test_other_impls_are_refused(words: list[str]) -> None:
     with pytest.raises(UsageError, match="mine or reference"):
         take_impl(words)
+
+
+def test_a_crash_of_the_renderer_is_a_failure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program = tmp_path / "raytrace-mine"
+    program.write_text("#!/bin/sh\nkill -SEGV $$\n")
+    program.chmod(0o755)
+    with pytest.raises(SystemExit) as caught:
+        run_raytrace(program, [])
+    assert caught.value.code == 1
+    assert "raytrace-mine crashed (SIGSEGV)" in capsys.readouterr().err
+
+
+def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "abc")
+    assert main(["grade", "/no/such/submission"]) == 2

@@ -110,6 +110,11 @@ void test_list(const SurfaceList& surfaces, const Ray& ray, Closest& closest) {
     }
 }
 
+/// Whether a box that the ray enters there can only hold hits behind the closest one.
+bool begins_behind(float enter, const Closest& closest) {
+    return closest.hit && closest.hit->distance < enter * (1.0F - k_distance_slack);
+}
+
 void visit(const Node& node, const Ray& ray, Closest& closest) {
     test_list(node.surfaces, ray, closest);
 
@@ -120,7 +125,8 @@ void visit(const Node& node, const Ray& ray, Closest& closest) {
     std::array<Entry, 8> order;  // sorted by where the ray enters
     std::size_t count = 0;
     for (const Node& child : node.children) {
-        if (const std::optional<Interval> part = child.box.hit(ray)) {
+        const std::optional<Interval> part = child.box.hit(ray);
+        if (part && !begins_behind(part->enter, closest)) {
             std::size_t place = count++;
             for (; place > 0 && part->enter < order[place - 1].enter; --place) {
                 order[place] = order[place - 1];
@@ -129,8 +135,8 @@ void visit(const Node& node, const Ray& ray, Closest& closest) {
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        if (closest.hit && closest.hit->distance < order[i].enter * (1.0F - k_distance_slack)) {
-            return;  // this box and all after it begin behind the hit
+        if (begins_behind(order[i].enter, closest)) {
+            return;  // and so do all boxes after it
         }
         visit(*order[i].child, ray, closest);
     }
@@ -171,25 +177,18 @@ std::optional<Interval> Box::clip(const Ray& ray) const {
     // BEGIN SOLUTION Box::clip
     // TODO: Shorten the ray's interval by the two planes of each axis, until it is empty or all six are done.
     // RETURN std::nullopt
+    // Along an axis whose direction is 0 the distances are infinite: they leave the interval as it is, or make it
+    // empty where the origin is outside. On the very plane 0 * infinity is NaN, which max and min pass over.
+    const glm::vec3 inverse = 1.0F / ray.direction;
     Interval inside;
     for (int axis = 0; axis < 3; ++axis) {
-        const float origin = ray.origin[axis];
-        const float direction = ray.direction[axis];
-        if (direction == 0.0F) {
-            if (origin < min[axis] || origin > max[axis]) {
-                return std::nullopt;  // along this slab, outside it
-            }
-            continue;
-        }
-        const float at_min = (min[axis] - origin) / direction;
-        const float at_max = (max[axis] - origin) / direction;
-        inside.enter = std::max(inside.enter, std::min(at_min, at_max));
-        inside.leave = std::min(inside.leave, std::max(at_min, at_max));
-        if (inside.enter > inside.leave) {
-            return std::nullopt;
-        }
+        const bool upwards = inverse[axis] >= 0.0F;
+        const float near_plane = upwards ? min[axis] : max[axis];
+        const float far_plane = upwards ? max[axis] : min[axis];
+        inside.enter = std::max(inside.enter, (near_plane - ray.origin[axis]) * inverse[axis]);
+        inside.leave = std::min(inside.leave, (far_plane - ray.origin[axis]) * inverse[axis]);
     }
-    return inside;
+    return inside.enter <= inside.leave ? std::optional(inside) : std::nullopt;
     // END SOLUTION
 }
 

@@ -18,8 +18,13 @@ _ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?
 _LINK_ERROR = re.compile(
     r"^.*(?:undefined reference to|multiple definition of|undefined symbol|duplicate symbol).*$", re.M
 )
+_MACHINE = re.compile(
+    r"No space left on device|Disk quota exceeded|Read-only file system|signal terminated program|^Killed$",
+    re.M,
+)
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
+_COMPILER_MEMORY_MB = 8192
 
 
 @dataclass(frozen=True)
@@ -49,13 +54,25 @@ class BuildTree:
         return found.group(1) if found else ""
 
     def is_configured(self) -> bool:
-        generated = any((self.folder / name).is_file() for name in ("build.ninja", "Makefile"))
+        home = self.cached("CMAKE_HOME_DIRECTORY")
+        generated = home == str(self.project.root) and any(
+            (self.folder / name).is_file() for name in ("build.ninja", "Makefile")
+        )
         return generated and self.cached("RAYSTEPS_MINE_DIR") == str(self.mine)
+
+    def forget_other_home(self) -> None:
+        """CMake refuses a build folder whose sources were elsewhere, as in a clone that was moved or copied."""
+        home = self.cached("CMAKE_HOME_DIRECTORY")
+        if home and home != str(self.project.root):
+            (self.folder / "CMakeCache.txt").unlink(missing_ok=True)
+            for folder in (self.folder / "CMakeFiles", *self.folder.glob("_deps/*-subbuild")):
+                shutil.rmtree(folder, ignore_errors=True)
 
     def configure(self) -> None:
         """Configures once; later changes of the CMake files are noticed by the build itself."""
         if self.is_configured():
             return
+        self.forget_other_home()
         command: list[str | Path] = ["cmake", "--preset", self.preset, "-S", self.project.root, "-B", self.folder]
         command += [f"-DRAYSTEPS_MINE_DIR={self.mine}", *self.options]
         generator = self.cached("CMAKE_GENERATOR") or ("Ninja" if shutil.which("ninja") else "")
@@ -74,7 +91,9 @@ class BuildTree:
             command += ["--target", *targets]
         if keep_going:
             command += ["--", *(["-k", "0"] if self.cached("CMAKE_GENERATOR") == "Ninja" else ["-k"])]
-        return run(command, seconds=seconds, cwd=self.project.root, limited=False)
+        # A program with sanitizers, which a build may run, reserves more addresses than any limit allows.
+        memory = None if self.preset == "asan" else _COMPILER_MEMORY_MB
+        return run(command, seconds=seconds, cwd=self.project.root, limited=False, memory_mb=memory)
 
     @contextmanager
     def locked(self) -> Iterator[None]:
@@ -95,6 +114,24 @@ def what_failed(outcome: Outcome) -> str:
     text = printable(outcome.stdout + outcome.stderr)
     starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400) if at > 0]
     return shorten(text[min(starts, default=0) :], 6000)
+
+
+def is_fault_of_machine(outcome: Outcome) -> bool:
+    """Whether a build failed for want of disk or memory, whatever the sources say."""
+    return _MACHINE.search(outcome.stdout + outcome.stderr) is not None
+
+
+def is_fault_of_step(outcome: Outcome, source: Path, targets: list[str]) -> bool:
+    """Whether a failed build of a step is the work of its source: an error in it or by way of it, a link error of
+    its programs, or more time than there was. Everything else is the kit's or the machine's."""
+    if outcome.timed_out:
+        return True
+    output = printable(outcome.stdout + outcome.stderr)
+    if _MACHINE.search(output):
+        return False
+    if _ERROR.search(output):
+        return f"{source}:" in output
+    return _LINK_ERROR.search(output) is not None and any(target in output for target in targets)
 
 
 def first_error(output: str, mine: Path) -> str:

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -74,6 +75,14 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return work(project, check=arguments.check)
 
 
+def _console() -> Console:
+    """As wide as the terminal; 120 columns or more where there is none."""
+    if sys.stdout.isatty():
+        return Console()
+    columns = os.environ.get("COLUMNS", "")
+    return Console(width=max(120, int(columns)) if re.fullmatch(r"[0-9]{1,4}", columns) else 120)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
@@ -81,7 +90,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not words:
         parser.print_help(sys.stderr)
         return 2
-    console = Console(width=None if sys.stdout.isatty() else max(120, int(os.environ.get("COLUMNS", "0") or "0")))
+    console = _console()
     try:
         if words[0] == "render":
             return render(here(), words[1:])

@@ -7,21 +7,37 @@ from rich.markup import escape
 
 from raysteps.building import release_tree
 from raysteps.errors import GraderFault
+from raysteps.files import usable_folder
 from raysteps.manifest import ImageCase, read_steps
 from raysteps.pictures import write_png
 from raysteps.project import Project
 from raysteps.render_command import build_program
 from raysteps.rendering import render
+from raysteps.results import Results
 from raysteps.scenes import generated
 from raysteps.submissions import grade
+from raysteps.text import number
 
 _SIZE = "512x512"
 _SECONDS = 600
 
 
+def complain_about(sample: str, results: Results) -> None:
+    """A sample whose points are not what the kit promises is the kit's fault."""
+    points = sum(step.points for step in results.steps)
+    if sample == "complete":
+        as_promised = points == 110
+    else:
+        full = {step.id[:2]: step.points == step.max for step in results.steps}
+        as_promised = all(full[solved] for solved in ("01", "02", "03")) and not full["04"]
+    if not as_promised:
+        raise GraderFault(f"the sample submission {sample} got {number(points)} points, which is not what it is worth")
+
+
 def demo(project: Project, out: Path | None, console: Console) -> int:
     """Shows what the kit does, from a fresh clone."""
     folder = (out or project.build / "demo").resolve()
+    usable_folder(folder)
     console.print("Building the reference ray tracer (about a minute the first time).")
     program = build_program(release_tree(project), "reference")
     scene = generated(project, "sphereflake", 3)
@@ -39,5 +55,6 @@ def demo(project: Project, out: Path | None, console: Console) -> int:
         console.print(f"  {escape(str(path))}", soft_wrap=True, highlight=False)
     for sample in ("complete", "partial"):
         console.print(f"\nGrading the sample submission [bold]{sample}[/bold].")
-        grade(project, project.samples / sample, folder / sample, console, details=sample == "partial")
+        results = grade(project, project.samples / sample, folder / sample, console, details=sample == "partial")
+        complain_about(sample, results)
     return 0

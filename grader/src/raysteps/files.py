@@ -6,6 +6,18 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from raysteps.errors import UsageError
+
+
+def usable_folder(path: Path) -> None:
+    """Makes the folder that somebody named for results, or says that it cannot be written to."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    except OSError as error:
+        raise UsageError(f"{path}: results cannot be written there: {error.strerror or error}") from error
+
 
 def write_bytes(path: Path, data: bytes) -> None:
     """Writes to a temporary name in the same folder, then renames."""

@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.building import BuildTree, first_error, what_failed
+from raysteps.building import BuildTree, first_error, is_fault_of_machine, is_fault_of_step, what_failed
 from raysteps.errors import GraderFault
 from raysteps.manifest import Step
 from raysteps.rendering import ReferencePictures
 from raysteps.results import Cumulative, Results, Status, StepResult
-from raysteps.stubs import same_but_for_space, stub_for, unfinished_functions
+from raysteps.stubs import same_code, stub_for, unfinished_functions
 from raysteps.text import count, listed
 from raysteps.visible_images import Gallery, judge, judge_together
 from raysteps.visible_tests import expected_cases, run_tests
@@ -39,12 +39,12 @@ def _together_target(step: Step) -> str:
 
 
 def source_of(job: Job, step: Step) -> str | None:
-    """The student's file, or None when there is none or it is the stub."""
+    """The student's file, or None when there is none or its code is the stub's."""
     path = job.tree.mine / step.path
     if not path.is_file():
         return None
     source = path.read_text(encoding="utf-8", errors="replace")
-    return None if same_but_for_space(source, stub_for(job.tree.project, step)) else source
+    return None if same_code(source, stub_for(job.tree.project, step)) else source
 
 
 def _status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
@@ -87,19 +87,12 @@ class Grader:
     def grade(self) -> Results:
         """All chosen steps. The caller holds the lock of the build folder."""
         self._build_reference()
-        self._build_ahead([step for step in self._job.chosen if self._finished_functions(step)])
+        self._build_ahead([step for step in self._job.chosen if source_of(self._job, step) is not None])
         return Results(self._job.name, [self._grade_step(step) for step in self._job.chosen])
-
-    def _finished_functions(self, step: Step) -> list[str]:
-        source = source_of(self._job, step)
-        if source is None:
-            return []
-        left = unfinished_functions(source, step)
-        return [name for name in step.functions if name not in left]
 
     def _unstarted_before(self, step: Step) -> list[str]:
         earlier = [other for other in self._job.all_steps if other.index < step.index]
-        return [other.id for other in earlier if not self._finished_functions(other)]
+        return [other.id for other in earlier if source_of(self._job, other) is None]
 
     def _build_reference(self) -> None:
         job = self._job
@@ -118,22 +111,24 @@ class Grader:
             self._job.say(f"building {listed([step.id for step in steps])}")
             targets = [target for step in steps for target in _targets(step)]
             targets += [_together_target(step) for step in steps if not self._unstarted_before(step)]
-            self._job.tree.build(targets, keep_going=True)
+            self._job.tree.build(targets, keep_going=True, seconds=_BUILD_STEP_SECONDS)
 
     def _grade_step(self, step: Step) -> StepResult:
         job = self._job
         result = StepResult(step.id, "not-started", 0.0, step.points, step.bonus)
-        finished = self._finished_functions(step)
-        if not finished:
-            result.messages = [job.notes.get(step.id) or self._why_not_started(step)]
+        source = source_of(job, step)
+        if source is None:
+            result.messages = [job.notes.get(step.id) or f"{step.file} is still the stub."]
             result.cumulative = Cumulative(False, "This step was not started.")
             return result
         job.say(f"checking {step.id}")
-        left = [name for name in step.functions if name not in finished]
+        left = unfinished_functions(source, step)
         if left:
-            result.messages.append(f"Still to be written: {listed(left)}.")
+            result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
         built = job.tree.build(_targets(step), keep_going=True, seconds=_BUILD_STEP_SECONDS)
         if built.code != 0:
+            if not is_fault_of_step(built, job.tree.mine / step.path, _targets(step)):
+                raise GraderFault(f"{step.id} was not built, and its source is not the reason:\n{what_failed(built)}")
             result.status = "does-not-build"
             error = first_error(built.stdout + built.stderr, job.tree.mine)
             why = "The compiler took too long" if built.timed_out else "It does not build"
@@ -147,7 +142,7 @@ class Grader:
         job = self._job
         assert self._gallery is not None
         names = expected_cases(job.tree.program(f"test-reference-{step.number}"))
-        result.tests = run_tests(job.tree.program(f"test-isolated-{step.number}"), names, step.seconds)
+        result.tests = run_tests(job.tree.program(f"test-isolated-{step.number}"), names, step.seconds, step.memory_mb)
         program = job.tree.program(f"raytrace-isolated-{step.number}")
         result.images = [judge(self._gallery, program, step, case) for case in step.images]
         result.status, result.points = _status_and_points(result, step)
@@ -163,12 +158,8 @@ class Grader:
         target = _together_target(step)
         built = job.tree.build([target], seconds=_BUILD_STEP_SECONDS)
         if built.code != 0:
+            if is_fault_of_machine(built):
+                raise GraderFault(f"{target} was not built:\n{what_failed(built)}")
             error = first_error(built.stdout + built.stderr, job.tree.mine)
             return Cumulative(False, f"The steps do not build together: {error}" if error else "They do not build.")
         return judge_together(self._gallery, job.tree.program(target), step)
-
-    def _why_not_started(self, step: Step) -> str:
-        source = source_of(self._job, step)
-        if source is None:
-            return f"{step.file} is still the stub."
-        return f"The RAYSTEPS_TODO lines of all functions are still in {step.file}: {listed(list(step.functions))}."

@@ -1,18 +1,33 @@
 """Takes a submission in: a folder or an archive, of which only the known source files count."""
 
+import lzma
 import stat
 import tarfile
 import zipfile
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from raysteps.errors import UsageError
 from raysteps.manifest import Step
+from raysteps.text import printable
 
 _MAX_SOURCE = 1 << 20
 _MAX_ENTRIES = 20_000
-_MAX_DEPTH = 8
+_MAX_DEPTH = 4  # of an accepted place: top folder, steps, step, file
+_MAX_UNPACKED = 256 << 20
+_DAMAGED = (
+    OSError,
+    tarfile.TarError,
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    ValueError,
+    EOFError,
+    RuntimeError,  # an encrypted zip
+    NotImplementedError,
+)
 
 
 @dataclass(frozen=True)
@@ -43,35 +58,62 @@ def _wanted(steps: list[Step]) -> dict[tuple[str, ...], tuple[int, str]]:
     return places
 
 
+def _is_out_of_sight(path: PurePosixPath) -> bool:
+    """What counts as nothing, not even as a file too many: folders of tools, and what lies too deep."""
+    folders = [part for part in path.parts[:-1] if part != "."]
+    return len(folders) >= _MAX_DEPTH or any(part.startswith(".") or part == "__MACOSX" for part in folders)
+
+
+def _too_many(root: Path) -> UsageError:
+    return UsageError(f"{root}: more than {_MAX_ENTRIES} files; hand in the steps only")
+
+
 def _folder_entries(root: Path) -> Iterator[_Entry]:
     stack = [(root, PurePosixPath())]
     seen = 0
     while stack:
         folder, prefix = stack.pop()
         for child in sorted(folder.iterdir()):
+            status = child.lstat()
+            if stat.S_ISDIR(status.st_mode) and (child.name.startswith(".") or child.name == "build"):
+                continue
             seen += 1
             if seen > _MAX_ENTRIES:
-                raise UsageError(f"{root}: more than {_MAX_ENTRIES} files; hand in the steps only")
-            status = child.lstat()
-            if stat.S_ISDIR(status.st_mode) and len(prefix.parts) < _MAX_DEPTH and child.name not in (".git", "build"):
+                raise _too_many(root)
+            if stat.S_ISDIR(status.st_mode) and len(prefix.parts) + 1 < _MAX_DEPTH:
                 stack.append((child, prefix / child.name))
             elif stat.S_ISREG(status.st_mode):
                 yield _Entry(prefix / child.name, status.st_size, child)
 
 
-def _zip_entries(archive: zipfile.ZipFile) -> Iterator[_Entry]:
-    for info in archive.infolist()[:_MAX_ENTRIES]:
+def _zip_entries(archive: zipfile.ZipFile, root: Path) -> Iterator[_Entry]:
+    seen = 0
+    for info in archive.infolist():
+        path = PurePosixPath(info.filename.replace("\\", "/"))
+        if _is_out_of_sight(path):
+            continue
+        seen += 1
+        if seen > _MAX_ENTRIES:
+            raise _too_many(root)
         kind = stat.S_IFMT(info.external_attr >> 16)
         if not info.is_dir() and kind in (0, stat.S_IFREG):
-            yield _Entry(PurePosixPath(info.filename.replace("\\", "/")), info.file_size, info)
+            yield _Entry(path, info.file_size, info)
 
 
-def _tar_entries(archive: tarfile.TarFile) -> Iterator[_Entry]:
-    for count, info in enumerate(archive):
-        if count >= _MAX_ENTRIES:
-            return
+def _tar_entries(archive: tarfile.TarFile, root: Path) -> Iterator[_Entry]:
+    seen = 0
+    for info in archive:
+        # A compressed archive is unpacked up to where its next entry begins, before that entry can be read.
+        if archive.offset > _MAX_UNPACKED:
+            raise UsageError(f"{root}: more than {_MAX_UNPACKED >> 20} MB unpacked; hand in the steps only")
+        path = PurePosixPath(info.name)
+        if _is_out_of_sight(path):
+            continue
+        seen += 1
+        if seen > _MAX_ENTRIES:
+            raise _too_many(root)
         if info.isreg():
-            yield _Entry(PurePosixPath(info.name), info.size, info)
+            yield _Entry(path, info.size, info)
 
 
 def _place(path: PurePosixPath, wanted: dict[tuple[str, ...], tuple[int, str]]) -> tuple[int, str] | None:
@@ -143,12 +185,13 @@ def _collect(
 
 def submission_name(path: Path) -> str:
     """The name of the folder, or of the archive without its ending."""
-    name = path.resolve().name
+    # A name that is not UTF-8 carries halves of surrogates, which neither JSON nor a terminal takes.
+    name = printable(path.resolve().name.encode("utf-8", "replace").decode("utf-8")).strip()
     for ending in (".tar.gz", ".tgz", ".tar.xz", ".tar.bz2", ".tar", ".zip"):
         if path.is_file() and name.lower().endswith(ending):
             name = name[: -len(ending)]
             break
-    return name or "submission"
+    return "submission" if name in ("", ".", "..") else name
 
 
 def take_in(path: Path, steps: list[Step]) -> Submission:
@@ -161,11 +204,11 @@ def take_in(path: Path, steps: list[Step]) -> Submission:
             raise UsageError(f"{path}: there is no such submission")
         elif zipfile.is_zipfile(path):
             with zipfile.ZipFile(path) as zipped:
-                submission = _collect(name, _pick(_zip_entries(zipped), steps), zipped)
+                submission = _collect(name, _pick(_zip_entries(zipped, path), steps), zipped)
         else:
             with tarfile.open(path) as tarred:
-                submission = _collect(name, _pick(_tar_entries(tarred), steps), tarred)
-    except (OSError, tarfile.TarError, zipfile.BadZipFile, EOFError, RuntimeError, NotImplementedError) as error:
+                submission = _collect(name, _pick(_tar_entries(tarred, path), steps), tarred)
+    except _DAMAGED as error:
         raise UsageError(f"{path}: cannot be read as a folder, zip or tar ({error})") from error
     if not submission.sources and not submission.notes:
         raise UsageError(f"{path}: holds no step; expected files like steps/{steps[0].path.as_posix()}")

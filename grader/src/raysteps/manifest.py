@@ -12,12 +12,13 @@ from raysteps.project import Project
 
 @dataclass(frozen=True)
 class ImageCase:
-    """One picture of a step: what to render and how many pixels may be wrong."""
+    """One picture: what to render, how many pixels may be wrong, how many of the objects a ray may be tested with."""
 
     name: str
     scene: str
     args: tuple[str, ...]
     max_wrong: float
+    max_share: float | None = None
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ class Step:
     weight_images: float
     seconds: float
     images: tuple[ImageCase, ...]
+    memory_mb: int = 4096
 
     @property
     def number(self) -> str:
@@ -61,6 +63,7 @@ def _image(table: dict[str, Any]) -> ImageCase:
         scene=str(table["scene"]),
         args=tuple(str(arg) for arg in table.get("args", [])),
         max_wrong=float(table["max_wrong"]),
+        max_share=float(table["max_share"]) if "max_share" in table else None,
     )
 
 
@@ -81,6 +84,7 @@ def read_step(path: Path) -> Step:
             weight_images=float(weights["images"]),
             seconds=float(table["limits"]["seconds"]),
             images=tuple(_image(image) for image in table.get("images", [])),
+            memory_mb=int(table["limits"].get("memory_mb", 4096)),
         )
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error

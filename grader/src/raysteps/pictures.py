@@ -1,5 +1,6 @@
 """Reads and compares pictures."""
 
+import io
 import os
 import re
 import stat
@@ -10,6 +11,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
+
+from raysteps.files import write_bytes
 
 Pixels: TypeAlias = npt.NDArray[np.uint8]
 
@@ -47,13 +50,9 @@ def read_ppm(path: Path) -> Pixels:
 
 def write_png(pixels: Pixels, path: Path) -> None:
     """Writes to a temporary name, then renames."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.part")
-    try:
-        Image.fromarray(pixels).save(temporary, format="PNG")
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    data = io.BytesIO()
+    Image.fromarray(pixels).save(data, format="PNG")
+    write_bytes(path, data.getvalue())
 
 
 def is_flat(pixels: Pixels) -> bool:

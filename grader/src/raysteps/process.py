@@ -7,7 +7,9 @@ import signal
 import subprocess
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 _MEGABYTE = 1 << 20
@@ -35,9 +37,16 @@ class Outcome:
             return f"signal {-self.code}"
 
 
-def _limit() -> None:
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (_FILE_LIMIT, _FILE_LIMIT))
+def _limit(files: bool, memory_mb: int | None) -> None:
+    if files:
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (_FILE_LIMIT, _FILE_LIMIT))
+    if memory_mb is not None:
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        limit = memory_mb * _MEGABYTE
+        if most == resource.RLIM_INFINITY or limit < most:
+            with suppress(OSError, ValueError):  # a system that knows no such limit
+                resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 
 
 def _kill_group(pid: int) -> None:
@@ -87,6 +96,7 @@ def run(
     seconds: float,
     cwd: Path | None = None,
     limited: bool = True,
+    memory_mb: int | None = None,
     cap: int = _MEGABYTE,
 ) -> Outcome:
     """Runs the words of a command, never a shell; kills its whole process group in the end."""
@@ -98,7 +108,7 @@ def run(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        preexec_fn=_limit if limited else None,
+        preexec_fn=partial(_limit, limited, memory_mb),
     )
     with process:
         try:

@@ -1,12 +1,13 @@
 """The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
 
+import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 from raysteps.building import BuildTree, first_error, release_tree, what_failed
-from raysteps.errors import GraderFault, RaystepsError, StudentBuildError, UsageError
+from raysteps.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.pictures import PictureError, read_ppm, write_png
 from raysteps.project import Project
 
@@ -46,7 +47,9 @@ def run_raytrace(program: Path, args: list[str]) -> None:
     """Runs the program on this terminal, so that its progress bar shows."""
     code = subprocess.run([program, *args], check=False).returncode
     if code < 0:
-        raise RaystepsError(f"the program crashed (signal {-code})")
+        name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
+        print(f"raysteps: {program.name} crashed ({name}) while it rendered", file=sys.stderr)
+        raise SystemExit(1)
     if code != 0:
         raise SystemExit(code)
 
@@ -60,7 +63,7 @@ def render(project: Project, args: list[str]) -> int:
         run_raytrace(program, args)
         return 0
     target = Path(args[at])
-    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         picture = Path(folder) / "picture.ppm"
         run_raytrace(program, [*args[:at], str(picture), *args[at + 1 :]])
         if not picture.exists():  # such as --help, which renders nothing

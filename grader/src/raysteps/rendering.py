@@ -1,6 +1,9 @@
 """Runs one of the raytrace programs."""
 
 import hashlib
+import json
+import math
+import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +15,8 @@ from raysteps.pictures import PictureError, Pixels, read_ppm
 from raysteps.process import Outcome, run
 from raysteps.project import Project
 
+_MAX_STATS = 1 << 16
+
 
 @dataclass(frozen=True)
 class Rendered:
@@ -20,18 +25,32 @@ class Rendered:
     outcome: Outcome
     pixels: Pixels | None
     problem: str = ""
+    share_tested: float | None = None
 
 
-def render(project: Project, program: Path, case: ImageCase, seconds: float) -> Rendered:
+def _share_tested(path: Path) -> float | None:
+    """From the statistics of raytrace: how much of the scene each ray was tested against."""
+    try:
+        with os.fdopen(os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as file:
+            share = float(json.loads(file.read(_MAX_STATS))["share_tested"])
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return None
+    return share if math.isfinite(share) and share >= 0 else None
+
+
+def render(project: Project, program: Path, case: ImageCase, seconds: float, memory_mb: int | None = None) -> Rendered:
     """Renders a picture of a step into a folder of its own."""
-    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         picture = Path(folder) / "picture.ppm"
         scene = project.root / case.scene
-        outcome = run([program, scene, *case.args, "-o", picture, "--quiet"], seconds=seconds, cwd=Path(folder))
+        stats = Path(folder) / "stats.json"
+        command: list[str | Path] = [program, scene, *case.args, "-o", picture, "--quiet"]
+        command += ["--stats", stats] if case.max_share is not None else []
+        outcome = run(command, seconds=seconds, cwd=Path(folder), memory_mb=memory_mb)
         if outcome.timed_out or outcome.code != 0:
             return Rendered(outcome, None)
         try:
-            return Rendered(outcome, read_ppm(picture))
+            return Rendered(outcome, read_ppm(picture), share_tested=_share_tested(stats))
         except PictureError as error:
             return Rendered(outcome, None, str(error))
 

@@ -39,6 +39,8 @@ class ImageResult:
     passed: bool
     max_wrong: float
     wrong_share: float | None = None
+    max_share: float | None = None
+    share_tested: float | None = None
     message: str = ""
     mine: str | None = None
     reference: str | None = None

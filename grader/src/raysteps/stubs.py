@@ -12,7 +12,7 @@ _BEGIN = re.compile(r"^(\s*)// BEGIN SOLUTION(?: (\S.*))?$")
 _END = re.compile(r"^\s*// END SOLUTION$")
 _MARKER = re.compile(r"^\s*// (BEGIN SOLUTION|END SOLUTION|TODO:|RETURN )")
 _TODO = re.compile(r'RAYSTEPS_TODO\s*\(\s*"[^"]*"\s*,\s*"([^"]*)"\s*\)')
-_COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+_COMMENT_OR_STRING = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'""", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -73,16 +73,19 @@ def without_markers(solution: str) -> str:
     return "\n".join(line for line in solution.splitlines() if not _MARKER.match(line)).rstrip() + "\n"
 
 
+def _without_comments(source: str) -> str:
+    return _COMMENT_OR_STRING.sub(lambda found: " " if found.group().startswith("/") else found.group(), source)
+
+
 def unfinished_functions(source: str, step: Step) -> list[str]:
     """The functions whose RAYSTEPS_TODO line is still in the source (a commented-out one is not)."""
-    code = _COMMENT_OR_STRING.sub(lambda found: " " if found.group().startswith("/") else found.group(), source)
-    left = set(_TODO.findall(code))
+    left = set(_TODO.findall(_without_comments(source)))
     return [name for name in step.functions if name in left]
 
 
-def same_but_for_space(one: str, other: str) -> bool:
-    """Whether two sources differ in white space only."""
-    return "".join(one.split()) == "".join(other.split())
+def same_code(one: str, other: str) -> bool:
+    """Whether two sources differ in comments and white space only."""
+    return "".join(_without_comments(one).split()) == "".join(_without_comments(other).split())
 
 
 def stub_for(project: Project, step: Step) -> str:

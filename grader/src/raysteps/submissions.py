@@ -1,14 +1,14 @@
 """The commands `check` and `grade`: a student's own steps, and somebody else's."""
 
-import shutil
 from pathlib import Path
 
 from rich.console import Console
 
 from raysteps.building import BuildTree, release_tree
-from raysteps.files import write_if_changed
+from raysteps.errors import UsageError
+from raysteps.files import usable_folder, write_if_changed
 from raysteps.grading import Grader, Job
-from raysteps.intake import Submission, take_in
+from raysteps.intake import Submission, submission_name, take_in
 from raysteps.manifest import Step, choose, read_steps
 from raysteps.project import Project
 from raysteps.report import print_details, print_files, print_table
@@ -26,12 +26,25 @@ def exit_code(results: Results) -> int:
     return 3 if all(step.status == "does-not-build" for step in open_steps) else 1
 
 
-def _clear(out: Path) -> None:
-    """Old results must not be taken for new ones."""
-    (out / "results.json").unlink(missing_ok=True)
-    pictures = out / "pictures"
-    if pictures.is_dir() and not pictures.is_symlink():
-        shutil.rmtree(pictures)
+def clear(out: Path, steps: list[Step]) -> None:
+    """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any."""
+    usable_folder(out)
+    try:
+        (out / "results.json").unlink(missing_ok=True)
+        for step in steps:
+            folder = out / "pictures" / step.id
+            if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
+                continue
+            for kind in ("mine", "reference", "difference"):
+                for picture in folder.glob(f"*-{kind}.png"):
+                    picture.unlink()
+            if not any(folder.iterdir()):
+                folder.rmdir()
+        pictures = out / "pictures"
+        if pictures.is_dir() and not pictures.is_symlink() and not any(pictures.iterdir()):
+            pictures.rmdir()
+    except OSError as error:
+        raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
 def check(project: Project, names: list[str], console: Console) -> int:
@@ -39,9 +52,9 @@ def check(project: Project, names: list[str], console: Console) -> int:
     steps = read_steps(project)
     chosen = choose(steps, names)
     out = project.build / "check"
-    _clear(out)
     tree = release_tree(project)
     with console.status("starting") as status, tree.locked():
+        clear(out, steps)
         job = Job("steps", tree, steps, chosen, out, {}, lambda text: status.update(text))
         results = Grader(job).grade()
     path = write_results(results, out)
@@ -68,10 +81,11 @@ def grade_to(project: Project, path: Path, out: Path, console: Console) -> Resul
     """Grades one submission and writes its results."""
     steps = read_steps(project)
     submission = take_in(path, steps)
-    _clear(out)
+    usable_folder(out)
     mine = project.build / "grade-submission"
     tree = BuildTree(project, "release", project.build / "grade", mine)
     with console.status("starting") as status, tree.locked():
+        clear(out, steps)
         notes = _lay_out(project, steps, submission, mine)
         job = Job(submission.name, tree, steps, steps, out, notes, lambda text: status.update(text))
         results = Grader(job).grade()
@@ -81,8 +95,7 @@ def grade_to(project: Project, path: Path, out: Path, console: Console) -> Resul
 
 def grade(project: Project, path: Path, out: Path | None, console: Console, *, details: bool = True) -> Results:
     """Grades one submission and prints what came out."""
-    name = path.resolve().name if path.is_dir() else take_in(path, read_steps(project)).name
-    folder = (out or project.build / "grade" / "results" / name).resolve()
+    folder = (out or project.build / "grade" / "results" / submission_name(path)).resolve()
     results = grade_to(project, path, folder, console)
     if details:
         print_details(console, results, read_steps(project), folder)

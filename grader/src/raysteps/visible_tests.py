@@ -21,13 +21,13 @@ class _Run:
     cases: list[TestOutcome] | None
 
 
-def _run(program: Path, seconds: float, only: str | None = None) -> _Run:
-    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+def _run(program: Path, seconds: float, only: str | None = None, memory_mb: int | None = None) -> _Run:
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         report = Path(folder) / "report.xml"
         command: list[str | Path] = [program, "-r", "xml", "-o", report]
         if only is not None:
             command.append(_SPECIAL.sub(r"\\\1", only))
-        outcome = run(command, seconds=seconds, cwd=Path(folder))
+        outcome = run(command, seconds=seconds, cwd=Path(folder), memory_mb=memory_mb)
         return _Run(outcome, None if outcome.timed_out else parse_report(report))
 
 
@@ -78,9 +78,9 @@ def _result_alone(result: _Run, name: str, seconds: float) -> TestResult:
     return _result(result.cases[0])
 
 
-def run_tests(program: Path, names: list[str], seconds: float) -> list[TestResult]:
+def run_tests(program: Path, names: list[str], seconds: float, memory_mb: int | None = None) -> list[TestResult]:
     """All test cases in one process; when that ends badly, each in a process of its own."""
-    together = _run(program, seconds)
+    together = _run(program, seconds, memory_mb=memory_mb)
     if _is_complete(together, names) and together.cases is not None:
         found = {case.name: _result(case) for case in together.cases}
         return [found[name] for name in names]
@@ -91,5 +91,5 @@ def run_tests(program: Path, names: list[str], seconds: float) -> list[TestResul
         if time.monotonic() > deadline:
             results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
         else:
-            results.append(_result_alone(_run(program, each, name), name, each))
+            results.append(_result_alone(_run(program, each, name, memory_mb), name, each))
     return results
