@@ -145,7 +145,7 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
             options.help = true;
             return options;
         } else if (argument.starts_with("-") || !options.scene.empty()) {
-            complain("argument", "one scene and the options listed by --help", argument);
+            complain("arguments", "one scene and the options that --help lists", argument);
         } else {
             options.scene = argument;
         }

@@ -54,5 +54,5 @@ TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({"a.nff", "-o", "b", "--accel", "bvh"}) ==
           "--accel: expected none, boxes or octree, found 'bvh'");
     CHECK(complaint_about({"a.nff", "c.nff", "-o", "b"}) ==
-          "argument: expected one scene and the options listed by --help, found 'c.nff'");
+          "arguments: expected one scene and the options that --help lists, found 'c.nff'");
 }

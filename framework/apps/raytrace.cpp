@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     } catch (const ReadError& error) {
         std::fprintf(stderr, "%s\n", error.what());
     } catch (const UsageError& error) {
-        std::fprintf(stderr, "raytrace: %s\nTry raytrace --help.\n", error.what());
+        std::fprintf(stderr, "raytrace: %s\nAll options: ./raysteps render --help\n", error.what());
     } catch (const std::exception& error) {
         std::fprintf(stderr, "raytrace: %s\n", error.what());
     }

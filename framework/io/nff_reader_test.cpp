@@ -18,8 +18,9 @@ const std::string k_fill = "f 1 1 1 1 0 1 0 1\n";
 
 Scene read(const std::string& text) { return read_nff(text, "test.nff"); }
 
+/// A copy of the scene's one surface, for the scene may be a temporary.
 template <typename Shape>
-const Shape& only(const Scene& scene) {
+Shape only(const Scene& scene) {
     REQUIRE(scene.surfaces().size() == 1);
     const auto* shape = dynamic_cast<const Shape*>(scene.surfaces()[0]);
     REQUIRE(shape != nullptr);
