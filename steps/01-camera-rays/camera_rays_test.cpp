@@ -147,6 +147,12 @@ TEST_CASE("primary_ray: x runs to the right and y down", "[01-camera-rays]") {
     CHECK_THAT(primary_ray(camera, frame, 1, 1).direction, IsParallelTo({-0.5F, -0.5F, -1.0F}));
 }
 
+TEST_CASE("primary_ray: the handout's worked example - unit length", "[01-camera-rays]") {
+    const Ray ray = primary_ray(straight_camera(4, 2), straight_frame(2.0F, 1.0F), 3, 0);
+    INFO("(1.5, 0.5, -1) has length 1.8708; the direction must have length 1: normalise it");
+    CHECK_THAT(ray.direction, IsNear({0.8018F, 0.2673F, -0.5345F}, 1e-3F));
+}
+
 TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01-camera-rays]") {
     Random random;
     INFO(random);
@@ -164,6 +170,7 @@ TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01
         CAPTURE(camera.from, camera.at, camera.width, camera.height, x, y);
         const Ray ray = primary_ray(camera, frame, x, y);
         REQUIRE_THAT(ray.origin, IsNear(camera.from));
+        INFO("the direction must have length 1 and has " << glm::length(ray.direction));
         REQUIRE_THAT(ray.direction, IsUnitLength());
         // Back from the direction to the pixel: where does the ray cross the image plane?
         const float depth = glm::dot(ray.direction, frame.forward);

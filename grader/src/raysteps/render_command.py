@@ -32,6 +32,8 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
 def build_program(tree: BuildTree, impl: str) -> Path:
     """Builds raytrace-mine or raytrace-reference; the compiler speaks only when that fails."""
     target = f"raytrace-{impl}"
+    if not tree.program(target).exists():
+        print("raysteps: building; the first time takes a minute or two", file=sys.stderr, flush=True)
     with tree.locked():
         outcome = tree.build([target])
     if outcome.code != 0:

@@ -1,8 +1,11 @@
 """The commands `check` and `grade`: a student's own steps, and somebody else's."""
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
+from rich.status import Status
 
 from raysteps.building import BuildTree, release_tree
 from raysteps.errors import UsageError
@@ -47,6 +50,18 @@ def clear(out: Path, steps: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
+def _progress(console: Console, status: Status) -> Callable[[str], None]:
+    """Shows what is being done: beside the spinner on a terminal, elsewhere as lines on stderr."""
+
+    def say(text: str) -> None:
+        if console.is_terminal:
+            status.update(text)
+        else:
+            print(f"raysteps: {text}", file=sys.stderr, flush=True)
+
+    return say
+
+
 def check(project: Project, names: list[str], console: Console) -> int:
     """Checks the steps in the repository and explains what is wrong."""
     steps = read_steps(project)
@@ -55,7 +70,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
     tree = release_tree(project)
     with console.status("starting") as status, tree.locked():
         clear(out, steps)
-        job = Job("steps", tree, steps, chosen, out, {}, lambda text: status.update(text))
+        job = Job("steps", tree, steps, chosen, out, {}, _progress(console, status))
         results = Grader(job).grade()
     path = write_results(results, out)
     print_details(console, results, steps, out)
@@ -87,7 +102,7 @@ def grade_to(project: Project, path: Path, out: Path, console: Console) -> Resul
     with console.status("starting") as status, tree.locked():
         clear(out, steps)
         notes = _lay_out(project, steps, submission, mine)
-        job = Job(submission.name, tree, steps, steps, out, notes, lambda text: status.update(text))
+        job = Job(submission.name, tree, steps, steps, out, notes, _progress(console, status))
         results = Grader(job).grade()
     write_results(results, out)
     return results
