@@ -28,8 +28,6 @@ const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [op
 
 namespace {
 
-constexpr int k_largest_side = 16384;
-
 [[noreturn]] void complain(const std::string& option, const std::string& expected, const std::string& found) {
     throw UsageError(option + ": expected " + expected + ", found '" + found + "'");
 }

@@ -8,6 +8,9 @@
 
 namespace raysteps {
 
+/// The widest and highest picture that the kit reads or makes, in pixels.
+inline constexpr int k_largest_side = 16384;
+
 template <typename Pixel>
 class Grid {
 public:

@@ -6,12 +6,11 @@
 #include <limits>
 #include <string>
 
+#include "core/image.hpp"
 #include "io/field_reader.hpp"
 
 namespace raysteps {
 namespace {
-
-constexpr int k_largest_side = 16384;
 
 // The sine of the smallest angle between `up` and the view that float arithmetic can still make a frame of.
 constexpr double k_smallest_sine = 1e-5;

@@ -9,7 +9,6 @@
 namespace raysteps {
 namespace {
 
-constexpr int k_largest_side = 16384;
 constexpr int k_largest_maxval = 65535;
 
 class PpmReader {

@@ -12,12 +12,11 @@ from rich.table import Table
 from raysteps.building import release_tree
 from raysteps.errors import GraderFault, UsageError
 from raysteps.files import write_json
-from raysteps.process import run
 from raysteps.project import Project
 from raysteps.render_command import build_program
+from raysteps.same_picture import ACCELERATIONS, render_with
 from raysteps.scenes import generated
 
-_WAYS = ("none", "boxes", "octree")
 _DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("gears", 2), ("mountain", 6))
 _SECONDS = 3600
 
@@ -38,21 +37,8 @@ class Measurement:
 
 def _measure(program: Path, scene: Path, accel: str, size: str, folder: Path) -> tuple[bytes, dict[str, float]]:
     picture, stats = folder / f"{accel}.ppm", folder / f"{accel}.json"
-    command: list[str | Path] = [
-        program,
-        scene,
-        "-o",
-        picture,
-        "--step",
-        "6",
-        "--accel",
-        accel,
-        "--size",
-        size,
-        "--stats",
-        stats,
-    ]
-    outcome = run([*command, "--quiet"], seconds=_SECONDS)
+    options = ("--step", "6", "--stats", stats)
+    outcome = render_with(program, scene, accel, picture, *options, size=size, seconds=_SECONDS)
     if outcome.timed_out:
         raise GraderFault(f"{scene.name} with --accel {accel} took more than {_SECONDS} seconds")
     if outcome.code != 0:
@@ -66,7 +52,7 @@ def measure_scene(program: Path, scene: Path, size: str) -> list[Measurement]:
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         first = b""
         brute = 0.0
-        for accel in _WAYS:
+        for accel in ACCELERATIONS:
             picture, stats = _measure(program, scene, accel, size, Path(folder))
             seconds = max(stats["build_seconds"] + stats["render_seconds"], 1e-6)
             first, brute = first or picture, brute or seconds

@@ -38,7 +38,6 @@ def demo(project: Project, out: Path | None, console: Console) -> int:
     """Shows what the kit does, from a fresh clone."""
     folder = (out or project.build / "demo").resolve()
     usable_folder(folder)
-    console.print("Building the reference ray tracer (about a minute the first time).")
     program = build_program(release_tree(project), "reference")
     scene = generated(project, "sphereflake", 3)
     steps = read_steps(project)

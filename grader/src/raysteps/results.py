@@ -13,6 +13,7 @@ from raysteps.errors import GraderFault
 from raysteps.files import write_json
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
+Ending = Literal["ok", "wrong", "crashed", "timeout"]
 
 
 @dataclass
@@ -27,7 +28,7 @@ class TestResult:
     expression: str = ""
     expanded: str = ""
     location: str = ""
-    outcome: Literal["ok", "wrong", "crashed", "timeout"] = "ok"
+    outcome: Ending = "ok"
 
 
 @dataclass
@@ -46,7 +47,7 @@ class ImageResult:
     reference: str | None = None
     difference: str | None = None
     seconds: float = 0.0
-    outcome: Literal["ok", "wrong", "crashed", "timeout"] = "ok"
+    outcome: Ending = "ok"
 
 
 @dataclass

@@ -3,17 +3,25 @@
 import tempfile
 from pathlib import Path
 
-from raysteps.process import run
+from raysteps.process import Outcome, run
 from raysteps.project import Project
 
+ACCELERATIONS = ("none", "boxes", "octree")
 _SIZE = "96x96"
 _SECONDS = 300
 
 
+def render_with(
+    program: Path, scene: Path, accel: str, picture: Path, *options: str | Path, size: str, seconds: float
+) -> Outcome:
+    """Renders the scene with one of the accelerations."""
+    words: list[str | Path] = [program, scene, "-o", picture, "--accel", accel, "--size", size, "--quiet", *options]
+    return run(words, seconds=seconds)
+
+
 def _bytes(program: Path, scene: Path, accel: str, folder: Path) -> tuple[bytes, str]:
     picture = folder / f"{accel}.ppm"
-    command: list[str | Path] = [program, scene, "-o", picture, "--accel", accel, "--size", _SIZE, "--quiet"]
-    outcome = run(command, seconds=_SECONDS)
+    outcome = render_with(program, scene, accel, picture, size=_SIZE, seconds=_SECONDS)
     if outcome.code != 0 or outcome.timed_out:
         return b"", outcome.stderr.strip() or "it did not end"
     return picture.read_bytes(), ""
@@ -29,7 +37,7 @@ def scenes_that_differ(project: Project, program: Path) -> list[str]:
         name = scene.relative_to(project.root).as_posix()
         with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
             first = b""
-            for accel in ("none", "boxes", "octree"):
+            for accel in ACCELERATIONS:
                 picture, problem = _bytes(program, scene, accel, Path(folder))
                 first = first or picture
                 if problem or picture != first:

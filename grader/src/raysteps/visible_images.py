@@ -7,7 +7,7 @@ from raysteps.manifest import ImageCase, Step
 from raysteps.pictures import compare, difference, write_png
 from raysteps.project import Project
 from raysteps.rendering import ReferencePictures, Rendered, render
-from raysteps.results import Cumulative, ImageResult
+from raysteps.results import Cumulative, Ending, ImageResult
 from raysteps.text import number, printable, shorten
 
 
@@ -20,7 +20,7 @@ class Gallery:
     out: Path
 
 
-def _trouble(rendered: Rendered, seconds: float) -> tuple[str, str]:
+def _trouble(rendered: Rendered, seconds: float) -> tuple[Ending, str]:
     """What kept a picture from being made: outcome and message."""
     outcome = rendered.outcome
     if outcome.timed_out:
@@ -55,8 +55,7 @@ def judge(gallery: Gallery, program: Path, step: Step, case: ImageCase) -> Image
     result.reference = (folder / f"{case.name}-reference.png").as_posix()
     write_png(reference, gallery.out / result.reference)
     if rendered.pixels is None:
-        outcome, result.message = _trouble(rendered, step.seconds)
-        result.outcome = "timeout" if outcome == "timeout" else "crashed" if outcome == "crashed" else "wrong"
+        result.outcome, result.message = _trouble(rendered, step.seconds)
         return result
     result.mine = (folder / f"{case.name}-mine.png").as_posix()
     write_png(rendered.pixels, gallery.out / result.mine)
