@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.manifest import Step, read_steps
-from raysteps.project import Project, here
-from raysteps.stubs import stub_for, without_markers
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import Project, here
+from raysteps.kit.stubs import stub_for, without_markers
 
 Sources = dict[str, str]
 MakeSubmission = Callable[[str, Sources], Path]

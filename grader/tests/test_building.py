@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.building import BuildTree, first_error, is_fault_of_step
-from raysteps.process import Outcome
-from raysteps.project import Project
+from raysteps.common.process import Outcome
+from raysteps.kit.building import BuildTree, first_error, is_fault_of_step
+from raysteps.kit.project import Project
 
 MINE = Path("/w/build/grade-submission")
 

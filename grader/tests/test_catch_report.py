@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.catch_report import parse_report
+from raysteps.grading.catch_report import parse_report
 
 CASES = """<TestCase name="good" filename="/k/a_test.cpp" line="3"><OverallResult success="true"/></TestCase>
 <TestCase name="bad" filename="/k/a_test.cpp" line="7"><Section name="inner">

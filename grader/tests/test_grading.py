@@ -6,10 +6,10 @@ import pytest
 from conftest import MakeSubmission, Sources
 from rich.console import Console
 
-from raysteps.manifest import Step
-from raysteps.project import Project
-from raysteps.results import Results
-from raysteps.submissions import grade_to
+from raysteps.commands.check_and_grade import grade_to
+from raysteps.grading.results import Results
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
 
 
 def _grade(project: Project, path: Path, out: Path) -> Results:

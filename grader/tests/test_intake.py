@@ -10,10 +10,10 @@ from typing import Literal
 
 import pytest
 
-from raysteps import intake
-from raysteps.errors import UsageError
-from raysteps.intake import submission_name, take_in
-from raysteps.manifest import Step
+from raysteps.common.errors import UsageError
+from raysteps.kit.manifest import Step
+from raysteps.submission import intake
+from raysteps.submission.intake import submission_name, take_in
 
 LAYOUTS = [
     "steps/02-intersection/intersection.cpp",

@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from raysteps.errors import GraderFault, UsageError
-from raysteps.manifest import Step, choose, read_step
-from raysteps.project import Project
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.kit.manifest import Step, choose, read_step
+from raysteps.kit.project import Project
 
 
 def test_points_sum_to_100_and_a_bonus_of_10(steps: list[Step]) -> None:

@@ -3,7 +3,7 @@
 import sys
 import time
 
-from raysteps.process import Outcome, run
+from raysteps.common.process import Outcome, run
 
 
 def _python(code: str, seconds: float = 20.0, cap: int = 1 << 20) -> Outcome:

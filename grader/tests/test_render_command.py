@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from raysteps.cli import main
-from raysteps.errors import UsageError
-from raysteps.render_command import run_raytrace, take_impl
+from raysteps.commands.render import run_raytrace, take_impl
+from raysteps.common.errors import UsageError
 
 
 def test_impl_is_taken_out() -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.errors import GraderFault
-from raysteps.results import ImageResult, Results, StepResult, TestResult, validate, write_results
-from raysteps.submissions import exit_code
+from raysteps.commands.check_and_grade import exit_code
+from raysteps.common.errors import GraderFault
+from raysteps.grading.results import ImageResult, Results, StepResult, TestResult, validate, write_results
 
 
 def _step(**changes: object) -> StepResult:

@@ -4,9 +4,9 @@ import dataclasses
 
 import pytest
 
-from raysteps.errors import GraderFault
-from raysteps.manifest import Step
-from raysteps.stubs import make_stub, same_code, unfinished_functions, without_markers
+from raysteps.common.errors import GraderFault
+from raysteps.kit.manifest import Step
+from raysteps.kit.stubs import make_stub, same_code, unfinished_functions, without_markers
 
 SOLUTION = """#include "a.hpp"
 

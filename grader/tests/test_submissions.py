@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.demo import complain_about
-from raysteps.errors import GraderFault, UsageError
-from raysteps.files import usable_folder
-from raysteps.manifest import Step
-from raysteps.results import Results, StepResult
-from raysteps.submissions import clear
+from raysteps.commands.check_and_grade import clear
+from raysteps.commands.demo import complain_about
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import usable_folder
+from raysteps.grading.results import Results, StepResult
+from raysteps.kit.manifest import Step
 
 
 def test_only_old_results_are_deleted(tmp_path: Path, steps: list[Step]) -> None:

@@ -9,13 +9,13 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps import bench, maintenance
-from raysteps.demo import demo
-from raysteps.errors import RaystepsError
-from raysteps.project import here
-from raysteps.render_command import render
-from raysteps.selftest import selftest
-from raysteps.submissions import check, exit_code, grade
+from raysteps.commands.check_and_grade import check, exit_code, grade
+from raysteps.commands.demo import demo
+from raysteps.commands.render import render
+from raysteps.common.errors import RaystepsError
+from raysteps.kit.project import here
+from raysteps.upkeep import bench, maintenance
+from raysteps.upkeep.selftest import selftest
 
 _EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault"""
 

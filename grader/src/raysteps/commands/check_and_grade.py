@@ -7,16 +7,16 @@ from pathlib import Path
 from rich.console import Console
 from rich.status import Status
 
-from raysteps.building import BuildTree, release_tree
-from raysteps.errors import UsageError
-from raysteps.files import usable_folder, write_if_changed
-from raysteps.grading import Grader, Job
-from raysteps.intake import Submission, submission_name, take_in
-from raysteps.manifest import Step, choose, read_steps
-from raysteps.project import Project
-from raysteps.report import print_details, print_files, print_table
-from raysteps.results import Results, write_results
-from raysteps.stubs import stub_for
+from raysteps.commands.report import print_details, print_files, print_table
+from raysteps.common.errors import UsageError
+from raysteps.common.files import usable_folder, write_if_changed
+from raysteps.grading.grader import Grader, Job
+from raysteps.grading.results import Results, write_results
+from raysteps.kit.building import BuildTree, release_tree
+from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import stub_for
+from raysteps.submission.intake import Submission, submission_name, take_in
 
 
 def exit_code(results: Results) -> int:

@@ -9,14 +9,14 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.building import BuildTree, what_failed
-from raysteps.checks import Check, Report, run_checks
-from raysteps.manifest import read_steps
-from raysteps.process import run
-from raysteps.project import Project
-from raysteps.same_picture import scenes_that_differ
-from raysteps.samples import outdated_samples
-from raysteps.stubs import outdated_stubs
+from raysteps.common.process import run
+from raysteps.kit.building import BuildTree, what_failed
+from raysteps.kit.manifest import read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import outdated_stubs
+from raysteps.upkeep.checks import Check, Report, run_checks
+from raysteps.upkeep.same_picture import scenes_that_differ
+from raysteps.upkeep.samples import outdated_samples
 
 _TEST_SECONDS = 900
 _FUZZ_SECONDS = 60

@@ -3,9 +3,9 @@
 import sys
 from pathlib import Path
 
-from raysteps.errors import GraderFault
-from raysteps.process import run
-from raysteps.project import Project
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import run
+from raysteps.kit.project import Project
 
 
 def generated(project: Project, kind: str, size: int) -> Path:

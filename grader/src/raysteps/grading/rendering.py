@@ -8,12 +8,12 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.errors import GraderFault
-from raysteps.files import write_bytes
-from raysteps.manifest import ImageCase
-from raysteps.pictures import PictureError, Pixels, read_ppm
-from raysteps.process import Outcome, run
-from raysteps.project import Project
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_bytes
+from raysteps.common.process import Outcome, run
+from raysteps.grading.pictures import PictureError, Pixels, read_ppm
+from raysteps.kit.manifest import ImageCase
+from raysteps.kit.project import Project
 
 _MAX_STATS = 1 << 16
 

@@ -9,10 +9,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.errors import GraderFault
-from raysteps.process import Outcome, run
-from raysteps.project import Project
-from raysteps.text import printable, shorten
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome, run
+from raysteps.common.text import printable, shorten
+from raysteps.kit.project import Project
 
 _ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<text>.+)$", re.M)
 _LINK_ERROR = re.compile(

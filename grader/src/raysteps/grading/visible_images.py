@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.manifest import ImageCase, Step
-from raysteps.pictures import compare, difference, write_png
-from raysteps.project import Project
-from raysteps.rendering import ReferencePictures, Rendered, render
-from raysteps.results import Cumulative, Ending, ImageResult
-from raysteps.text import number, printable, shorten
+from raysteps.common.text import number, printable, shorten
+from raysteps.grading.pictures import compare, difference, write_png
+from raysteps.grading.rendering import ReferencePictures, Rendered, render
+from raysteps.grading.results import Cumulative, Ending, ImageResult
+from raysteps.kit.manifest import ImageCase, Step
+from raysteps.kit.project import Project
 
 
 @dataclass(frozen=True)

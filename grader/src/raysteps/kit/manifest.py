@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from raysteps.errors import GraderFault, UsageError
-from raysteps.project import Project
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.kit.project import Project
 
 
 @dataclass(frozen=True)

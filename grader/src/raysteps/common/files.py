@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from raysteps.errors import UsageError
+from raysteps.common.errors import UsageError
 
 
 def usable_folder(path: Path) -> None:

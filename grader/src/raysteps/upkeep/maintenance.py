@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from raysteps.manifest import read_steps
-from raysteps.project import Project
-from raysteps.samples import outdated_samples, write_samples
-from raysteps.stubs import outdated_stubs, write_stubs
+from raysteps.kit.manifest import read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import outdated_stubs, write_stubs
+from raysteps.upkeep.samples import outdated_samples, write_samples
 
 
 def stubs(project: Project, *, check: bool) -> int:

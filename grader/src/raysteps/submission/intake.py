@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from raysteps.errors import UsageError
-from raysteps.manifest import Step
-from raysteps.text import printable
+from raysteps.common.errors import UsageError
+from raysteps.common.text import printable
+from raysteps.kit.manifest import Step
 
 _MAX_SOURCE = 1 << 20
 _MAX_ENTRIES = 20_000

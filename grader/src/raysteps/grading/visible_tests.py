@@ -6,11 +6,11 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.catch_report import TestOutcome, parse_report
-from raysteps.errors import GraderFault
-from raysteps.process import Outcome, run
-from raysteps.results import TestResult
-from raysteps.text import number
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome, run
+from raysteps.common.text import number
+from raysteps.grading.catch_report import TestOutcome, parse_report
+from raysteps.grading.results import TestResult
 
 _SPECIAL = re.compile(r'([\\,\["])')
 

@@ -9,13 +9,13 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.building import release_tree
-from raysteps.errors import GraderFault, UsageError
-from raysteps.files import write_json
-from raysteps.project import Project
-from raysteps.render_command import build_program
-from raysteps.same_picture import ACCELERATIONS, render_with
-from raysteps.scenes import generated
+from raysteps.commands.render import build_program
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import write_json
+from raysteps.kit.building import release_tree
+from raysteps.kit.project import Project
+from raysteps.kit.scenes import generated
+from raysteps.upkeep.same_picture import ACCELERATIONS, render_with
 
 _DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("gears", 2), ("mountain", 6))
 _SECONDS = 3600

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element, ParseError
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import fromstring
 
-from raysteps.text import printable, shorten
+from raysteps.common.text import printable, shorten
 
 _MAX_BYTES = 16 << 20
 

@@ -4,15 +4,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.building import BuildTree, first_error, is_fault_of_machine, is_fault_of_step, what_failed
-from raysteps.errors import GraderFault
-from raysteps.manifest import Step
-from raysteps.rendering import ReferencePictures
-from raysteps.results import Cumulative, Results, Status, StepResult
-from raysteps.stubs import same_code, stub_for, unfinished_functions
-from raysteps.text import count, listed
-from raysteps.visible_images import Gallery, judge, judge_together
-from raysteps.visible_tests import expected_cases, run_tests
+from raysteps.common.errors import GraderFault
+from raysteps.common.text import count, listed
+from raysteps.grading.rendering import ReferencePictures
+from raysteps.grading.results import Cumulative, Results, Status, StepResult
+from raysteps.grading.visible_images import Gallery, judge, judge_together
+from raysteps.grading.visible_tests import expected_cases, run_tests
+from raysteps.kit.building import BuildTree, first_error, is_fault_of_machine, is_fault_of_step, what_failed
+from raysteps.kit.manifest import Step
+from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
 
 _BUILD_STEP_SECONDS = 300
 

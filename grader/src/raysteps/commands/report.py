@@ -6,9 +6,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.manifest import Step
-from raysteps.results import ImageResult, Results, StepResult, TestResult
-from raysteps.text import number
+from raysteps.common.text import number
+from raysteps.grading.results import ImageResult, Results, StepResult, TestResult
+from raysteps.kit.manifest import Step
 
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 

@@ -4,11 +4,11 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from raysteps.errors import GraderFault
-from raysteps.files import write_if_changed
-from raysteps.manifest import Step
-from raysteps.project import Project
-from raysteps.stubs import stub_for, without_markers
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_if_changed
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import stub_for, without_markers
 
 
 def _solved(project: Project, step: Step) -> str:

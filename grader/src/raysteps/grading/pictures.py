@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from raysteps.files import write_bytes
+from raysteps.common.files import write_bytes
 
 Pixels: TypeAlias = npt.NDArray[np.uint8]
 

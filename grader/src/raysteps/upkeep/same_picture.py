@@ -3,8 +3,8 @@
 import tempfile
 from pathlib import Path
 
-from raysteps.process import Outcome, run
-from raysteps.project import Project
+from raysteps.common.process import Outcome, run
+from raysteps.kit.project import Project
 
 ACCELERATIONS = ("none", "boxes", "octree")
 _SIZE = "96x96"

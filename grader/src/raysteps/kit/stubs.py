@@ -3,10 +3,10 @@
 import re
 from dataclasses import dataclass
 
-from raysteps.errors import GraderFault
-from raysteps.files import write_if_changed
-from raysteps.manifest import Step
-from raysteps.project import Project
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_if_changed
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
 
 _BEGIN = re.compile(r"^(\s*)// BEGIN SOLUTION(?: (\S.*))?$")
 _END = re.compile(r"^\s*// END SOLUTION$")

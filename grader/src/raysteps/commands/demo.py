@@ -5,18 +5,18 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.building import release_tree
-from raysteps.errors import GraderFault
-from raysteps.files import usable_folder
-from raysteps.manifest import ImageCase, read_steps
-from raysteps.pictures import write_png
-from raysteps.project import Project
-from raysteps.render_command import build_program
-from raysteps.rendering import render
-from raysteps.results import Results
-from raysteps.scenes import generated
-from raysteps.submissions import grade
-from raysteps.text import number
+from raysteps.commands.check_and_grade import grade
+from raysteps.commands.render import build_program
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import usable_folder
+from raysteps.common.text import number
+from raysteps.grading.pictures import write_png
+from raysteps.grading.rendering import render
+from raysteps.grading.results import Results
+from raysteps.kit.building import release_tree
+from raysteps.kit.manifest import ImageCase, read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.scenes import generated
 
 _SIZE = "512x512"
 _SECONDS = 600

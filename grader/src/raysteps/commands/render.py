@@ -6,10 +6,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from raysteps.building import BuildTree, first_error, release_tree, what_failed
-from raysteps.errors import GraderFault, StudentBuildError, UsageError
-from raysteps.pictures import PictureError, read_ppm, write_png
-from raysteps.project import Project
+from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.grading.pictures import PictureError, read_ppm, write_png
+from raysteps.kit.building import BuildTree, first_error, release_tree, what_failed
+from raysteps.kit.project import Project
 
 
 def take_impl(args: list[str]) -> tuple[str, list[str]]:

@@ -9,8 +9,8 @@ from typing import Any, Literal
 
 import jsonschema
 
-from raysteps.errors import GraderFault
-from raysteps.files import write_json
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_json
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
 Ending = Literal["ok", "wrong", "crashed", "timeout"]
@@ -101,7 +101,7 @@ class Results:
 
 @cache
 def _schema() -> Any:
-    return json.loads(files("raysteps").joinpath("results.schema.json").read_text(encoding="utf-8"))
+    return json.loads(files("raysteps.grading").joinpath("results.schema.json").read_text(encoding="utf-8"))
 
 
 def validate(document: Any) -> None:

@@ -37,4 +37,4 @@ class Project:
 
 def here() -> Project:
     """The repository that this package is installed from (the install is editable)."""
-    return Project(Path(__file__).resolve().parents[3])
+    return Project(Path(__file__).resolve().parents[4])

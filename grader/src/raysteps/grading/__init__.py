@@ -1,0 +1,1 @@
+"""Runs, compares and scores one submission."""

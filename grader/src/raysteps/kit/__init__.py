@@ -1,0 +1,1 @@
+"""The kit in the repository: steps, stubs, scenes, builds."""
