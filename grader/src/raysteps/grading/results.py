@@ -51,6 +51,35 @@ class ImageResult:
 
 
 @dataclass
+class CaseGroup:
+    """One kind of hidden cases of a function, such as `origin inside`; all must be right."""
+
+    name: str
+    cases: int
+    right: int
+
+
+@dataclass
+class HiddenResult:
+    """What the judge saw of one function (in seeded cases) or of one hidden scene."""
+
+    name: str
+    kind: Literal["function", "picture"]
+    share: float  # of this item's points that were earned, from 0 to 1
+    groups: list[CaseGroup] = field(default_factory=list)
+    message: str = ""  # what is wrong, without the input
+    given: str = ""  # the input of the first wrong case, in words and numbers
+    expected: str = ""
+    actual: str = ""
+    seconds: float = 0.0
+    outcome: Ending = "ok"
+
+    @property
+    def passed(self) -> bool:
+        return self.share >= 1
+
+
+@dataclass
 class Cumulative:
     """Whether the student's steps up to this one work together; worth no points."""
 
@@ -69,8 +98,28 @@ class StepResult:
     bonus: bool
     tests: list[TestResult] = field(default_factory=list)
     images: list[ImageResult] = field(default_factory=list)
+    hidden: list[HiddenResult] = field(default_factory=list)
+    inconsistent: list[str] = field(default_factory=list)  # claims of the program that the judge did not see
+    build_log: str = ""  # all that the compiler said
     cumulative: Cumulative = field(default_factory=lambda: Cumulative(False))
     messages: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Isolation:
+    """What kept the student's code apart from the machine."""
+
+    name: str = "none"  # "bubblewrap", "other user", "landlock", "limits only", "none"
+    strong: bool = False
+    description: str = "The code ran without a sandbox."
+
+
+@dataclass
+class Timing:
+    """Seconds on the clock and of all processors, for the whole submission."""
+
+    seconds: float = 0.0
+    cpu_seconds: float = 0.0
 
 
 @dataclass
@@ -79,6 +128,10 @@ class Results:
 
     submission: str
     steps: list[StepResult]
+    seed: int = 0
+    kit: str = ""  # fingerprint of the kit that graded
+    isolation: Isolation = field(default_factory=Isolation)
+    timing: Timing = field(default_factory=Timing)
 
     def to_json(self) -> dict[str, Any]:
         """The document: max counts the steps without the bonus, points count everything."""
@@ -87,6 +140,11 @@ class Results:
         return {
             "schema": "raysteps/results/v1",
             "submission": self.submission,
+            "kit": self.kit,
+            "seed": self.seed,
+            "isolation": asdict(self.isolation),
+            "timing": asdict(self.timing),
+            "inconsistent": any(step.inconsistent for step in self.steps),
             "total": {
                 "points": round(sum(step.points for step in self.steps), 2),
                 "max": round(sum(step.max for step in regular), 2),
