@@ -11,6 +11,7 @@ import jsonschema
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_json
+from raysteps.sandbox.isolation import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
 Ending = Literal["ok", "wrong", "crashed", "timeout"]
@@ -103,15 +104,6 @@ class StepResult:
     build_log: str = ""  # all that the compiler said
     cumulative: Cumulative = field(default_factory=lambda: Cumulative(False))
     messages: list[str] = field(default_factory=list)
-
-
-@dataclass
-class Isolation:
-    """What kept the student's code apart from the machine."""
-
-    name: str = "none"  # "bubblewrap", "other user", "landlock", "limits only", "none"
-    strong: bool = False
-    description: str = "The code ran without a sandbox."
 
 
 @dataclass

@@ -1,0 +1,1 @@
+"""Asks a student's functions questions and knows the answers."""
