@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/ray.hpp"
-#include "core/stats.hpp"
 
 namespace raysteps {
 
@@ -23,10 +22,7 @@ struct Box {
     [[nodiscard]] std::optional<Interval> clip(const Ray& ray) const;
 
     /// As clip, and counted as one box test.
-    [[nodiscard]] std::optional<Interval> hit(const Ray& ray) const {
-        ++thread_stats().box_tests;
-        return clip(ray);
-    }
+    [[nodiscard]] std::optional<Interval> hit(const Ray& ray) const;
 };
 
 }  // namespace raysteps

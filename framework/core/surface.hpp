@@ -15,10 +15,7 @@ public:
     virtual ~Surface() = default;
 
     /// The nearest hit with distance > 0, or nothing. Counted as one surface test.
-    [[nodiscard]] std::optional<HitRecord> hit(const Ray& ray) const {
-        ++thread_stats().surface_tests;
-        return intersect(ray);
-    }
+    [[nodiscard]] std::optional<HitRecord> hit(const Ray& ray) const;
 
     /// The smallest box around the whole surface.
     [[nodiscard]] virtual Box bounds() const = 0;

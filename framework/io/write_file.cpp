@@ -32,11 +32,19 @@ fs::path temporary_name(const fs::path& target) {
     return name;
 }
 
-// What a link points to, so that the rename replaces the file and not the link.
+// What a link points to, so that the rename replaces the file and not the link. A link whose target has no name, as
+// /dev/fd/3 may be, stands for itself.
 fs::path behind_links(const fs::path& path) {
     std::error_code error;
     const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
-    return error ? path : target;
+    const bool has_no_name = fs::exists(path, error) && !fs::exists(target, error);
+    return error || has_no_name ? path : target;
+}
+
+// What cannot be replaced is overwritten: a device, or an open file that /dev/fd names.
+bool must_be_overwritten(const fs::path& target, const fs::file_status& status) {
+    std::error_code error;
+    return fs::exists(status) && (!fs::is_regular_file(status) || fs::is_symlink(target, error));
 }
 
 }  // namespace
@@ -48,7 +56,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
     if (fs::is_directory(status)) {
         fail(path, "it is a directory");
     }
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
+    if (must_be_overwritten(target, status)) {
         if (!write_bytes(target, bytes)) {
             fail(path, "the device refused it");
         }

@@ -1,6 +1,8 @@
 // Files are written whole or not at all.
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -66,5 +68,16 @@ TEST_CASE("a link is followed and a device is not replaced", "[write_file]") {
     CHECK(read_file(folder / "target") == "new");
     write_file("/dev/null", "x");
     CHECK(fs::is_character_file("/dev/null"));
+}
+#endif
+
+#ifdef __linux__
+TEST_CASE("an open file without a name is written by way of /dev/fd", "[write_file]") {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
+    REQUIRE(file != nullptr);
+    const fs::path path = "/dev/fd/" + std::to_string(fileno(file.get()));
+    write_file(path, "to be cut short");
+    write_file(path, "bytes");
+    CHECK(read_file(path) == "bytes");
 }
 #endif

@@ -3,6 +3,7 @@
 
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
+#include "core/stats.hpp"
 #include "core/triangle.hpp"
 #include "testing/testing.hpp"
 

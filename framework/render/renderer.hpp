@@ -4,6 +4,7 @@
 
 #include "core/image.hpp"
 #include "core/scene.hpp"
+#include "core/stats.hpp"
 #include "render/step_tracer.hpp"
 
 namespace raysteps {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/scene.hpp"
+#include "core/stats.hpp"
 #include "render/accelerator.hpp"
 
 namespace raysteps {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/stats.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"

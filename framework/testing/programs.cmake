@@ -12,6 +12,7 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
     target_link_libraries(test-${number}-objects PRIVATE raysteps-testing raysteps-strict)
     raysteps_add_test(test-reference-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects>)
     raysteps_add_test(test-isolated-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${number})
+    add_test(NAME test-isolated-${number} COMMAND test-isolated-${number})
 endforeach()
 
 file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "render/*_test.cpp" "apps/*_test.cpp"

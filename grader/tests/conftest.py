@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project, here
 from raysteps.kit.stubs import stub_for, without_markers
@@ -16,6 +18,12 @@ MakeSubmission = Callable[[str, Sources], Path]
 @pytest.fixture(scope="session")
 def project() -> Project:
     return here()
+
+
+@pytest.fixture(scope="session")
+def kit(project: Project) -> BuiltKit:
+    """Built once for all tests."""
+    return build_kit(project)
 
 
 @pytest.fixture(scope="session")

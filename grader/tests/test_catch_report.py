@@ -1,12 +1,10 @@
 """Catch2's XML, both generations, complete or not."""
 
-from pathlib import Path
-
 import pytest
 
-from raysteps.grading.catch_report import parse_report
+from raysteps.common.catch_report import parse_report
 
-CASES = """<TestCase name="good" filename="/k/a_test.cpp" line="3"><OverallResult success="true"/></TestCase>
+CASES = """<TestCase name="good" tags="[04-shadows][is_lit]" filename="/k/a_test.cpp" line="3"><OverallResult success="true"/></TestCase>
 <TestCase name="bad" filename="/k/a_test.cpp" line="7"><Section name="inner">
 <Info>the ray goes up</Info>
 <Expression success="false" type="REQUIRE" filename="/k/a_test.cpp" line="9">
@@ -19,13 +17,12 @@ VERSION_3 = f'<?xml version="1.0"?><Catch2TestRun name="t">{CASES}{TOTALS}</Catc
 
 
 @pytest.mark.parametrize("text", [VERSION_2, VERSION_3])
-def test_complete_reports(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "r.xml"
-    path.write_text(text)
-    outcomes = parse_report(path)
+def test_complete_reports(text: str) -> None:
+    outcomes = parse_report(text.encode())
     assert outcomes is not None
     good, bad = outcomes
     assert good.passed
+    assert good.tags == {"04-shadows", "is_lit"}
     assert not bad.passed
     assert bad.failure is not None
     assert (bad.failure.expression, bad.failure.expanded) == ("a == b", "1 == 2")
@@ -43,8 +40,5 @@ def test_complete_reports(tmp_path: Path, text: str) -> None:
         '<!DOCTYPE x [<!ENTITY a "b">]>' + VERSION_3.partition("?>")[2],
     ],
 )
-def test_incomplete_or_odd_reports_do_not_count(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "r.xml"
-    path.write_text(text)
-    assert parse_report(path) is None
-    assert parse_report(tmp_path / "missing.xml") is None
+def test_incomplete_or_odd_reports_do_not_count(text: str) -> None:
+    assert parse_report(text.encode()) is None

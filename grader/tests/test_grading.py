@@ -4,16 +4,19 @@ from pathlib import Path
 
 import pytest
 from conftest import MakeSubmission, Sources
-from rich.console import Console
 
-from raysteps.commands.check_and_grade import grade_to
+from raysteps.grading.one import grade_one
 from raysteps.grading.results import Results
+from raysteps.grading.settings import Settings
+from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.submission.intake import take_in
 
 
-def _grade(project: Project, path: Path, out: Path) -> Results:
-    results = grade_to(project, path, out, Console(quiet=True))
+def _grade(kit: BuiltKit, path: Path, out: Path, *only: str) -> Results:
+    results = grade_one(kit, take_in(path, kit.steps), Settings(only=only, jobs=2), find_sandbox(), out)
     assert (out / "results.json").is_file()
     return results
 
@@ -32,25 +35,27 @@ def _inserted(source: str, function: str, statement: str) -> str:
     return source[:at] + f"    {statement}\n" + source[at:]
 
 
-def test_the_complete_sample_gets_everything(project: Project, tmp_path: Path) -> None:
-    results = _grade(project, project.samples / "complete", tmp_path)
+def test_the_complete_sample_gets_everything(kit: BuiltKit, project: Project, tmp_path: Path) -> None:
+    results = _grade(kit, project.samples / "complete", tmp_path)
     assert set(_status(results).values()) == {"passed"}
     assert _points(results) == 110
     assert all(step.cumulative.passed for step in results.steps)
 
 
 def test_the_stubs_get_nothing(
-    project: Project, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources
 ) -> None:
     commented = {step: source + "// I looked at it.\n" for step, source in unsolved.items()}
-    results = _grade(project, make_submission("stubs", commented), tmp_path)
+    results = _grade(kit, make_submission("stubs", commented), tmp_path)
     assert set(_status(results).values()) == {"not-started"}
     assert _points(results) == 0
     assert "still the stub" in results.steps[0].messages[0]
 
 
-def test_the_partial_sample_loses_points_in_step_04_and_nowhere_before(project: Project, tmp_path: Path) -> None:
-    results = _grade(project, project.samples / "partial", tmp_path)
+def test_the_partial_sample_loses_points_in_step_04_and_nowhere_before(
+    kit: BuiltKit, project: Project, tmp_path: Path
+) -> None:
+    results = _grade(kit, project.samples / "partial", tmp_path)
     status = _status(results)
     assert [status[number] for number in ("01", "02", "03", "04")] == ["passed", "passed", "passed", "partial"]
     assert {status[number] for number in ("05", "06", "07", "08")} == {"not-started"}
@@ -62,7 +67,7 @@ def test_the_partial_sample_loses_points_in_step_04_and_nowhere_before(project: 
 
 
 def test_broken_steps_cost_themselves_only(
-    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, unsolved: Sources
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, unsolved: Sources
 ) -> None:
     """Step 01 does not build, 02 crashes, 03 ends the process, 04 is missing, 05 is only formatted, 07 hangs."""
     sources = dict(solved)
@@ -78,7 +83,7 @@ def test_broken_steps_cost_themselves_only(
     sources["07-tone-mapping"] = _inserted(
         solved["07-tone-mapping"], "tone_map", "for (volatile bool on = true; on;) {}"
     )
-    results = _grade(project, make_submission("broken", sources), tmp_path)
+    results = _grade(kit, make_submission("broken", sources), tmp_path)
     status = _status(results)
     assert status["01"] == "does-not-build"
     assert results.steps[0].messages[-1].startswith("It does not build: camera_rays.cpp:")
@@ -94,28 +99,28 @@ def test_broken_steps_cost_themselves_only(
 
 
 def test_partly_done_steps_name_what_is_left(
-    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
 ) -> None:
     left = 'RAYSTEPS_TODO("03-phong-shading", "specular");'
     source = _inserted(solved["03-phong-shading"], "specular", left)
-    results = _grade(project, make_submission("partly", {steps[2].id: source}), tmp_path)
+    results = _grade(kit, make_submission("partly", {steps[2].id: source}), tmp_path)
     assert "RAYSTEPS_TODO is still in: specular." in results.steps[2].messages
 
 
 def test_todo_lines_above_finished_code_cost_nothing(
-    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
 ) -> None:
     source = solved["04-shadows"]
     for function in steps[3].functions:
         source = _inserted(source, function, f'RAYSTEPS_TODO("04-shadows", "{function}");')
-    results = _grade(project, make_submission("todo", {"04-shadows": source}), tmp_path / "out")
+    results = _grade(kit, make_submission("todo", {"04-shadows": source}), tmp_path / "out")
     assert results.steps[3].status == "passed"
     assert results.steps[3].points == results.steps[3].max
     assert results.steps[3].messages[0].startswith("RAYSTEPS_TODO is still in: ")
 
 
 def test_brute_force_in_disguise_gets_at_most_half(
-    project: Project, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
 ) -> None:
     """An octree of one leaf makes the right picture, but spares the rays nothing."""
     source = solved["06-octree"]
@@ -126,7 +131,7 @@ def test_brute_force_in_disguise_gets_at_most_half(
         + source[source.index("}\n\n", start) :]
     )
     source = '#pragma GCC diagnostic ignored "-Wunused-function"\n' + source
-    result = _grade(project, make_submission("leaf", {"06-octree": source}), tmp_path / "out").steps[5]
+    result = _grade(kit, make_submission("leaf", {"06-octree": source}), tmp_path / "out").steps[5]
     assert result.status == "partial", result.messages
     assert 0 < result.points <= result.max / 2
     for image in result.images:
@@ -141,6 +146,6 @@ def test_brute_force_in_disguise_gets_at_most_half(
 
 @pytest.mark.parametrize("name", ["with space", "unicöde"])
 def test_names_of_submissions(
-    project: Project, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources, name: str
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources, name: str
 ) -> None:
-    assert _grade(project, make_submission(name, unsolved), tmp_path / "o u t").submission == name
+    assert _grade(kit, make_submission(name, unsolved), tmp_path / "o u t").submission == name

@@ -12,7 +12,7 @@ import pytest
 
 from raysteps.common.errors import UsageError
 from raysteps.kit.manifest import Step
-from raysteps.submission import intake
+from raysteps.submission import entries
 from raysteps.submission.intake import submission_name, take_in
 
 LAYOUTS = [
@@ -77,24 +77,29 @@ def test_links_and_pipes_are_refused(tmp_path: Path, steps: list[Step]) -> None:
     (folder / "intersection.cpp").symlink_to(secret)
     os.mkfifo(folder / "shadows.cpp")
     (folder / "reflection.cpp").write_text("int x;")
-    assert set(take_in(folder, steps).sources) == {"05-reflection"}
+    submission = take_in(folder, steps)
+    assert set(submission.sources) == {"05-reflection"}
+    assert submission.notes["02-intersection"] == "intersection.cpp is a link, not a file, and was not taken."
+    assert "is a pipe" in submission.notes["04-shadows"]
 
 
 def test_links_in_archives_are_refused(tmp_path: Path, steps: list[Step]) -> None:
     path = tmp_path / "a.tar"
     with tarfile.open(path, "w") as archive:
-        for kind in (tarfile.SYMTYPE, tarfile.LNKTYPE):
-            info = tarfile.TarInfo("intersection.cpp")
+        for name, kind in (("intersection.cpp", tarfile.SYMTYPE), ("shadows.cpp", tarfile.LNKTYPE)):
+            info = tarfile.TarInfo(name)
             info.type, info.linkname = kind, "/etc/passwd"
             archive.addfile(info)
-    with pytest.raises(UsageError, match="holds no step"):
-        take_in(path, steps)
+    submission = take_in(path, steps)
+    assert not submission.sources
+    assert set(submission.notes) == {"02-intersection", "04-shadows"}
     zipped = zipfile.ZipInfo("intersection.cpp")
     zipped.external_attr = 0o120777 << 16
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive_zip:
         archive_zip.writestr(zipped, "/etc/passwd")
-    with pytest.raises(UsageError, match="holds no step"):
-        take_in(tmp_path / "a.zip", steps)
+    submission = take_in(tmp_path / "a.zip", steps)
+    assert not submission.sources
+    assert "is a link" in submission.notes["02-intersection"]
 
 
 def test_large_and_repeated_files_cost_their_step_only(tmp_path: Path, steps: list[Step]) -> None:
@@ -114,12 +119,16 @@ def test_large_and_repeated_files_cost_their_step_only(tmp_path: Path, steps: li
 
 
 def test_a_zip_bomb_is_not_unpacked(tmp_path: Path, steps: list[Step]) -> None:
-    path = tmp_path / "bomb.zip"
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("intersection.cpp", b"\0" * 50_000_000)
-    submission = take_in(path, steps)
-    assert not submission.sources
-    assert "larger" in submission.notes["02-intersection"]
+    for size, words in ((20_000_000, "larger"), (50_000_000, "200 times its size"), (300_000_000, "256 MB unpacked")):
+        path = tmp_path / f"{size}.zip"
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive, archive.open("intersection.cpp", "w") as file:
+            for _ in range(size // 1_000_000):
+                file.write(bytes(1_000_000))
+        if size < 32_000_000:
+            assert words in take_in(path, steps).notes["02-intersection"]
+        else:
+            with pytest.raises(UsageError, match=words):
+                take_in(path, steps)
 
 
 @pytest.mark.parametrize("data", [b"", b"not an archive", b"PK\x03\x04broken", b"\x1f\x8bbroken"])
@@ -136,7 +145,7 @@ def test_junk_is_a_usage_error(tmp_path: Path, steps: list[Step], data: bytes) -
 def test_too_many_files_are_refused(
     tmp_path: Path, steps: list[Step], kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(intake, "_MAX_ENTRIES", 8)
+    monkeypatch.setattr(entries, "MAX_ENTRIES", 8)
     files = {f"{place}/{number}": b"x" for number in range(20) for place in (".venv", "a/b/c/d/e")}
     files["intersection.cpp"] = b"int x;"
 
@@ -155,7 +164,7 @@ def test_too_many_files_are_refused(
 
 
 def test_a_tar_bomb_is_refused(tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(intake, "_MAX_UNPACKED", 2 << 20)
+    monkeypatch.setattr(entries, "MAX_UNPACKED", 2 << 20)
     path = _tar(tmp_path / "a.tgz", {"zeros": b"\0" * (3 << 20), "intersection.cpp": b"int x;"})
     with pytest.raises(UsageError, match="MB unpacked"):
         take_in(path, steps)

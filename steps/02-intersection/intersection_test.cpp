@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/stats.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;

@@ -9,6 +9,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "core/scene.hpp"
+#include "core/stats.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;

@@ -9,12 +9,16 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.commands.check_and_grade import check, exit_code, grade
+from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.demo import demo
 from raysteps.commands.render import render
 from raysteps.common.errors import RaystepsError
-from raysteps.kit.project import here
+from raysteps.grading.limits import parse_limits
+from raysteps.grading.settings import Settings
+from raysteps.kit.manifest import choose, read_steps
+from raysteps.kit.project import Project, here
 from raysteps.upkeep import bench, maintenance
+from raysteps.upkeep.bench_grading import grading
 from raysteps.upkeep.selftest import selftest
 
 _EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault"""
@@ -39,12 +43,21 @@ def _parser() -> argparse.ArgumentParser:
     add = commands.add_parser("grade", help="grade a submission: a folder, zip or tar")
     add.add_argument("submission", type=Path)
     add.add_argument("--out", type=Path, help="where results.json and the pictures go")
+    add.add_argument("--seed", type=int, default=1, metavar="N", help="of the hidden cases (1)")
+    add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only")
+    add.add_argument(
+        "--feedback", choices=["full", "diagnosis", "score"], default="full", help="what results.json tells"
+    )
+    add.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
+    add.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
+    add.add_argument("--jobs", type=int, metavar="N", help="steps at a time (as many as there are processors)")
 
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
     add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
 
     add = commands.add_parser("bench", help="measure the reference")
-    add.add_argument("what", choices=["boxes"])
+    add.add_argument("what", choices=["boxes", "grading"])
+    add.add_argument("--rounds", type=int, default=3, metavar="N", help="grading: how often both ways are measured (3)")
     add.add_argument("--scenes", nargs="*", type=Path, default=[], metavar="FILE", help="more scenes to measure")
     add.add_argument("--size", default="256x256", metavar="WxH", help="pixels of each picture (256x256)")
 
@@ -57,15 +70,23 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
+    only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
+    settings = Settings(arguments.seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
+    return Wish(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
+
+
 def _run(arguments: argparse.Namespace, console: Console) -> int:
     project = here()
     match arguments.command:
         case "check":
             return check(project, arguments.steps, console)
         case "grade":
-            return exit_code(grade(project, arguments.submission, arguments.out, console))
+            return exit_code(grade(project, _wish(project, arguments), console))
         case "demo":
             return demo(project, arguments.out, console)
+        case "bench" if arguments.what == "grading":
+            return grading(project, max(1, arguments.rounds), console)
         case "bench":
             return bench.boxes(project, arguments.scenes, arguments.size, console)
         case "test":

@@ -1,22 +1,26 @@
 """The commands `check` and `grade`: a student's own steps, and somebody else's."""
 
+import os
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rich.console import Console
 from rich.status import Status
 
-from raysteps.commands.report import print_details, print_files, print_table
+from raysteps.commands.report import print_details, print_files, print_isolation, print_table
 from raysteps.common.errors import UsageError
-from raysteps.common.files import usable_folder, write_if_changed
-from raysteps.grading.grader import Grader, Job
-from raysteps.grading.results import Results, write_results
-from raysteps.kit.building import BuildTree, release_tree
+from raysteps.common.files import one_at_a_time, usable_folder
+from raysteps.grading.one import grade_one
+from raysteps.grading.results import Results
+from raysteps.grading.settings import Settings
+from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
-from raysteps.kit.stubs import stub_for
-from raysteps.submission.intake import Submission, submission_name, take_in
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.sandbox.open_air import OpenAir
+from raysteps.submission.intake import submission_name, take_in
 
 
 def exit_code(results: Results) -> int:
@@ -63,58 +67,50 @@ def _progress(console: Console, status: Status) -> Callable[[str], None]:
 
 
 def check(project: Project, names: list[str], console: Console) -> int:
-    """Checks the steps in the repository and explains what is wrong."""
-    steps = read_steps(project)
-    chosen = choose(steps, names)
+    """Checks the steps in the repository and explains what is wrong. Your own code needs no sandbox."""
+    chosen = choose(read_steps(project), names)
     out = project.build / "check"
-    tree = release_tree(project)
-    with console.status("starting") as status, tree.locked():
-        clear(out, steps)
-        job = Job("steps", tree, steps, chosen, out, {}, _progress(console, status))
-        results = Grader(job).grade()
-    path = write_results(results, out)
-    print_details(console, results, steps, out)
+    with console.status("starting") as status, one_at_a_time(project.build / "check.lock"):
+        say = _progress(console, status)
+        kit = build_kit(project, say)
+        clear(out, kit.steps)
+        submission = take_in(project.steps, kit.steps)
+        settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
+        results = grade_one(kit, submission, settings, OpenAir(), out, say)
+    print_details(console, results, kit.steps, out)
     console.print()
     print_table(console, results)
-    print_files(console, path)
+    print_files(console, out / "results.json")
     return exit_code(results)
 
 
-def _lay_out(project: Project, steps: list[Step], submission: Submission, folder: Path) -> dict[str, str]:
-    """Copies the sources to where the build expects them; the stub stands in for what is missing."""
-    notes = {}
-    for step in steps:
-        source = submission.sources.get(step.id)
-        if source is None:
-            source = stub_for(project, step).encode()
-            notes[step.id] = submission.notes.get(step.id, f"{step.file} was not handed in.")
-        write_if_changed(folder / step.path, source)
-    return notes
+@dataclass(frozen=True)
+class Wish:
+    """What was asked for on the command line of `grade`."""
+
+    submission: Path
+    out: Path | None = None
+    settings: Settings = field(default_factory=Settings)
+    require_sandbox: bool = False
+    details: bool = True
+    jobs: int | None = None  # steps at a time; as many as there are processors when not said
 
 
-def grade_to(project: Project, path: Path, out: Path, console: Console) -> Results:
-    """Grades one submission and writes its results."""
-    steps = read_steps(project)
-    submission = take_in(path, steps)
-    usable_folder(out)
-    mine = project.build / "grade-submission"
-    tree = BuildTree(project, "release", project.build / "grade", mine)
-    with console.status("starting") as status, tree.locked():
-        clear(out, steps)
-        notes = _lay_out(project, steps, submission, mine)
-        job = Job(submission.name, tree, steps, steps, out, notes, _progress(console, status))
-        results = Grader(job).grade()
-    write_results(results, out)
-    return results
-
-
-def grade(project: Project, path: Path, out: Path | None, console: Console, *, details: bool = True) -> Results:
-    """Grades one submission and prints what came out."""
-    folder = (out or project.build / "grade" / "results" / submission_name(path)).resolve()
-    results = grade_to(project, path, folder, console)
-    if details:
-        print_details(console, results, read_steps(project), folder)
+def grade(project: Project, wish: Wish, console: Console) -> Results:
+    """Grades one submission in the sandbox, writes its results and prints what came out."""
+    sandbox = find_sandbox(require=wish.require_sandbox)
+    out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
+    with console.status("starting") as status:
+        say = _progress(console, status)
+        kit = build_kit(project, say)
+        submission = take_in(wish.submission, kit.steps)
+        clear(out, kit.steps)
+        settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
+        results = grade_one(kit, submission, settings, sandbox, out, say)
+    if wish.details:
+        print_details(console, results, kit.steps, out)
         console.print()
     print_table(console, results)
-    print_files(console, folder / "results.json")
+    print_isolation(console, results)
+    print_files(console, out / "results.json")
     return results

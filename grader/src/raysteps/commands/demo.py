@@ -1,20 +1,20 @@
 """The command `demo`: one picture per step, then two sample submissions graded."""
 
+import sys
 from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.commands.check_and_grade import grade
-from raysteps.commands.render import build_program
+from raysteps.commands.check_and_grade import Wish, grade
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import usable_folder
+from raysteps.common.process import run
 from raysteps.common.text import number
-from raysteps.grading.pictures import write_png
-from raysteps.grading.rendering import render
+from raysteps.grading.pictures import read_ppm, write_png
 from raysteps.grading.results import Results
-from raysteps.kit.building import release_tree
-from raysteps.kit.manifest import ImageCase, read_steps
+from raysteps.kit.kit_building import build_kit
+from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.kit.scenes import generated
 
@@ -34,26 +34,29 @@ def complain_about(sample: str, results: Results) -> None:
         raise GraderFault(f"the sample submission {sample} got {number(points)} points, which is not what it is worth")
 
 
+def _render(program: Path, scene: Path, step: Step, folder: Path) -> Path:
+    picture, path = folder / f"{step.id}.ppm", folder / f"{step.id}.png"
+    words: list[str | Path] = [program, scene, "--step", str(step.index), "--size", _SIZE, "-o", picture, "--quiet"]
+    outcome = run(words + (["--accel", "boxes"] if step.index < 6 else []), seconds=_SECONDS, limited=False)
+    if outcome.code != 0 or outcome.timed_out:
+        raise GraderFault(f"the reference cannot render step {step.id}: {outcome.stderr.strip()}")
+    write_png(read_ppm(picture), path)
+    picture.unlink()
+    return path
+
+
 def demo(project: Project, out: Path | None, console: Console) -> int:
     """Shows what the kit does, from a fresh clone."""
     folder = (out or project.build / "demo").resolve()
     usable_folder(folder)
-    program = build_program(release_tree(project), "reference")
+    kit = build_kit(project, lambda text: print(f"raysteps: {text}", file=sys.stderr, flush=True))
     scene = generated(project, "sphereflake", 3)
-    steps = read_steps(project)
     console.print("Rendering the sphereflake with what the course has after each step:")
-    for step in steps:
-        args: tuple[str, ...] = ("--step", str(step.index), "--size", _SIZE)
-        if step.index < 6:
-            args += ("--accel", "boxes")
-        rendered = render(project, program, ImageCase(step.id, str(scene), args, 0.0), _SECONDS)
-        if rendered.pixels is None:
-            raise GraderFault(f"the reference cannot render step {step.id}: {rendered.outcome.stderr.strip()}")
-        path = folder / f"{step.id}.png"
-        write_png(rendered.pixels, path)
+    for step in kit.steps:
+        path = _render(kit.reference("raytrace"), scene, step, folder)
         console.print(f"  {escape(str(path))}", soft_wrap=True, highlight=False)
     for sample in ("complete", "partial"):
         console.print(f"\nGrading the sample submission [bold]{sample}[/bold].")
-        results = grade(project, project.samples / sample, folder / sample, console, details=sample == "partial")
-        complain_about(sample, results)
+        wish = Wish(project.samples / sample, folder / sample, details=sample == "partial")
+        complain_about(sample, grade(project, wish, console))
     return 0

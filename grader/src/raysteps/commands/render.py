@@ -1,14 +1,17 @@
 """The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
 
+import re
 import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.errors import StudentBuildError, UsageError
+from raysteps.common.text import printable, shorten
 from raysteps.grading.pictures import PictureError, read_ppm, write_png
-from raysteps.kit.building import BuildTree, first_error, release_tree, what_failed
+from raysteps.kit.building import BuildTree, release_tree, what_failed
+from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
 
 
@@ -29,20 +32,25 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
     return impl, rest
 
 
-def build_program(tree: BuildTree, impl: str) -> Path:
-    """Builds raytrace-mine or raytrace-reference; the compiler speaks only when that fails."""
-    target = f"raytrace-{impl}"
-    if not tree.program(target).exists():
-        print("raysteps: building; the first time takes a minute or two", file=sys.stderr, flush=True)
+def _first_error(output: str) -> str:
+    found = re.search(r"^.*(?:error: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M)
+    return shorten(printable(found.group()), 300) if found else "see above"
+
+
+def _say(text: str) -> None:
+    print(f"raysteps: {text}; the first time takes a minute or two", file=sys.stderr, flush=True)
+
+
+def build_mine(tree: BuildTree) -> Path:
+    """Builds raytrace-mine; the compiler speaks only when that fails."""
+    if not tree.program("raytrace-mine").exists():
+        _say("building")
     with tree.locked():
-        outcome = tree.build([target])
+        outcome = tree.build(["raytrace-mine"])
     if outcome.code != 0:
-        output = outcome.stdout + outcome.stderr
-        said = what_failed(outcome)
-        if impl == "reference":
-            raise GraderFault(f"the reference does not build:\n{said}")
-        raise StudentBuildError(f"{said}\nYour steps do not build: {first_error(output, tree.mine) or 'see above'}")
-    return tree.program(target)
+        error = _first_error(outcome.stdout + outcome.stderr)
+        raise StudentBuildError(f"{what_failed(outcome)}\nYour steps do not build: {error}")
+    return tree.program("raytrace-mine")
 
 
 def run_raytrace(program: Path, args: list[str]) -> None:
@@ -59,7 +67,9 @@ def run_raytrace(program: Path, args: list[str]) -> None:
 def render(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and a name in .png makes a PNG."""
     impl, args = take_impl(args)
-    program = build_program(release_tree(project), impl)
+    program = (
+        build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
+    )
     at = args.index("-o") + 1 if "-o" in args else len(args)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
         run_raytrace(program, args)

@@ -7,7 +7,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.text import number
-from raysteps.grading.results import ImageResult, Results, StepResult, TestResult
+from raysteps.grading.results import HiddenResult, ImageResult, Results, StepResult, TestResult
 from raysteps.kit.manifest import Step
 
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
@@ -45,6 +45,15 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
             console.print(f"             see {escape(_short(shown))}")
 
 
+def _print_hidden(console: Console, item: HiddenResult) -> None:
+    console.print(f"  [red]hidden[/red]   {escape(item.name)}: {item.share:.0%} of its points")
+    if item.message:
+        console.print(f"             {escape(item.message)}")
+    for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
+        if text:
+            console.print(f"             {label:<9} {escape(text)}")
+
+
 def _short(path: Path) -> str:
     """Relative to where the person is, when that is shorter."""
     try:
@@ -59,7 +68,8 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
     for result in results.steps:
         console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
         for message in result.messages:
-            console.print(f"  {escape(message)}")
+            for line in message.splitlines():
+                console.print(f"  {escape(line)}")
         for test in result.tests:
             if not test.passed:
                 _print_test(console, test)
@@ -67,6 +77,11 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
             console.print(f"  [green]tests[/green]    all {len(result.tests)} passed")
         for image in result.images:
             _print_image(console, image, out)
+        for item in result.hidden:
+            if not item.passed:
+                _print_hidden(console, item)
+        if result.hidden and all(item.passed for item in result.hidden):
+            console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
         if result.cumulative.message and result.status != "not-started":
             console.print(f"  together with your earlier steps: {escape(result.cumulative.message)}")
 
@@ -74,7 +89,7 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
 def print_table(console: Console, results: Results) -> None:
     """One row per step and the total."""
     table = Table(title=escape(results.submission), title_justify="left")
-    for heading in ("step", "status", "points", "tests", "pictures", "together"):
+    for heading in ("step", "status", "points", "tests", "pictures", "hidden", "together"):
         table.add_column(heading)
     for result in results.steps:
         ran = bool(result.tests or result.images)
@@ -84,12 +99,23 @@ def print_table(console: Console, results: Results) -> None:
             _points(result),
             f"{sum(test.passed for test in result.tests)}/{len(result.tests)}" if ran else "",
             f"{sum(image.passed for image in result.images)}/{len(result.images)}" if ran else "",
+            f"{sum(item.passed for item in result.hidden)}/{len(result.hidden)}" if result.hidden else "",
             "yes" if result.cumulative.passed else "no",
         )
     console.print(table)
     total = results.to_json()["total"]
     bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
     console.print(f"{number(total['points'])} points of {number(total['max'])}{bonus}")
+
+
+def print_isolation(console: Console, results: Results) -> None:
+    """What kept the student's code apart, and whether it claimed more than the judge saw."""
+    console.print(
+        f"Isolation: {escape(results.isolation.name)}. {escape(results.isolation.description)}", highlight=False
+    )
+    for result in results.steps:
+        for line in result.inconsistent:
+            console.print(f"[red]inconsistent[/red]  {result.id}: {escape(line)}")
 
 
 def print_files(console: Console, path: Path) -> None:

@@ -1,8 +1,11 @@
 """Writes files so that nobody ever sees half of one."""
 
+import fcntl
 import json
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +20,15 @@ def usable_folder(path: Path) -> None:
             pass
     except OSError as error:
         raise UsageError(f"{path}: results cannot be written there: {error.strerror or error}") from error
+
+
+@contextmanager
+def one_at_a_time(lock: Path) -> Iterator[None]:
+    """Waits until nobody else holds the lock."""
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with lock.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def write_bytes(path: Path, data: bytes) -> None:

@@ -1,165 +1,154 @@
-"""Grades the steps of one set of sources. What goes wrong in a step costs that step only."""
+"""Grades one step of one submission."""
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.text import count, listed
-from raysteps.grading.rendering import ReferencePictures
-from raysteps.grading.results import Cumulative, Results, Status, StepResult
+from raysteps.common.text import listed
+from raysteps.grading.build_messages import (
+    build_log,
+    compile_message,
+    forbidden_message,
+    is_fault_of_machine,
+    link_message,
+    missing_message,
+)
+from raysteps.grading.hidden import ask_functions, render_scenes
+from raysteps.grading.limits import StepLimits
+from raysteps.grading.results import Cumulative, StepResult
+from raysteps.grading.scoring import most_points, status_and_points, sum_up
+from raysteps.grading.settings import Settings
+from raysteps.grading.student_build import Compiled, Program, StudentBuild
 from raysteps.grading.visible_images import Gallery, judge, judge_together
-from raysteps.grading.visible_tests import expected_cases, run_tests
-from raysteps.kit.building import BuildTree, first_error, is_fault_of_machine, is_fault_of_step, what_failed
+from raysteps.grading.visible_tests import run_tests
+from raysteps.judge.consistency import contradictions
+from raysteps.judge.plan import read_plan
+from raysteps.kit.built_kit import BuiltKit, Kind
 from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
-
-_BUILD_STEP_SECONDS = 300
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.intake import Submission
 
 
 @dataclass(frozen=True)
-class Job:
-    """What is to be graded, with what, and where the pictures go."""
+class Work:
+    """What is graded, with what, where it is built and where the results go."""
 
-    name: str
-    tree: BuildTree
-    all_steps: list[Step]
-    chosen: list[Step]
+    kit: BuiltKit
+    submission: Submission
+    settings: Settings
+    sandbox: Sandbox
+    folder: Path
     out: Path
-    notes: Mapping[str, str]
-    say: Callable[[str], None]
+
+    def source(self, step: Step) -> str | None:
+        """The student's file, or None when there is none or its code is the stub's."""
+        data = self.submission.sources.get(step.id)
+        if data is None:
+            return None
+        text = data.decode("utf-8", "replace")
+        return None if same_code(text, stub_for(self.kit.project, step)) else text
 
 
-def _targets(step: Step) -> list[str]:
-    return [f"test-isolated-{step.number}", f"raytrace-isolated-{step.number}"]
+class StepGrader:
+    """One step between steps of the reference."""
 
+    def __init__(self, work: Work, step: Step, limits: StepLimits, compiled: dict[str, Compiled]) -> None:
+        self._work = work
+        self._step = step
+        self._limits = limits
+        self._compiled = compiled
+        self._build = StudentBuild(work.kit, work.sandbox, work.folder)
+        self._gallery = Gallery(work.kit, work.sandbox, limits, work.out)
+        self._plan = read_plan(work.kit.project, step)
+        most = most_points(step, judged=self._plan is not None)
+        self._result = StepResult(step.id, "not-started", 0.0, most, step.bonus)
 
-def _together_target(step: Step) -> str:
-    return f"raytrace-cumulative-{step.number}"
-
-
-def source_of(job: Job, step: Step) -> str | None:
-    """The student's file, or None when there is none or its code is the stub's."""
-    path = job.tree.mine / step.path
-    if not path.is_file():
-        return None
-    source = path.read_text(encoding="utf-8", errors="replace")
-    return None if same_code(source, stub_for(job.tree.project, step)) else source
-
-
-def _status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
-    def share(passed: list[bool]) -> float:
-        return sum(passed) / len(passed) if passed else 0.0
-
-    tests, images = [test.passed for test in result.tests], [image.passed for image in result.images]
-    points = step.points * (step.weight_tests * share(tests) + step.weight_images * share(images))
-    outcomes = {test.outcome for test in result.tests} | {image.outcome for image in result.images}
-    if all(tests) and all(images):
-        return "passed", step.points
-    if "crashed" in outcomes:
-        return "crashed", round(points, 2)
-    if "timeout" in outcomes:
-        return "timeout", round(points, 2)
-    return ("partial" if points > 0 else "failed"), round(points, 2)
-
-
-def _sum_up(result: StepResult) -> list[str]:
-    messages = []
-    failed = [test for test in result.tests if not test.passed]
-    if failed:
-        messages.append(f"{len(failed)} of {count(len(result.tests), 'test')} failed.")
-    wrong = [image for image in result.images if not image.passed]
-    if wrong:
-        messages.append(f"{len(wrong)} of {count(len(result.images), 'picture')} did not pass.")
-    outcomes = [(item.outcome, item.message) for item in result.tests]
-    outcomes += [(item.outcome, item.message) for item in result.images]
-    bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
-    return messages + bad[:1]
-
-
-class Grader:
-    """Grades one job; the kit's own programs are built before the student's."""
-
-    def __init__(self, job: Job) -> None:
-        self._job = job
-        self._gallery: Gallery | None = None
-
-    def grade(self) -> Results:
-        """All chosen steps. The caller holds the lock of the build folder."""
-        self._build_reference()
-        self._build_ahead([step for step in self._job.chosen if source_of(self._job, step) is not None])
-        return Results(self._job.name, [self._grade_step(step) for step in self._job.chosen])
-
-    def _unstarted_before(self, step: Step) -> list[str]:
-        earlier = [other for other in self._job.all_steps if other.index < step.index]
-        return [other.id for other in earlier if source_of(self._job, other) is None]
-
-    def _build_reference(self) -> None:
-        job = self._job
-        job.say("building the reference and the tests")
-        targets = ["raytrace-reference", *(f"test-reference-{step.number}" for step in job.chosen)]
-        outcome = job.tree.build(targets)
-        if outcome.code != 0:
-            raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
-        program = job.tree.program("raytrace-reference")
-        pictures = ReferencePictures(job.tree.project, program, job.tree.project.build / "grade" / "reference")
-        self._gallery = Gallery(job.tree.project, pictures, job.out)
-
-    def _build_ahead(self, steps: list[Step]) -> None:
-        """Builds what builds, all at once; what does not is built again, alone, for its message."""
-        if steps:
-            self._job.say(f"building {listed([step.id for step in steps])}")
-            targets = [target for step in steps for target in _targets(step)]
-            targets += [_together_target(step) for step in steps if not self._unstarted_before(step)]
-            self._job.tree.build(targets, keep_going=True, seconds=_BUILD_STEP_SECONDS)
-
-    def _grade_step(self, step: Step) -> StepResult:
-        job = self._job
-        result = StepResult(step.id, "not-started", 0.0, step.points, step.bonus)
-        source = source_of(job, step)
+    def grade(self) -> StepResult:
+        """What goes wrong in the student's code is a result; only the kit's own trouble is raised."""
+        step, result = self._step, self._result
+        source = self._work.source(step)
         if source is None:
-            result.messages = [job.notes.get(step.id) or f"{step.file} is still the stub."]
+            handed_in = step.id in self._work.submission.sources
+            missing = f"{step.file} is still the stub." if handed_in else f"{step.file} was not handed in."
+            result.messages = [self._work.submission.notes.get(step.id) or missing]
             result.cumulative = Cumulative(False, "This step was not started.")
             return result
-        job.say(f"checking {step.id}")
         left = unfinished_functions(source, step)
         if left:
             result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
-        built = job.tree.build(_targets(step), keep_going=True, seconds=_BUILD_STEP_SECONDS)
-        if built.code != 0:
-            if not is_fault_of_step(built, job.tree.mine / step.path, _targets(step)):
-                raise GraderFault(f"{step.id} was not built, and its source is not the reason:\n{what_failed(built)}")
-            result.status = "does-not-build"
-            error = first_error(built.stdout + built.stderr, job.tree.mine)
-            why = "The compiler took too long" if built.timed_out else "It does not build"
-            result.messages.append(f"{why}: {error}" if error else f"{why}.")
-            result.cumulative = Cumulative(False, "This step does not build.")
-            return result
-        self._run_step(step, result)
+        compiled = self._compiled[step.id]
+        result.build_log = build_log(compiled.ran)
+        if compiled.binary is None:
+            return self._does_not_build(self._compile_message(compiled, source))
+        self._run(compiled.binary)
         return result
 
-    def _run_step(self, step: Step, result: StepResult) -> None:
-        job = self._job
-        assert self._gallery is not None
-        names = expected_cases(job.tree.program(f"test-reference-{step.number}"))
-        result.tests = run_tests(job.tree.program(f"test-isolated-{step.number}"), names, step.seconds, step.memory_mb)
-        program = job.tree.program(f"raytrace-isolated-{step.number}")
-        result.images = [judge(self._gallery, program, step, case) for case in step.images]
-        result.status, result.points = _status_and_points(result, step)
-        result.messages += _sum_up(result)
-        result.cumulative = self._together(step)
+    def _compile_message(self, compiled: Compiled, source: str) -> str:
+        if is_fault_of_machine(compiled.ran):
+            raise GraderFault(f"{self._step.id} was not built: {build_log(compiled.ran)}")
+        if compiled.forbidden:
+            owners = {
+                name: step.id
+                for step in self._work.kit.steps
+                if step.index > self._step.index
+                for name in self._work.kit.functions(step)
+            }
+            return forbidden_message(compiled.forbidden, owners)
+        if compiled.missing:
+            return missing_message(compiled.missing)
+        return compile_message(self._step, source, compiled.ran)
 
-    def _together(self, step: Step) -> Cumulative:
-        job = self._job
-        assert self._gallery is not None
-        missing = self._unstarted_before(step)
+    def _does_not_build(self, message: str) -> StepResult:
+        self._result.status = "does-not-build"
+        self._result.messages.append(message)
+        self._result.cumulative = Cumulative(False, "This step does not build.")
+        return self._result
+
+    def _program(self, kind: Kind, binary: Path) -> Program | None:
+        program, ran = self._build.program(kind, self._step, [binary], self._limits)
+        if program is None and ran is not None:
+            if is_fault_of_machine(ran):
+                raise GraderFault(f"{self._step.id} was not linked: {build_log(ran)}")
+            self._result.build_log = (self._result.build_log + "\n" + build_log(ran)).strip()
+            self._does_not_build(link_message(ran))
+        return program
+
+    def _run(self, binary: Path) -> None:
+        step, result, work = self._step, self._result, self._work
+        tests = self._program("test", binary)
+        raytrace = self._program("raytrace", binary) if tests else None
+        worker = self._program("worker", binary) if raytrace and self._plan else None
+        if tests is None or raytrace is None or (self._plan and worker is None):
+            return
+        tags = work.kit.tests[step.id]
+        result.tests = run_tests(work.sandbox, tests, list(tags), self._limits)
+        result.images = [judge(self._gallery, raytrace, step, case) for case in step.images]
+        if self._plan is not None and worker is not None:
+            seed = work.settings.seed
+            result.hidden = ask_functions(self._gallery, worker, step, self._plan, seed)
+            scenes = render_scenes(self._gallery, raytrace, step, self._plan, seed, work.folder / step.number)
+            result.hidden += scenes
+            result.inconsistent = contradictions(step, self._plan, result, tags)
+        result.status, result.points = status_and_points(result, step)
+        result.messages += sum_up(result)
+        result.cumulative = self._together()
+
+    def _together(self) -> Cumulative:
+        step, work = self._step, self._work
+        mine = [other for other in work.kit.steps if other.index <= step.index]
+        missing = [other.id for other in mine if other.id not in self._compiled]
         if missing:
             return Cumulative(False, f"Not started yet: {listed(missing)}.")
-        target = _together_target(step)
-        built = job.tree.build([target], seconds=_BUILD_STEP_SECONDS)
-        if built.code != 0:
-            if is_fault_of_machine(built):
-                raise GraderFault(f"{target} was not built:\n{what_failed(built)}")
-            error = first_error(built.stdout + built.stderr, job.tree.mine)
-            return Cumulative(False, f"The steps do not build together: {error}" if error else "They do not build.")
-        return judge_together(self._gallery, job.tree.program(target), step)
+        objects = [self._compiled[other.id].binary for other in mine]
+        built = [path for path in objects if path is not None]
+        if len(built) < len(objects):
+            broken = [other.id for other in mine if self._compiled[other.id].binary is None]
+            return Cumulative(False, f"Does not build: {listed(broken)}.")
+        program, ran = self._build.program("raytrace", step, built, self._limits, together=True)
+        if ran is not None:
+            if is_fault_of_machine(ran):
+                raise GraderFault(f"{step.id} was not linked: {build_log(ran)}")
+            return Cumulative(False, f"The steps do not build together. {link_message(ran)}")
+        assert program is not None
+        return judge_together(self._gallery, program, step)

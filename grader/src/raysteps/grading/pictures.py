@@ -26,19 +26,22 @@ class PictureError(Exception):
 
 
 def read_ppm(path: Path) -> Pixels:
-    """Reads a P6 file with 8-bit channels; regular files only, sizes checked before memory is taken."""
+    """Reads a P6 file with 8-bit channels; regular files only."""
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError as error:
         raise PictureError("no picture was written") from error
-    try:
+    with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode) or status.st_size > _MAX_BYTES:
             raise PictureError("the picture is not a regular file of a sensible size")
-        with os.fdopen(handle, "rb", closefd=False) as file:
-            data = file.read(_MAX_BYTES)
-    finally:
-        os.close(handle)
+        return parse_ppm(file.read(_MAX_BYTES))
+
+
+def parse_ppm(data: bytes) -> Pixels:
+    """The bytes of a P6 file; the size is checked before it is believed."""
+    if not data:
+        raise PictureError("no picture was written")
     header = _HEADER.match(data)
     if header is None:
         raise PictureError("the picture is not a binary PPM with 8-bit channels")

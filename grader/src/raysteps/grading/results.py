@@ -67,6 +67,8 @@ class HiddenResult:
     name: str
     kind: Literal["function", "picture"]
     share: float  # of this item's points that were earned, from 0 to 1
+    weight: float = 1.0  # among the hidden items of the step
+    wrong_share: float | None = None  # of the pixels of a scene
     groups: list[CaseGroup] = field(default_factory=list)
     message: str = ""  # what is wrong, without the input
     given: str = ""  # the input of the first wrong case, in words and numbers
@@ -162,9 +164,8 @@ def validate(document: Any) -> None:
         raise GraderFault(f"results.json would break its schema: {error.json_path}: {error.message}") from error
 
 
-def write_results(results: Results, folder: Path) -> Path:
+def write_document(document: dict[str, Any], folder: Path) -> Path:
     """Checks and writes FOLDER/results.json."""
-    document = results.to_json()
     validate(document)
     path = folder / "results.json"
     write_json(path, document)

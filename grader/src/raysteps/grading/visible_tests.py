@@ -1,52 +1,34 @@
-"""Runs the visible tests of a step, so that a crash in one of them does not hide the rest."""
+"""The visible tests of a step, run so that a crash in one of them does not hide the rest."""
 
 import re
-import tempfile
 import time
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterable
 
-from raysteps.common.errors import GraderFault
-from raysteps.common.process import Outcome, run
+from raysteps.common.catch_report import TestOutcome, parse_report
 from raysteps.common.text import number
-from raysteps.grading.catch_report import TestOutcome, parse_report
+from raysteps.grading.endings import ending_of
+from raysteps.grading.limits import StepLimits
 from raysteps.grading.results import TestResult
+from raysteps.grading.student_build import Program
+from raysteps.sandbox.task import Output, Ran, Sandbox, Task, Word
 
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
-@dataclass(frozen=True)
-class _Run:
-    outcome: Outcome
-    cases: list[TestOutcome] | None
+def _run(sandbox: Sandbox, program: Program, limits: StepLimits, seconds: float, only: str | None = None) -> Ran:
+    command: tuple[Word, ...] = (*program.words, "-r", "xml", "-o", Output("report"))
+    if only is not None:
+        command += (_SPECIAL.sub(r"\\\1", only),)
+    return sandbox.run(Task(command, limits.of_program(seconds)))
 
 
-def _run(program: Path, seconds: float, only: str | None = None, memory_mb: int | None = None) -> _Run:
-    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        report = Path(folder) / "report.xml"
-        command: list[str | Path] = [program, "-r", "xml", "-o", report]
-        if only is not None:
-            command.append(_SPECIAL.sub(r"\\\1", only))
-        outcome = run(command, seconds=seconds, cwd=Path(folder), memory_mb=memory_mb)
-        return _Run(outcome, None if outcome.timed_out else parse_report(report))
-
-
-def expected_cases(program: Path) -> list[str]:
-    """The names of all test cases, as the reference runs them; it must pass every one."""
-    result = _run(program, 600)
-    if result.cases is None or not result.cases:
-        raise GraderFault(f"{program.name} gave no complete report")
-    failed = [case.name for case in result.cases if not case.passed]
-    if failed:
-        raise GraderFault(f"the reference fails its own tests: {failed[0]}")
-    return [case.name for case in result.cases]
-
-
-def _is_complete(result: _Run, names: list[str]) -> bool:
+def _complete(ran: Ran, names: Iterable[str]) -> list[TestOutcome] | None:
     """A report that holds exactly the expected test cases, from a program that ended as reports do."""
-    if result.cases is None or result.outcome.code < 0:
-        return False
-    return sorted(case.name for case in result.cases) == sorted(names)
+    cases = parse_report(ran.outputs.get("report", b""))
+    ended = not (ran.outcome.timed_out or ran.stopped or ran.outcome.code < 0)
+    if not ended or cases is None or sorted(case.name for case in cases) != sorted(names):
+        return None
+    return cases
 
 
 def _result(case: TestOutcome) -> TestResult:
@@ -66,30 +48,30 @@ def _result(case: TestOutcome) -> TestResult:
     )
 
 
-def _result_alone(result: _Run, name: str, seconds: float) -> TestResult:
-    if result.outcome.timed_out:
-        message = f"The test was stopped after {number(seconds)} seconds."
+def _result_alone(ran: Ran, name: str) -> TestResult:
+    cases = _complete(ran, [name])
+    if cases is not None:
+        return _result(cases[0])
+    if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
+        message = f"The test was stopped after {number(ran.outcome.seconds)} seconds."
         return TestResult(name, False, message, outcome="timeout")
-    if result.outcome.signal_name is not None:
-        message = f"The program crashed in this test ({result.outcome.signal_name})."
-        return TestResult(name, False, message, outcome="crashed")
-    if not _is_complete(result, [name]) or result.cases is None:
-        return TestResult(name, False, "The program ended before the test was over.", outcome="crashed")
-    return _result(result.cases[0])
+    if ran.outcome.signal_name is not None or ran.stopped:
+        return TestResult(name, False, ending_of(ran, "The test's report")[1], outcome="crashed")
+    return TestResult(name, False, "The program ended before the test was over.", outcome="crashed")
 
 
-def run_tests(program: Path, names: list[str], seconds: float, memory_mb: int | None = None) -> list[TestResult]:
+def run_tests(sandbox: Sandbox, program: Program, names: list[str], limits: StepLimits) -> list[TestResult]:
     """All test cases in one process; when that ends badly, each in a process of its own."""
-    together = _run(program, seconds, memory_mb=memory_mb)
-    if _is_complete(together, names) and together.cases is not None:
-        found = {case.name: _result(case) for case in together.cases}
+    together = _complete(_run(sandbox, program, limits, limits.seconds), names)
+    if together is not None:
+        found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]
-    each = max(2.0, seconds / 4)
-    deadline = time.monotonic() + 3 * seconds
+    each = max(1.0, limits.seconds / 4)
+    deadline = time.monotonic() + 3 * limits.seconds
     results = []
     for name in names:
         if time.monotonic() > deadline:
             results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
         else:
-            results.append(_result_alone(_run(program, each, name, memory_mb), name, each))
+            results.append(_result_alone(_run(sandbox, program, limits, each, name), name))
     return results

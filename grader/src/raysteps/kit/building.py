@@ -1,6 +1,5 @@
 """Configures and builds with CMake; the compiler is heard only when it fails."""
 
-import fcntl
 import os
 import re
 import shutil
@@ -10,18 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.files import one_at_a_time
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.kit.project import Project
 
-_ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<text>.+)$", re.M)
-_LINK_ERROR = re.compile(
-    r"^.*(?:undefined reference to|multiple definition of|undefined symbol|duplicate symbol).*$", re.M
-)
-_MACHINE = re.compile(
-    r"No space left on device|Disk quota exceeded|Read-only file system|signal terminated program|^Killed$",
-    re.M,
-)
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
 _COMPILER_MEMORY_MB = 8192
@@ -97,10 +89,8 @@ class BuildTree:
 
     @contextmanager
     def locked(self) -> Iterator[None]:
-        """One grader at a time in this folder."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with (self.folder / ".lock").open("w") as file:
-            fcntl.flock(file, fcntl.LOCK_EX)
+        """One command at a time in this folder."""
+        with one_at_a_time(self.folder / ".lock"):
             yield
 
 
@@ -114,34 +104,3 @@ def what_failed(outcome: Outcome) -> str:
     text = printable(outcome.stdout + outcome.stderr)
     starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400) if at > 0]
     return shorten(text[min(starts, default=0) :], 6000)
-
-
-def is_fault_of_machine(outcome: Outcome) -> bool:
-    """Whether a build failed for want of disk or memory, whatever the sources say."""
-    return _MACHINE.search(outcome.stdout + outcome.stderr) is not None
-
-
-def is_fault_of_step(outcome: Outcome, source: Path, targets: list[str]) -> bool:
-    """Whether a failed build of a step is the work of its source: an error in it or by way of it, a link error of
-    its programs, or more time than there was. Everything else is the kit's or the machine's."""
-    if outcome.timed_out:
-        return True
-    output = printable(outcome.stdout + outcome.stderr)
-    if _MACHINE.search(output):
-        return False
-    if _ERROR.search(output):
-        return f"{source}:" in output
-    return _LINK_ERROR.search(output) is not None and any(target in output for target in targets)
-
-
-def first_error(output: str, mine: Path) -> str:
-    """The first error line, with the student's file named as the student knows it."""
-    errors = list(_ERROR.finditer(output))
-    own = [error for error in errors if Path(error["path"]).is_relative_to(mine)]
-    for error in own or errors:
-        name = Path(error["path"]).name
-        return printable(f"{name}:{error['line']}:{error['column']}: {error['text']}")
-    link = _LINK_ERROR.search(output)
-    if link is not None:
-        return shorten(printable(link.group().rpartition(": ")[2]), 300)
-    return ""

@@ -34,6 +34,7 @@ class Step:
     hints: tuple[str, ...]
     weight_tests: float
     weight_images: float
+    weight_hidden: float
     seconds: float
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
@@ -82,6 +83,7 @@ def read_step(path: Path) -> Step:
             hints=tuple(table.get("hints", [])),
             weight_tests=float(weights["tests"]),
             weight_images=float(weights["images"]),
+            weight_hidden=float(weights["hidden"]),
             seconds=float(table["limits"]["seconds"]),
             images=tuple(_image(image) for image in table.get("images", [])),
             memory_mb=int(table["limits"].get("memory_mb", 4096)),
@@ -90,7 +92,9 @@ def read_step(path: Path) -> Step:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
-    if abs(step.weight_tests + step.weight_images - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
+    if abs(step.weight_tests + step.weight_images + step.weight_hidden - 1) > 1e-9 or (step.weight_images > 0) != bool(
+        step.images
+    ):
         raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
     return step
 

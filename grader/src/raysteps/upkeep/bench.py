@@ -9,10 +9,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.commands.render import build_program
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_json
-from raysteps.kit.building import release_tree
+from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
 from raysteps.kit.scenes import generated
 from raysteps.upkeep.same_picture import ACCELERATIONS, render_with
@@ -97,7 +96,7 @@ def boxes(project: Project, scenes: list[Path], size: str, console: Console) -> 
     missing = [str(scene) for scene in scenes if not scene.is_file()]
     if missing:
         raise UsageError(f"{missing[0]}: there is no such scene")
-    program = build_program(release_tree(project), "reference")
+    program = build_kit(project).reference("raytrace")
     every = [generated(project, kind, factor) for kind, factor in _DEFAULTS] + scenes
     rows: list[Measurement] = []
     for scene in every:

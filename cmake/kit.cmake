@@ -1,0 +1,82 @@
+# Writes kit.json into the build folder: how a step is compiled, and what each program is linked from. The grader builds
+# a submission from it without asking CMake again.
+get_target_property(options raysteps-flags INTERFACE_COMPILE_OPTIONS)
+set(compile_flags ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION} ${options})
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND compile_flags -fno-gnu-unique -fmax-errors=20)
+elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    list(APPEND compile_flags -ferror-limit=20)
+endif()
+if(RAYSTEPS_SEAL)
+    list(APPEND compile_flags -fPIC -fno-semantic-interposition)  # a step becomes a library that programs load
+endif()
+list(APPEND compile_flags -Wno-unused-parameter -fno-lto -fdiagnostics-color=never)
+list(JOIN compile_flags " " compile_flags)
+separate_arguments(compile_flags)
+list(JOIN compile_flags "\", \"" compile_flags)
+set(link_flags ${CMAKE_EXE_LINKER_FLAGS} ${CMAKE_THREAD_LIBS_INIT})
+list(JOIN link_flags "\", \"" link_flags)
+
+set(steps_json "")
+set(tests_json "")
+foreach(step IN LISTS RAYSTEPS_STEPS)
+    raysteps_split_step(${step} number name)
+    if(RAYSTEPS_SEAL)
+        set(object "${PROJECT_BINARY_DIR}/steps/${number}-reference.o")
+    else()
+        set(object "$<TARGET_OBJECTS:step-${number}-reference-raw>")
+    endif()
+    list(APPEND steps_json "\"${number}\": \"${object}\"")
+    list(APPEND tests_json "\"${number}\": [\"$<JOIN:$<TARGET_OBJECTS:test-${number}-objects>,\", \">\"]")
+endforeach()
+list(JOIN steps_json ",\n    " steps_json)
+list(JOIN tests_json ",\n    " tests_json)
+set(catch2 "")
+get_target_property(catch2_target Catch2::Catch2 ALIASED_TARGET)
+if(NOT catch2_target)
+    set(catch2_target Catch2::Catch2)
+endif()
+get_target_property(catch2_type ${catch2_target} TYPE)
+if(NOT catch2_type STREQUAL "INTERFACE_LIBRARY")
+    set(catch2 "\"$<TARGET_FILE:Catch2::Catch2>\"")
+endif()
+set(seal_json null)
+if(RAYSTEPS_SEAL)
+    set(seal_json "{\"nm\": \"${CMAKE_NM}\", \"readelf\": \"${CMAKE_READELF}\"}")
+endif()
+
+file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
+  \"compiler\": \"${CMAKE_CXX_COMPILER}\",
+  \"compiler_version\": \"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}\",
+  \"compile_flags\": [\"${compile_flags}\"],
+  \"system_includes\": [\"$<JOIN:$<TARGET_PROPERTY:glm::glm,INTERFACE_INCLUDE_DIRECTORIES>,\", \">\"],
+  \"link_flags\": [\"${link_flags}\"],
+  \"seal\": ${seal_json},
+  \"steps\": {
+    ${steps_json}
+  },
+  \"libraries\": {
+    \"core\": \"$<TARGET_FILE:raysteps-core>\",
+    \"io\": \"$<TARGET_FILE:raysteps-io>\",
+    \"render\": \"$<TARGET_FILE:raysteps-render>\",
+    \"testing\": \"$<TARGET_FILE:raysteps-testing>\"
+  },
+  \"catch2\": [${catch2}],
+  \"raytrace\": [\"$<JOIN:$<TARGET_OBJECTS:raytrace-app>,\", \">\"],
+  \"worker\": [\"$<JOIN:$<TARGET_OBJECTS:worker-app>,\", \">\"],
+  \"tests\": {
+    ${tests_json}
+  }
+}
+")
+
+# All that kit.json names.
+add_custom_target(kit)
+add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app worker-app)
+foreach(step IN LISTS RAYSTEPS_STEPS)
+    raysteps_split_step(${step} number name)
+    add_dependencies(kit step-${number}-reference-raw test-${number}-objects)
+    if(RAYSTEPS_SEAL)
+        add_dependencies(kit step-${number}-reference)
+    endif()
+endforeach()

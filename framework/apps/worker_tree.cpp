@@ -1,0 +1,100 @@
+#include "apps/worker_tree.hpp"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <unordered_map>
+
+#include "apps/worker_values.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr int k_levels = 3;
+constexpr std::size_t k_most_nodes = 40000;
+constexpr std::size_t k_most_entries = 400000;
+constexpr int k_deepest = 500;
+
+bool apart(const Box& a, const Box& b) {
+    return glm::any(glm::greaterThan(a.min, b.max)) || glm::any(glm::greaterThan(b.min, a.max));
+}
+
+Node simple_node(const Box& box, const SurfaceList& surfaces, int level) {
+    Node node;
+    node.box = box;
+    SurfaceList touching;
+    for (const Surface* surface : surfaces) {
+        if (!apart(surface->bounds(), box)) {
+            touching.push_back(surface);
+        }
+    }
+    if (level == k_levels) {
+        node.surfaces = touching;
+        return node;
+    }
+    const glm::vec3 half = 0.5F * (box.max - box.min);
+    const glm::vec3 overlap = 1e-4F * half;  // so that rounding opens no gap between two boxes
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 corner = box.min + half * glm::vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+        node.children.push_back(simple_node({corner - overlap, corner + half + overlap}, touching, level + 1));
+    }
+    return node;
+}
+
+class TreeWriter {
+public:
+    explicit TreeWriter(const SurfaceList& surfaces) {
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            numbers_[surfaces[i]] = static_cast<int>(i);
+        }
+    }
+
+    /// Whether the tree was small enough.
+    bool write(Answer& answer, const Node& node, int depth) {
+        nodes_ += 1;
+        entries_ += node.surfaces.size();
+        if (nodes_ > k_most_nodes || entries_ > k_most_entries || depth > k_deepest) {
+            return false;
+        }
+        write_box(answer, node.box);
+        answer.whole(static_cast<long long>(node.surfaces.size()));
+        for (const Surface* surface : node.surfaces) {
+            const auto found = numbers_.find(surface);
+            answer.whole(found == numbers_.end() ? -1 : found->second);
+        }
+        answer.whole(static_cast<long long>(node.children.size()));
+        for (const Node& child : node.children) {
+            if (!write(answer, child, depth + 1)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    std::unordered_map<const Surface*, int> numbers_;
+    std::size_t nodes_ = 0;
+    std::size_t entries_ = 0;
+};
+
+}  // namespace
+
+Node simple_tree(const SurfaceList& surfaces) {
+    Box all;
+    for (const Surface* surface : surfaces) {
+        all.min = glm::min(all.min, surface->bounds().min);
+        all.max = glm::max(all.max, surface->bounds().max);
+    }
+    const glm::vec3 padding = 1e-3F * (all.max - all.min) + 1e-3F;
+    return surfaces.empty() ? Node{} : simple_node({all.min - padding, all.max + padding}, surfaces, 1);
+}
+
+void write_tree(Answer& answer, const Node& root, const SurfaceList& surfaces) {
+    Answer tree;
+    if (!TreeWriter(surfaces).write(tree, root, 0)) {
+        answer.word("large");
+        return;
+    }
+    answer.word("tree").word(std::string_view(tree.text()).substr(1));
+}
+
+}  // namespace raysteps

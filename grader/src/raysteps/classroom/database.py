@@ -1,0 +1,178 @@
+"""What class.sqlite is told, and what it tells."""
+
+import hashlib
+import json
+import sqlite3
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Literal
+
+from raysteps.classroom.messages import Answer
+from raysteps.classroom.tables import open_database, transaction
+
+FILE = "class.sqlite"
+Scope = Literal["here", "elsewhere", "gone"]
+_CURRENT = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
+
+
+def now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+@dataclass(frozen=True)
+class Registered:
+    """An entry of the folder as the database keeps it."""
+
+    entry: str
+    name: str
+    scope: Scope
+    submitted_at: str = ""
+    submitted_from: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Registration:
+    """A student, and the entries that are this student's."""
+
+    id: str
+    name: str
+    email: str
+    entries: tuple[str, ...]
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class RunFacts:
+    """How a run grades. `uid` tells it from the runs of all other databases."""
+
+    uid: str
+    kit: str
+    folder: str
+    shard: str
+    settings: Mapping[str, Any]
+    steps: list[dict[str, Any]]
+    late_policy: str
+    ignored: list[str]
+
+
+def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, Any], conflict: str = "") -> int:
+    """The names are the code's own, the values are bound. `conflict` is an upsert clause. Returns the rows it made."""
+    columns = ", ".join(row)
+    marks = ", ".join(f":{name}" for name in row)
+    sql = f"INSERT INTO {table} ({columns}) VALUES ({marks}) {conflict}"  # noqa: S608
+    return connection.execute(sql, row).rowcount
+
+
+class ClassDatabase:
+    """One class. What a method writes is there as a whole or not at all."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / FILE
+        self.connection = open_database(self.path)
+
+    def close(self) -> None:
+        self.connection.close()
+
+    def names(self) -> dict[str, str]:
+        """Entry -> name of all entries that were ever seen."""
+        return {row["entry"]: row["name"] for row in self.connection.execute("SELECT entry, name FROM submissions")}
+
+    def begin_run(self, facts: RunFacts, entries: Iterable[Registered], students: Iterable[Registration]) -> int:
+        """Registers who and what is there now, and gives the number of the new run."""
+        with transaction(self.connection):
+            self.connection.execute("UPDATE runs SET state = 'interrupted' WHERE state = 'running'")
+            row = {
+                "uid": facts.uid,
+                "started_at": now(),
+                "state": "running",
+                "kit": facts.kit,
+                "folder": facts.folder,
+                "shard": facts.shard,
+                "settings": json.dumps(dict(facts.settings), sort_keys=True),
+                "steps": json.dumps(facts.steps),
+                "late_policy": facts.late_policy,
+                "ignored": json.dumps(facts.ignored),
+            }
+            insert(self.connection, "runs", row)
+            (number,) = self.connection.execute("SELECT max(number) FROM runs").fetchone()
+            self.connection.execute("UPDATE submissions SET scope = 'gone'")
+            self.connection.execute("DELETE FROM students")
+            for entry in entries:
+                self._register(entry)
+            for student in students:
+                self._enrol(student)
+        return int(number)
+
+    def _register(self, entry: Registered) -> None:
+        row = dict(vars(entry))
+        insert(self.connection, "submissions", row, "ON CONFLICT (entry) DO NOTHING")
+        self.connection.execute(
+            "UPDATE submissions SET scope = :scope, submitted_at = :submitted_at, submitted_from = :submitted_from, "
+            "note = :note WHERE entry = :entry",
+            row,
+        )
+
+    def _enrol(self, student: Registration) -> None:
+        row = {"id": student.id, "name": student.name, "email": student.email, "note": student.note}
+        insert(self.connection, "students", row, "ON CONFLICT (id, name, email) DO NOTHING")
+        for entry in student.entries:
+            self.connection.execute(
+                "INSERT OR IGNORE INTO handed_in (student, submission) SELECT students.number, submissions.id "
+                "FROM students, submissions WHERE students.id = :id AND students.name = :name "
+                "AND students.email = :email AND entry = :entry",
+                {**row, "entry": entry},
+            )
+
+    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: int) -> None:
+        with transaction(self.connection):
+            self.connection.execute(
+                "UPDATE runs SET state = ?, ended_at = ?, reused = ? WHERE number = ?", (state, now(), reused, run)
+            )
+
+    def current(self, name: str) -> sqlite3.Row | None:
+        """The result that counts for a submission: that of the last run that has one."""
+        row: sqlite3.Row | None = self.connection.execute(
+            "SELECT results.* FROM results JOIN submissions ON submissions.id = results.submission "  # noqa: S608
+            f"WHERE submissions.name = ? AND run = ({_CURRENT})",
+            (name,),
+        ).fetchone()
+        return row
+
+    def record(self, run: int, answer: Answer, key: str, *, unreadable: bool = False) -> bool:
+        """Keeps an answer; False when the run already has a result of this submission, which then stays."""
+        document = answer.document
+        with transaction(self.connection):
+            (submission,) = self.connection.execute(
+                "SELECT id FROM submissions WHERE name = ?", (answer.name,)
+            ).fetchone()
+            row = {
+                "submission": submission,
+                "run": run,
+                "key": key,
+                "status": "unreadable" if unreadable and document is not None else answer.status,
+                "points": None if document is None else document["total"]["points"],
+                "document": "" if document is None else json.dumps(document, ensure_ascii=False),
+                "fault": answer.fault,
+                "details": answer.details,
+                "worker": answer.worker,
+                "seconds": answer.seconds,
+                "finished_at": now(),
+            }
+            if insert(self.connection, "results", row, "ON CONFLICT (submission, run) DO NOTHING") == 0:
+                return False
+            for path, data in answer.pictures.items():
+                digest = hashlib.sha256(data).hexdigest()
+                insert(self.connection, "blobs", {"sha256": digest, "data": data}, "ON CONFLICT (sha256) DO NOTHING")
+                picture = {"submission": submission, "run": run, "path": path, "sha256": digest}
+                insert(self.connection, "pictures", picture)
+        return True
+
+    def pictures(self, submission: int, run: int) -> dict[str, bytes]:
+        rows = self.connection.execute(
+            "SELECT path, data FROM pictures JOIN blobs USING (sha256) WHERE submission = ? AND run = ?",
+            (submission, run),
+        )
+        return {row["path"]: row["data"] for row in rows}

@@ -1,0 +1,118 @@
+"""The entries of the folder that was handed in: one submission each."""
+
+import hashlib
+import os
+import re
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from raysteps.common.errors import UsageError
+
+_MOST_FILES = 20_000
+_MOST_DEPTH = 6
+_NO_SUBMISSIONS = {"__MACOSX", "Thumbs.db", "desktop.ini"}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One entry; its label is its name as text that can be printed and stored."""
+
+    path: Path
+    label: str
+
+
+@dataclass(frozen=True)
+class Listing:
+    """What a folder holds."""
+
+    entries: list[Entry]
+    ignored: list[str]
+
+
+@dataclass(frozen=True)
+class Shard:
+    """The part of a class that one of several machines grades; counted from 1."""
+
+    index: int = 1
+    count: int = 1
+
+    def holds(self, label: str) -> bool:
+        """By the name alone: whatever else is handed in meanwhile, each entry belongs to exactly one shard."""
+        digest = hashlib.sha256(label.encode()).digest()
+        return int.from_bytes(digest[:8], "big") % self.count == self.index - 1
+
+    def __str__(self) -> str:
+        return f"{self.index}/{self.count}"
+
+
+def read_shard(text: str) -> Shard:
+    """From `2/8`."""
+    found = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", text)
+    if found is None or not 1 <= int(found[1]) <= int(found[2]):
+        raise UsageError(f"--shard {text}: expected i/n with i from 1 to n, such as 2/8")
+    return Shard(int(found[1]), int(found[2]))
+
+
+def _label(path: Path, known: set[str]) -> str:
+    """A name that is not UTF-8 can be neither stored nor printed as it is."""
+    label = os.fsencode(path.name).decode("utf-8", "backslashreplace")
+    mark = hashlib.sha256(os.fsencode(path.name)).hexdigest()
+    return label if label not in known else f"{label} {mark}"
+
+
+def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
+    """In an order that does not depend on the machine."""
+    try:
+        paths = sorted(folder.iterdir(), key=lambda path: os.fsencode(path.name))
+    except OSError as error:
+        raise UsageError(f"{folder}: expected a folder with one entry per submission: {error.strerror}") from error
+    entries: list[Entry] = []
+    ignored: list[str] = []
+    known: set[str] = set()
+    left_out = {os.path.realpath(path) for path in leave_out}
+    for path in paths:
+        label = _label(path, known)
+        known.add(label)
+        if path.name.startswith(".") or path.name in _NO_SUBMISSIONS or os.path.realpath(path) in left_out:
+            ignored.append(label)
+        else:
+            entries.append(Entry(path, label))
+    if not entries:
+        raise UsageError(f"{folder}: holds no submission; expected one folder, zip or tar per submission")
+    return Listing(entries, ignored)
+
+
+def _file_times(folder: Path) -> Iterator[float]:
+    stack = [(folder, 1)]
+    seen = 0
+    while stack:
+        current, depth = stack.pop()
+        try:
+            children = list(current.iterdir())
+        except OSError:
+            continue  # what cannot be read is not taken either
+        for child in children:
+            seen += 1
+            if seen > _MOST_FILES:
+                return
+            status = child.lstat()
+            if child.name.startswith(".") or (stat.S_ISDIR(status.st_mode) and child.name == "build"):
+                continue
+            if stat.S_ISREG(status.st_mode):
+                yield status.st_mtime
+            elif stat.S_ISDIR(status.st_mode) and depth < _MOST_DEPTH:
+                stack.append((child, depth + 1))
+
+
+def newest_time(path: Path) -> str:
+    """When an entry was last changed, as far as its files tell; nothing when it holds none.
+
+    Of an archive its own time counts, not its members': those are whatever the one who packed it wanted."""
+    try:
+        newest = max(_file_times(path), default=None) if path.is_dir() else path.stat().st_mtime
+        return "" if newest is None else datetime.fromtimestamp(newest, UTC).isoformat(timespec="seconds")
+    except (OSError, OverflowError, ValueError):
+        return ""

@@ -1,0 +1,81 @@
+"""The files that are made from the database: results.json and pictures per submission, results.csv, class.json."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.spreadsheet import Cell, csv_bytes
+from raysteps.common.files import write_bytes, write_if_changed, write_json
+
+SUBMISSIONS = "submissions"
+
+
+def _forget_pictures(folder: Path, kept: set[str]) -> None:
+    """Pictures of an earlier result must not be taken for those of this one."""
+    pictures = folder / "pictures"
+    if pictures.is_symlink() or not pictures.is_dir():
+        return
+    for path in list(pictures.rglob("*.png")):
+        if path.relative_to(folder).as_posix() not in kept and path.resolve().is_relative_to(pictures.resolve()):
+            path.unlink(missing_ok=True)
+
+
+def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
+    """The result that counts. Of a fault there is only fault.txt."""
+    row = database.current(name)
+    folder = out / SUBMISSIONS / name
+    if row is None:
+        return
+    pictures = database.pictures(row["submission"], row["run"])
+    _forget_pictures(folder, set(pictures))
+    for path, data in pictures.items():
+        write_if_changed(folder / path, data)
+    if row["document"]:
+        document = json.loads(row["document"])
+        text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+        write_if_changed(folder / "results.json", text.encode())
+        (folder / "fault.txt").unlink(missing_ok=True)
+    else:
+        write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
+        (folder / "results.json").unlink(missing_ok=True)
+
+
+_HEAD = ("submission", "entry", "student id", "student name", "email", "status", "points", "max", "final points")
+_TAIL = ("submitted at", "days late", "percent off", "lateness", "inconsistent", "points before", "fault", "note")
+
+
+def _row(one: dict[str, Any], student: dict[str, str], steps: list[str]) -> list[Cell]:
+    late = one["late"] or {"days": None, "percent": None, "words": ""}
+    return [
+        *(one["name"], one["entry"], student["id"], student["name"], student["email"]),
+        *(one["status"], one["points"], one["max"], one["final"]),
+        *(one["steps"][step]["points"] if step in one["steps"] else None for step in steps),
+        *(one["submitted_at"], late["days"], late["percent"], late["words"]),
+        "yes" if one["inconsistent"] else "",
+        one["before"]["points"] if one["before"] is not None else None,
+        *(one["fault"], one["note"]),
+    ]
+
+
+def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
+    """A row for each student of a submission, one for a submission of nobody, one for a student without one."""
+    steps = [step["id"] for step in document["steps"]]
+    yield [*_HEAD, *steps, *_TAIL]
+    nobody = {"id": "", "name": "", "email": ""}
+    for one in document["submissions"]:
+        for student in one["students"] or [nobody]:
+            yield _row(one, student, steps)
+    for student in document["students_without_submission"]:
+        blank = [None] * (len(steps) + 3)
+        head = ("", "", student["id"], student["name"], student["email"], "no submission")
+        yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student["note"]]
+
+
+def write_class(database: ClassDatabase, out: Path, document: dict[str, Any]) -> None:
+    """Everything anew: also what a run that was killed had no time for."""
+    for one in document["submissions"]:
+        write_submission(database, out, one["name"])
+    write_bytes(out / "results.csv", csv_bytes(_rows(document)))
+    write_json(out / "class.json", document)

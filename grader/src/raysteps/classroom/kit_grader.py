@@ -1,0 +1,37 @@
+"""The grader of a class: the kit of this machine, with its strongest sandbox."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from raysteps.classroom.graders import Say
+from raysteps.grading.one import grade_one
+from raysteps.grading.settings import Settings
+from raysteps.kit.kit_building import build_kit
+from raysteps.kit.project import here
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.submission.intake import Submission
+
+
+class KitGrader:
+    """Grades as `grade` does."""
+
+    def __init__(self, *, require_sandbox: bool, say: Say) -> None:
+        self._sandbox = find_sandbox(require=require_sandbox)
+        self._kit = build_kit(here(), say)
+        self.fingerprint = self._kit.fingerprint
+        self.isolation = self._sandbox.isolation
+
+    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: Say) -> None:
+        wanted = Settings(
+            seed=settings["seed"],
+            only=tuple(settings["only"]),
+            feedback=settings["feedback"],
+            limits=settings["limits"],
+        )
+        grade_one(self._kit, submission, wanted, self._sandbox, out, say)
+
+
+def make(*, require_sandbox: bool, say: Say) -> KitGrader:
+    """As `graders.make_grader` expects it."""
+    return KitGrader(require_sandbox=require_sandbox, say=say)

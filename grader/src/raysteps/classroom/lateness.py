@@ -1,0 +1,63 @@
+"""How late a submission is, and what that leaves of its points: in numbers, and in words that show the sum."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+
+from raysteps.classroom.late_policy import LatePolicy, fold
+from raysteps.common.text import count, number
+
+_DAY = timedelta(days=1)
+
+
+@dataclass(frozen=True)
+class Lateness:
+    """`points` is what is left; the points of the results stay as they are."""
+
+    days: int
+    percent: float
+    points: float
+    deadline: str
+    words: str
+
+
+def _span(span: timedelta) -> str:
+    minutes = int(span.total_seconds() // 60)
+    parts = [(minutes // 1440, "day"), (minutes // 60 % 24, "hour"), (minutes % 60, "minute")]
+    return " ".join(count(amount, unit) for amount, unit in parts if amount) or "less than a minute"
+
+
+def _deadline(policy: LatePolicy, students: Sequence[str]) -> datetime:
+    """Of several students with one submission the latest deadline counts."""
+    extended = [policy.extensions[fold(student)] for student in students if fold(student) in policy.extensions]
+    return max([policy.deadline, *extended])
+
+
+def apply_policy(policy: LatePolicy, students: Sequence[str], submitted_at: str, points: float) -> Lateness:
+    """`students` are the ids whose extensions count; a time without a zone is in the zone of the deadline."""
+    deadline = _deadline(policy, students)
+    extension = ", with an extension" if deadline != policy.deadline else ""
+    shown = deadline.isoformat(sep=" ", timespec="minutes")
+    if not submitted_at:
+        words = f"It is not known when this was handed in, so nothing is taken off: {number(points)} points."
+        return Lateness(0, 0.0, points, shown, words)
+    submitted = datetime.fromisoformat(submitted_at)
+    if submitted.tzinfo is None:
+        submitted = submitted.replace(tzinfo=policy.deadline.tzinfo)
+    late = submitted - deadline
+    if late <= timedelta():
+        return Lateness(0, 0.0, points, shown, f"Handed in on time{extension}: {number(points)} points.")
+    after = f"Handed in {_span(late)} after the deadline ({shown}{extension})"
+    if late <= policy.grace:
+        words = f"{after}, within {_span(policy.grace)} of grace: {number(points)} points."
+        return Lateness(0, 0.0, points, shown, words)
+    days = -(-late // _DAY)
+    if policy.max_days is not None and days > policy.max_days:
+        return Lateness(days, 100.0, 0.0, shown, f"{after}, more than {count(policy.max_days, 'day')}: 0 points.")
+    percent = min(100.0, days * policy.percent_per_day)
+    left = round(points * (1 - percent / 100), 2)
+    words = (
+        f"{after}: {count(days, 'day')} begun, {number(policy.percent_per_day)} % each, takes {number(percent)} % off "
+        f"{number(points)} points: {number(points)} - {number(round(points - left, 2))} = {number(left)} points."
+    )
+    return Lateness(days, percent, left, shown, words)

@@ -1,0 +1,77 @@
+"""Which entry belongs to which student.
+
+Only the roster and the entry's own name count. The name must be the student's id, email address or name, or begin with
+it: the beginning is what a learning platform writes, while the end may be a file name that a student chose."""
+
+import re
+import unicodedata
+from dataclasses import dataclass, field
+
+from raysteps.classroom.names import stem
+from raysteps.classroom.roster import Student
+
+
+@dataclass
+class Matches:
+    """Indices of entries and students that belong together, and what to tell about the others."""
+
+    pairs: list[tuple[int, int]] = field(default_factory=list)
+    entry_notes: dict[int, str] = field(default_factory=dict)
+    student_notes: dict[int, str] = field(default_factory=dict)
+
+
+def _plain(text: str) -> str:
+    folded = unicodedata.normalize("NFKC", text).casefold()
+    return re.sub(r"[\W_]+", "_", folded).strip("_")
+
+
+def _fit(student: Student, entry: str) -> tuple[bool, int]:
+    """Whether the entry's name is the student's, and how much of it; (False, 0) when it is not."""
+    best = (False, 0)
+    words = [student.id, student.email, student.name]
+    for word in map(_plain, words):
+        if word and entry == word:
+            return (True, len(word))
+        # A single first name at the beginning is no evidence: there may be an Ann Miller who is not on the roster.
+        if word and entry.startswith(word + "_") and (word != _plain(student.name) or "_" in word):
+            best = max(best, (False, len(word)))
+    if student.email and entry == _plain(student.email.split("@")[0]):
+        best = max(best, (True, 1))
+    return best
+
+
+def _named(entries: list[str], name: str) -> list[int]:
+    same = [at for at, entry in enumerate(entries) if entry == name]
+    return same or [at for at, entry in enumerate(entries) if stem(entry).casefold() == stem(name).casefold()]
+
+
+def match(entries: list[str], students: list[Student]) -> Matches:
+    """Pairs entries and students. Several students may share an entry that the roster names for each of them."""
+    matches = Matches()
+    claimed: set[int] = set()
+    for number, student in enumerate(students):
+        if not student.submission:
+            continue
+        found = _named(entries, student.submission)
+        claimed.update(found)
+        matches.pairs += [(at, number) for at in found]
+        if not found:
+            matches.student_notes[number] = f"The roster names the submission {student.submission}, which is not there."
+    for at, entry in enumerate(entries):
+        if at in claimed:
+            continue
+        plain = _plain(stem(entry))
+        fits = {
+            number: fit
+            for number, student in enumerate(students)
+            if not student.submission and (fit := _fit(student, plain)) != (False, 0)
+        }
+        best = [number for number, fit in fits.items() if fit == max(fits.values())]
+        if len(best) == 1:
+            matches.pairs.append((at, best[0]))
+        elif best:
+            shown = ", ".join(students[number].shown for number in best)
+            matches.entry_notes[at] = f"Its name fits several students ({shown}), so it was given to none of them."
+        elif students:
+            matches.entry_notes[at] = "Nobody on the roster has this name; say whose it is in the column `submission`."
+    return matches

@@ -1,0 +1,105 @@
+"""What goes to a process that grades, and what comes back: plain JSON, so that it may run on any machine."""
+
+import base64
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+from typing import Any, Literal
+
+import jsonschema
+
+from raysteps.common.errors import GraderFault
+from raysteps.submission.intake import Submission
+
+Document = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Job:
+    """One submission to grade. `grader` names the function that makes the grader, as `module:function`."""
+
+    submission: Submission
+    settings: Mapping[str, Any]
+    grader: str
+    kit: str  # fingerprint that the grader must have
+    require_sandbox: bool = False
+    run: str = ""  # uid of the run, by which its jobs can be stopped
+
+    def to_json(self) -> Document:
+        sources = {step: base64.b64encode(data).decode() for step, data in self.submission.sources.items()}
+        return {
+            "schema": "raysteps/class-job/v1",
+            "name": self.submission.name,
+            "sources": sources,
+            "notes": dict(self.submission.notes),
+            "remarks": dict(self.submission.remarks),
+            "settings": dict(self.settings),
+            "grader": self.grader,
+            "kit": self.kit,
+            "require_sandbox": self.require_sandbox,
+            "run": self.run,
+        }
+
+    @staticmethod
+    def from_json(document: Document) -> "Job":
+        _check(document, "job")
+        sources = {step: base64.b64decode(text, validate=True) for step, text in document["sources"].items()}
+        return Job(
+            Submission(document["name"], sources, document["notes"], document["remarks"]),
+            document["settings"],
+            document["grader"],
+            document["kit"],
+            document["require_sandbox"],
+            document["run"],
+        )
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What became of a job. A fault has no document."""
+
+    name: str
+    status: Literal["graded", "fault"]
+    document: Document | None = None
+    pictures: Mapping[str, bytes] = field(default_factory=dict)  # by path below the folder of results.json
+    fault: str = ""
+    details: str = ""
+    seconds: float = 0.0
+    worker: str = ""
+
+    def to_json(self) -> Document:
+        pictures = {path: base64.b64encode(data).decode() for path, data in self.pictures.items()}
+        return {
+            "schema": "raysteps/class-answer/v1",
+            "name": self.name,
+            "status": self.status,
+            "document": self.document,
+            "pictures": pictures,
+            "fault": self.fault,
+            "details": self.details,
+            "seconds": self.seconds,
+            "worker": self.worker,
+        }
+
+    @staticmethod
+    def from_json(document: Document) -> "Answer":
+        _check(document, "answer")
+        pictures = {path: base64.b64decode(text, validate=True) for path, text in document["pictures"].items()}
+        words = (document[key] for key in ("fault", "details", "seconds", "worker"))
+        return Answer(document["name"], document["status"], document["document"], pictures, *words)
+
+
+@cache
+def _schema(kind: str) -> Any:
+    text = files("raysteps.classroom").joinpath("messages.schema.json").read_text(encoding="utf-8")
+    schema = json.loads(text)
+    return {"$schema": schema["$schema"], "$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}
+
+
+def _check(document: Any, kind: str) -> None:
+    try:
+        jsonschema.validate(document, _schema(kind))
+    except jsonschema.ValidationError as error:
+        raise GraderFault(f"a {kind} breaks its schema: {error.json_path}: {error.message[:300]}") from error

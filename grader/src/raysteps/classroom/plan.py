@@ -1,0 +1,136 @@
+"""What a run is to do, worked out before anything is built or graded."""
+
+import os
+import uuid
+from collections import defaultdict
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from raysteps.classroom.database import FILE, Registered, Registration, RunFacts, Scope
+from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
+from raysteps.classroom.graders import KIT_GRADER
+from raysteps.classroom.late_policy import parse_late_policy
+from raysteps.classroom.matching import Matches, match
+from raysteps.classroom.names import name_entries
+from raysteps.classroom.roster import Student, read_roster
+from raysteps.common.errors import UsageError
+from raysteps.judge.feedback import Feedback
+from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.project import Project
+
+
+@dataclass(frozen=True)
+class Order:
+    """What was asked for on the command line."""
+
+    folder: Path
+    out: Path
+    roster: Path | None = None
+    jobs: int = 1
+    resume: bool = False
+    only: tuple[str, ...] = ()
+    late_policy: Path | None = None
+    seed: int = 1
+    feedback: Feedback = "full"
+    require_sandbox: bool = False
+    scheduler: str = ""
+    shard: Shard = field(default_factory=Shard)
+    grader: str = KIT_GRADER
+
+
+@dataclass(frozen=True)
+class Plan:
+    """`entries` are those of this shard, with their names."""
+
+    order: Order
+    steps: list[Step]
+    chosen: list[Step]
+    listing: Listing
+    students: list[Student]
+    matches: Matches
+    late_policy: str  # the text of the file
+    uid: str = field(default_factory=lambda: uuid.uuid4().hex)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Beside the kit and the submission, all that a grade depends on."""
+        only = [step.id for step in self.chosen] if self.order.only else []
+        return {"seed": self.order.seed, "only": only, "feedback": self.order.feedback, "limits": {}}
+
+    def facts(self, kit: str) -> RunFacts:
+        columns = [
+            {"id": step.id, "title": step.title, "points": step.points, "bonus": step.bonus} for step in self.chosen
+        ]
+        folder = str(self.order.folder.resolve()).encode("utf-8", "backslashreplace").decode()
+        shard = str(self.order.shard)
+        return RunFacts(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored)
+
+    def registered(self, known: dict[str, str]) -> list[Registered]:
+        """All entries, also those of other shards, so that merging shards shows what is missing."""
+        names = name_entries([entry.label for entry in self.listing.entries], known)
+        times: dict[int, str] = {}
+        for at, number in self.matches.pairs:
+            times[at] = times.get(at) or self.students[number].submitted_at
+        rows = []
+        for at, entry in enumerate(self.listing.entries):
+            when = times.get(at) or newest_time(entry.path)
+            source = "roster" if times.get(at) else "files" if when else ""
+            scope: Scope = "here" if self.order.shard.holds(entry.label) else "elsewhere"
+            note = self.matches.entry_notes.get(at, "")
+            rows.append(Registered(entry.label, names[entry.label], scope, when, source, note))
+        return rows
+
+    def registrations(self) -> list[Registration]:
+        entries: dict[int, list[str]] = defaultdict(list)
+        for at, number in self.matches.pairs:
+            entries[number].append(self.listing.entries[at].label)
+        rows = []
+        for number, student in enumerate(self.students):
+            note = self.matches.student_notes.get(number, "")
+            if len(entries[number]) > 1:
+                note = f"Handed in more than once: {', '.join(entries[number])}. Say which one counts in the roster."
+            rows.append(Registration(student.id, student.name, student.email, tuple(entries[number]), note))
+        return rows
+
+    def mine(self) -> list[Entry]:
+        return [entry for entry in self.listing.entries if self.order.shard.holds(entry.label)]
+
+
+def _inside(path: Path, folder: Path) -> bool:
+    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+
+
+def _check_places(order: Order) -> None:
+    if not order.folder.is_dir():
+        raise UsageError(f"{order.folder}: expected a folder with one entry per submission")
+    if _inside(order.out, order.folder):
+        raise UsageError(f"--out {order.out}: lies in the folder of the submissions; name another folder")
+    if _inside(order.folder, order.out / "submissions"):
+        raise UsageError(f"--out {order.out}: its results would go into the folder of the submissions")
+    if order.resume and order.out.exists() and not (order.out / FILE).is_file() and any(order.out.iterdir()):
+        raise UsageError(f"--resume: {order.out} holds no {FILE} to go on from")
+
+
+def _read_text(path: Path | None) -> str:
+    if path is None:
+        return ""
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"{path}: the late policy cannot be read: {error}") from error
+
+
+def make_plan(project: Project, order: Order) -> Plan:
+    """Everything that can be wrong with the inputs is found here."""
+    _check_places(order)
+    steps = read_steps(project)
+    chosen = choose(steps, list(order.only))
+    policy = _read_text(order.late_policy)
+    if order.late_policy is not None:
+        parse_late_policy(policy, str(order.late_policy))
+    students = read_roster(order.roster) if order.roster is not None else []
+    files = [path for path in (order.roster, order.late_policy) if path is not None]
+    listing = list_entries(order.folder, files)
+    matches = match([entry.label for entry in listing.entries], students)
+    return Plan(order, steps, chosen, listing, students, matches, policy)

@@ -1,0 +1,170 @@
+"""What is known of a class, as class.json: made from the database, and from nothing else."""
+
+import json
+import sqlite3
+import statistics
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import jsonschema
+
+from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.late_policy import LatePolicy, fold, parse_late_policy
+from raysteps.classroom.lateness import apply_policy
+from raysteps.classroom.names import stem
+from raysteps.common.errors import GraderFault
+
+Document = dict[str, Any]
+
+
+@cache
+def _schema() -> Any:
+    return json.loads(files("raysteps.classroom").joinpath("class.schema.json").read_text(encoding="utf-8"))
+
+
+def _step(step: Document) -> Document:
+    return {"points": step["points"], "max": step["max"], "status": step["status"]}
+
+
+def _result(row: sqlite3.Row | None) -> Document:
+    """What a submission got."""
+    if row is None:
+        return {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}, "inconsistent": {}}
+    nothing: Document = {"total": {"max": None}, "steps": []}
+    document = json.loads(row["document"]) if row["document"] else nothing
+    return {
+        "status": row["status"],
+        "points": row["points"],
+        "max": document["total"]["max"],
+        "run": row["run"],
+        "steps": {step["id"]: _step(step) for step in document["steps"]},
+        "inconsistent": {step["id"]: step["inconsistent"] for step in document["steps"] if step["inconsistent"]},
+    }
+
+
+class _Report:
+    def __init__(self, database: ClassDatabase) -> None:
+        self._database = database
+        self._query = database.connection.execute
+        self._runs = self._query("SELECT * FROM runs ORDER BY number").fetchall()
+        if not self._runs:
+            raise GraderFault(f"{database.path}: holds no run")
+        self._last = self._runs[-1]
+        text = self._last["late_policy"]
+        self._policy: LatePolicy | None = parse_late_policy(text, "the late policy of the run") if text else None
+
+    def _students(self, submission: int) -> list[Document]:
+        rows = self._query(
+            "SELECT id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
+            "WHERE submission = ? ORDER BY id, name, email",
+            (submission,),
+        )
+        return [dict(row) for row in rows]
+
+    def _before(self, submission: int, run: int | None) -> Document | None:
+        """The result that counted until the last run gave another one."""
+        if run != self._last["number"]:
+            return None
+        row = self._query(
+            "SELECT run, status, points FROM results WHERE submission = ? AND run < ? ORDER BY run DESC LIMIT 1",
+            (submission, run),
+        ).fetchone()
+        return dict(row) if row is not None else None
+
+    def _submission(self, row: sqlite3.Row) -> Document:
+        current = self._database.current(row["name"])
+        students = self._students(row["id"])
+        result = _result(current)
+        late = None
+        if self._policy is not None and result["points"] is not None:
+            ids = [word for student in students for word in (student["id"], student["email"]) if word]
+            ids = ids or [row["name"], stem(row["entry"]), row["entry"]]
+            late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"]))
+        return {
+            "name": row["name"],
+            "entry": row["entry"],
+            "students": students,
+            **result,
+            "final": late["points"] if late is not None else result["points"],
+            "late": late,
+            "submitted_at": row["submitted_at"],
+            "submitted_from": row["submitted_from"],
+            "before": self._before(row["id"], result["run"]),
+            "isolation": json.loads(current["document"])["isolation"]["name"]
+            if current and current["document"]
+            else "",
+            "fault": current["fault"] if current is not None else "",
+            "note": row["note"],
+            "results": f"submissions/{row['name']}/results.json" if current and current["document"] else None,
+        }
+
+    def _run(self, row: sqlite3.Row) -> Document:
+        counts = {"graded": 0, "unreadable": 0, "fault": 0}
+        query = "SELECT status, count(*) AS amount FROM results WHERE run = ? GROUP BY status"
+        counts |= {found["status"]: found["amount"] for found in self._query(query, (row["number"],))}
+        words = ("number", "started_at", "ended_at", "state", "kit", "folder", "shard", "reused")
+        return {**{word: row[word] for word in words}, "settings": json.loads(row["settings"]), "results": counts}
+
+    def _unknown_extensions(self, submissions: list[Document]) -> list[str]:
+        known = {fold(name) for one in submissions for name in (one["name"], one["entry"], stem(one["entry"]))}
+        for row in self._query("SELECT id, email FROM students"):
+            known |= {fold(row["id"]), fold(row["email"])}
+        extensions = self._policy.extensions if self._policy is not None else {}
+        return sorted(student for student in extensions if student not in known)
+
+    def _names(self, scope: str) -> list[str]:
+        rows = self._query("SELECT name FROM submissions WHERE scope = ? ORDER BY entry", (scope,))
+        return [row["name"] for row in rows]
+
+    def document(self) -> Document:
+        rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
+        submissions = [self._submission(row) for row in rows]
+        absent = self._query(
+            "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
+            "ORDER BY id, name, email"
+        )
+        several = self._query(
+            "SELECT id, name, email, note FROM students WHERE number IN "
+            "(SELECT student FROM handed_in GROUP BY student HAVING count(*) > 1) ORDER BY id, name, email"
+        )
+        students = self._query("SELECT count(*) AS amount FROM students").fetchone()["amount"]
+        finals = [one["final"] for one in submissions if one["final"] is not None]
+        return {
+            "schema": "raysteps/class/v1",
+            "run": self._run(self._last),
+            "runs": [self._run(row) for row in self._runs],
+            "steps": json.loads(self._last["steps"]),
+            "late_policy": self._last["late_policy"] or None,
+            "submissions": submissions,
+            "students_without_submission": [dict(row) for row in absent],
+            "students_with_several": [dict(row) for row in several],
+            "submissions_without_student": [one["name"] for one in submissions if students and not one["students"]],
+            "not_graded": [one["name"] for one in submissions if one["status"] == "not-graded"],
+            "faults": [one["name"] for one in submissions if one["status"] == "fault"],
+            "unreadable": [one["name"] for one in submissions if one["status"] == "unreadable"],
+            "inconsistent": [one["name"] for one in submissions if one["inconsistent"]],
+            "changed": [
+                {"name": one["name"], "before": one["before"]["points"], "after": one["points"]}
+                for one in submissions
+                if one["before"] is not None and one["before"]["points"] != one["points"]
+            ],
+            "gone": self._names("gone"),
+            "ignored": json.loads(self._last["ignored"]),
+            "unknown_extensions": self._unknown_extensions(submissions),
+            "statistics": {
+                "graded": len(finals),
+                "mean": round(statistics.fmean(finals), 2) if finals else None,
+                "median": round(statistics.median(finals), 2) if finals else None,
+            },
+        }
+
+
+def class_document(database: ClassDatabase) -> Document:
+    """Checked against its schema."""
+    document = _Report(database).document()
+    try:
+        jsonschema.validate(document, _schema())
+    except jsonschema.ValidationError as error:
+        raise GraderFault(f"class.json would break its schema: {error.json_path}: {error.message}") from error
+    return document

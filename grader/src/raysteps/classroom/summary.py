@@ -1,0 +1,119 @@
+"""What is printed when a class has been graded."""
+
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.classroom.files import SUBMISSIONS
+from raysteps.classroom.progress import first_line
+from raysteps.common.text import count, number
+
+_MARKS = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
+_LEGEND = "b does not build, c crashed, t took too long, - not started"
+
+
+def _cell(step: dict[str, Any] | None) -> str:
+    if step is None:
+        return ""
+    mark = _MARKS.get(step["status"], "")
+    points = "-" if mark == "-" else number(step["points"]) + (f" {mark}" if mark else "")
+    color = "green" if step["status"] == "passed" else "dim" if mark == "-" else "yellow" if step["points"] else "red"
+    return f"[{color}]{points}[/{color}]"
+
+
+def _total(one: dict[str, Any]) -> str:
+    if one["points"] is None:
+        return f"[red]{one['status']}[/red]"
+    return number(one["points"]) + (" !" if one["inconsistent"] else "")
+
+
+def _table(document: dict[str, Any]) -> Table:
+    steps = document["steps"]
+    late = document["late_policy"] is not None
+    table = Table()
+    table.add_column("submission", overflow="fold")
+    for step in steps:
+        table.add_column(f"{step['id'][:2]}{'*' if step['bonus'] else ''}\n{number(step['points'])}", justify="right")
+    regular = sum(step["points"] for step in steps if not step["bonus"])
+    table.add_column(f"total\n{number(regular)}", justify="right")
+    if late:
+        table.add_column("days\nlate", justify="right")
+        table.add_column("final", justify="right")
+    for one in document["submissions"]:
+        cells = [escape(one["name"]), *(_cell(one["steps"].get(step["id"])) for step in steps), _total(one)]
+        if late and one["late"] is not None:
+            cells += [str(one["late"]["days"] or ""), number(one["final"])]
+        table.add_row(*cells)
+    return table
+
+
+def _print_list(console: Console, heading: str, lines: list[str]) -> None:
+    if lines:
+        console.print(f"\n[bold]{heading}[/bold]")
+        for line in lines:
+            console.print(f"  {escape(line)}", soft_wrap=True)
+
+
+def _points(value: float | None) -> str:
+    return "no points" if value is None else number(value)
+
+
+def _who(student: dict[str, str]) -> str:
+    words = " ".join(student[key] for key in ("id", "name", "email") if student[key])
+    return f"{words}: {student['note']}" if student["note"] else words
+
+
+def _print_apart(console: Console, document: dict[str, Any]) -> None:
+    """What a table cannot say."""
+    by_name = {one["name"]: one for one in document["submissions"]}
+    faults = [f"{name}: {first_line(by_name[name]['fault'])}" for name in document["faults"]]
+    _print_list(console, "Not graded because of a fault of the grader; --resume tries again", faults)
+    _print_list(console, "Not graded yet; --resume goes on, or a shard is missing", document["not_graded"])
+    unread = [f"{name} (results.json says why)" for name in document["unreadable"]]
+    _print_list(console, "Nothing could be taken from these", unread)
+    claims = [
+        f"{name}, {step}: {claim}"
+        for name in document["inconsistent"]
+        for step, found in by_name[name]["inconsistent"].items()
+        for claim in found
+    ]
+    _print_list(console, "Inconsistent (!): the program claims what the judge did not see; look at the code", claims)
+    changed = [
+        f"{one['name']}: {_points(one['before'])} before, {_points(one['after'])} now" for one in document["changed"]
+    ]
+    _print_list(console, "Changed since the last time", changed)
+    _print_list(
+        console,
+        "On the roster, but without a submission",
+        [_who(one) for one in document["students_without_submission"]],
+    )
+    _print_list(console, "With more than one submission", [_who(one) for one in document["students_with_several"]])
+    notes = [f"{name}: {by_name[name]['note']}" for name in document["submissions_without_student"]]
+    _print_list(console, "Without a student on the roster", notes)
+    _print_list(console, "Graded earlier, but no longer in the folder", document["gone"])
+    _print_list(console, "Extensions for ids that nobody has", document["unknown_extensions"])
+
+
+def print_summary(console: Console, document: dict[str, Any], out: Path) -> None:
+    """The table, what needs a person's eye, and where the files are."""
+    console.print(_table(document))
+    console.print(f"[dim]{_LEGEND}; * bonus[/dim]")
+    _print_apart(console, document)
+    facts = document["statistics"]
+    console.print()
+    if facts["graded"]:
+        mean, median = number(facts["mean"]), number(facts["median"])
+        console.print(f"{count(facts['graded'], 'submission')} graded: mean {mean}, median {median} points")
+    reused = document["run"]["reused"]
+    if reused:
+        console.print(f"{count(reused, 'result')} of an earlier run still hold and were not made anew")
+    isolations = sorted({one["isolation"] for one in document["submissions"] if one["isolation"]})
+    if isolations:
+        console.print(f"Isolation: {', '.join(isolations)}")
+    console.print(
+        f"Table: {escape(str(out / 'results.csv'))}, all facts: {escape(str(out / 'class.json'))}", soft_wrap=True
+    )
+    console.print(f"Per submission: {escape(str(out / SUBMISSIONS))}", soft_wrap=True)

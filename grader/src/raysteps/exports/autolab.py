@@ -1,0 +1,43 @@
+"""The last lines that an Autolab driver prints."""
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from raysteps.exports.items import Item
+from raysteps.exports.points import entries_of
+from raysteps.exports.summary import objects_tested
+from raysteps.exports.wording import clean
+from raysteps.kit.manifest import Step
+
+_BRUTE_FORCE = 100.0  # per cent of the objects: what a ray tests without an octree
+
+
+def _stage(items: Sequence[Item]) -> dict[str, Any]:
+    stage: dict[str, Any] = {}
+    for item in items:
+        key = f"{item.kind} {item.name}"
+        while key in stage:
+            key += "'"
+        stage[key] = {"passed": item.passed} if item.passed else {"passed": False, "hint": clean(item.text, 1000)}
+    return stage
+
+
+def to_autolab(document: Mapping[str, Any], steps: Mapping[str, Step]) -> list[dict[str, Any]]:
+    """What was checked, then the scores by problem; the ids of the steps are the problems' names."""
+    results = document["steps"]
+    stages = {
+        result["id"]: _stage([entry.item for entry in entries_of(result, steps.get(result["id"]))])
+        for result in results
+    }
+    tested = objects_tested(document)
+    scores = {
+        "scores": {result["id"]: result["points"] for result in results},
+        "scoreboard": [document["total"]["points"], _BRUTE_FORCE if tested is None else tested],
+    }
+    return [{"_presentation": "semantic", "stages": list(stages), **stages}, scores]
+
+
+def as_lines(document: Sequence[Mapping[str, Any]]) -> str:
+    """One line each; Autolab reads the last two."""
+    return "".join(json.dumps(part, ensure_ascii=False, allow_nan=False) + "\n" for part in document)

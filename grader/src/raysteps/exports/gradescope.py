@@ -1,0 +1,102 @@
+"""results.json of Gradescope."""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+from raysteps.exports.items import Item
+from raysteps.exports.points import Entry, entries_of
+from raysteps.exports.summary import objects_tested, summary, title
+from raysteps.exports.wording import clean, one_line
+from raysteps.kit.manifest import Step
+
+Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
+VISIBILITIES: tuple[Visibility, ...] = get_args(Visibility)
+_KINDS = {"test": "test", "picture": "picture", "hidden": "hidden"}
+_MAX_METADATA = 4 << 20
+
+
+def _name(name: str, item: Item) -> str:
+    return f"{name}: {_KINDS[item.kind]} {item.name}" if item.kind in _KINDS else f"{name}: {item.name}"
+
+
+def _test(name: str, number: str, entry: Entry, hidden: Visibility) -> dict[str, Any]:
+    item = entry.item
+    test: dict[str, Any] = {
+        "number": number,
+        "name": _name(name, item),
+        "score": entry.points,
+        "max_score": entry.most,
+        "status": "passed" if item.passed else "failed",
+        "output": item.text,
+        "visibility": "visible",
+    }
+    if item.kind == "hidden":
+        test["visibility"] = hidden
+        if hidden != "visible" and item.inputs:
+            test["output"] = f"{item.text}\n{item.inputs}"
+    return test
+
+
+def _tests(result: Mapping[str, Any], steps: Mapping[str, Step], hidden: Visibility) -> list[dict[str, Any]]:
+    entries = entries_of(result, steps.get(result["id"]))
+    number = int(result["id"][:2])
+    name = one_line(title(result, steps))
+    return [_test(name, f"{number}.{at}", entry, hidden) for at, entry in enumerate(entries, 1)]
+
+
+def _formats() -> dict[str, Any]:
+    return {
+        "output_format": "text",
+        "test_output_format": "text",
+        "test_name_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+    }
+
+
+def to_gradescope(
+    document: Mapping[str, Any],
+    steps: Mapping[str, Step],
+    *,
+    hidden: Visibility = "visible",
+    names: Sequence[str] = (),
+) -> dict[str, Any]:
+    """Every check with its points. With hidden checks out of sight, nothing visible tells the total."""
+    output = summary(document, steps, points=hidden == "visible")
+    if names:
+        output = f"Submitted by {', '.join(names)}.\n{output}"
+    results = {
+        "output": output,
+        **_formats(),
+        "execution_time": round(document["timing"]["seconds"]),
+        "extra_data": {"kit": document["kit"], "isolation": document["isolation"]["name"]},
+        "tests": [test for result in document["steps"] for test in _tests(result, steps, hidden)],
+    }
+    tested = objects_tested(document)
+    if tested is not None:
+        results["leaderboard"] = [{"name": "Objects tested per ray (%)", "value": tested, "order": "asc"}]
+    return results
+
+
+def not_graded(why: str) -> dict[str, Any]:
+    """No score at all, so that Gradescope reports a failed run instead of a student's zero."""
+    text = f"This submission was not graded: {clean(why)}\nIt has no score yet. Please tell your instructors."
+    return {
+        "output": text,
+        **_formats(),
+        "tests": [{"name": "The grader did not finish", "status": "failed", "output": text, "visibility": "visible"}],
+    }
+
+
+def submitters(path: Path) -> list[str]:
+    """The names in submission_metadata.json; none when it says nothing that can be read."""
+    try:
+        if path.stat().st_size > _MAX_METADATA:
+            return []
+        users = json.loads(path.read_bytes())["users"]
+        names = [user.get("name") or user.get("email") for user in users if isinstance(user, dict)]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return []
+    return [one_line(name) for name in names if isinstance(name, str) and name.strip()]

@@ -1,0 +1,79 @@
+"""What a failed build says to a student: the first real error in the student's own file, and the lines around it."""
+
+import re
+
+from raysteps.common.text import listed, printable, shorten
+from raysteps.kit.manifest import Step
+from raysteps.sandbox.task import Ran
+
+_ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<text>.+)$", re.M)
+_MISSING = re.compile(r"undefined reference to [`'](?P<name>.+?)'|undefined symbol: (?P<other>\S.*)")
+_MACHINE = re.compile(r"No space left on device|Disk quota exceeded|Read-only file system")
+_MOST_LOG = 64_000
+
+
+def build_log(ran: Ran) -> str:
+    """All that the compiler said, as text that cannot steer a terminal."""
+    return shorten(printable(ran.outcome.stderr + ran.outcome.stdout).strip(), _MOST_LOG)
+
+
+def is_fault_of_machine(ran: Ran) -> bool:
+    """Whether a build failed for want of disk, whatever the source says."""
+    return _MACHINE.search(ran.outcome.stderr) is not None
+
+
+def _context(source: str, line: int, column: int) -> str:
+    """The line with one before and one after, and a mark under the column."""
+    lines = source.splitlines()
+    shown = []
+    for number in range(max(1, line - 1), min(len(lines), line + 1) + 1):
+        shown.append(f"{number:5} | {shorten(printable(lines[number - 1]), 160)}")
+        if number == line and column <= 160:
+            shown.append(f"      | {' ' * (column - 1)}^")
+    return "\n".join(shown)
+
+
+def compile_message(step: Step, source: str, ran: Ran) -> str:
+    """One sentence, the place, and the lines."""
+    if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
+        return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
+    if ran.stopped == "memory":
+        return "It does not build: the compiler needed more memory than it may have."
+    output = printable(ran.outcome.stderr)
+    errors = list(_ERROR.finditer(output))
+    own = [error for error in errors if error["path"].rpartition("/")[2] == step.file]
+    for error in own or errors:
+        line, column = int(error["line"]), int(error["column"])
+        name = error["path"].rpartition("/")[2]
+        text = f"It does not build: {name}:{line}:{column}: {shorten(error['text'], 300)}"
+        return f"{text}\n{_context(source, line, column)}" if own else text
+    said = shorten(output.strip().rpartition("\n")[2], 300)
+    return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
+
+
+def forbidden_message(names: tuple[str, ...], owners: dict[str, str]) -> str:
+    """A step that asks for what is not its own."""
+    for name in names:
+        if "t_stats" in name:
+            return "It does not build: it reaches for the counters of the grader, which are none of its business."
+        if name in owners:
+            return f"It does not build: it calls a function of step {owners[name]}, which comes later."
+    return "It does not build: it calls a function of the kit that is not for the steps."
+
+
+def missing_message(names: tuple[str, ...]) -> str:
+    """Functions that the contract asks for and the file lacks."""
+    shown = listed([name.replace("raysteps::", "") for name in names])
+    which = "is missing. The file must define it" if len(names) == 1 else "are missing. The file must define them"
+    return f"It does not build: {shown} {which} exactly as the header declares."
+
+
+def link_message(ran: Ran) -> str:
+    """Mostly a function that the contract asks for and the file lacks."""
+    if ran.outcome.timed_out:
+        return "It does not build: the linker took too long."
+    missing = _MISSING.search(printable(ran.outcome.stderr))
+    if missing is None:
+        return "It does not build: the linker gave up."
+    name = shorten(missing["name"] or missing["other"], 200)
+    return f"It does not build: {name} is missing. The file must define it exactly as the header declares it."

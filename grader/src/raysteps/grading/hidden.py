@@ -1,0 +1,74 @@
+"""The hidden part of a step: the judge's cases, and scenes that nobody has seen."""
+
+import hashlib
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_bytes
+from raysteps.common.process import Outcome
+from raysteps.grading.pictures import compare
+from raysteps.grading.rendering import reference_picture
+from raysteps.grading.results import HiddenResult
+from raysteps.grading.student_build import Program
+from raysteps.grading.visible_images import Gallery, too_many_tests, trouble
+from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
+from raysteps.judge.judging import judge_functions
+from raysteps.judge.plan import Plan
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.sandbox.open_air import OpenAir
+from raysteps.sandbox.task import Input, Limits, Ran, Task
+
+_REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300)
+
+
+def _reference_answers(kit: BuiltKit, cases: bytes) -> Ran:
+    """The reference's answers, kept: a class is asked the same questions."""
+    path = kit.answers / hashlib.sha256(cases).hexdigest()[:32]
+    if path.is_file():
+        return Ran(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
+    ran = OpenAir().run(Task((Input(kit.reference("worker"), "worker"),), _REFERENCE_LIMITS, stdin=cases))
+    if ran.outcome.code != 0 or ran.outcome.timed_out:
+        raise GraderFault(f"the reference did not answer the judge: {ran.outcome.stderr.strip()}")
+    write_bytes(path, ran.outcome.stdout.encode())
+    return ran
+
+
+def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, seed: int) -> list[HiddenResult]:
+    """The student's functions, asked in a process that knows no answer."""
+
+    def student(cases: bytes) -> Ran:
+        return gallery.sandbox.run(Task(worker.words, gallery.limits.of_program(), stdin=cases))
+
+    def reference(cases: bytes) -> Ran:
+        return _reference_answers(gallery.kit, cases)
+
+    return judge_functions(step, plan, student, reference, seed)
+
+
+def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
+    path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
+    write_bytes(path, scene.nff.encode())
+    reference = reference_picture(gallery.kit, path, scene.args)
+    rendered = gallery.render(program, path, scene.args)
+    result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
+    result.seconds = round(rendered.ran.outcome.seconds, 2)
+    if rendered.pixels is None:
+        result.outcome, result.message = trouble(rendered)
+        return result
+    verdict = compare(rendered.pixels, reference, scene.max_wrong)
+    problem = verdict.message
+    if verdict.passed and scene.max_share is not None:
+        problem = too_many_tests(rendered.share_tested, scene.max_share)
+    result.wrong_share = round(verdict.wrong_share, 6)
+    result.message, result.share = problem, 0.0 if problem else 1.0
+    result.outcome = "wrong" if problem else "ok"
+    return result
+
+
+def render_scenes(
+    gallery: Gallery, program: Program, step: Step, plan: Plan, seed: int, folder: Path
+) -> list[HiddenResult]:
+    """Scenes made for this seed. The file's name says nothing about what it is for."""
+    scenes = hidden_scenes(gallery.kit.project, step, plan, seed)
+    return [_judge_scene(gallery, program, scene, folder) for scene in scenes]

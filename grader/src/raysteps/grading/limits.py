@@ -1,0 +1,71 @@
+"""The limits of a step: what its manifest says, and what a course changes."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from raysteps.common.errors import UsageError
+from raysteps.kit.manifest import Step
+from raysteps.sandbox.task import Limits
+
+COMPILE_SECONDS = 60.0
+COMPILE_MEMORY_MB = 2048
+PROCESSES = 64
+FILE_MB = 64
+NAMES = ("seconds", "memory_mb", "compile_seconds", "compile_memory_mb", "processes", "file_mb")
+
+
+@dataclass(frozen=True)
+class StepLimits:
+    """`seconds` is time on the clock for one program; its processes together may use twice that of all processors."""
+
+    seconds: float
+    memory_mb: int
+    compile_seconds: float = COMPILE_SECONDS
+    compile_memory_mb: int = COMPILE_MEMORY_MB
+    processes: int = PROCESSES
+    file_mb: int = FILE_MB
+
+    def of_tools(self) -> Limits:
+        """For the compiler, the assembler and the linker."""
+        return Limits(
+            wall_seconds=self.compile_seconds,
+            cpu_seconds=self.compile_seconds,
+            memory_mb=self.compile_memory_mb,
+            processes=self.processes,
+            file_mb=self.file_mb,
+        )
+
+    def of_program(self, seconds: float | None = None) -> Limits:
+        """For the student's programs."""
+        wall = self.seconds if seconds is None else seconds
+        return Limits(
+            wall_seconds=wall,
+            cpu_seconds=2 * wall,
+            memory_mb=self.memory_mb,
+            processes=self.processes,
+            file_mb=self.file_mb,
+        )
+
+
+def limits_of(step: Step, changes: Mapping[str, float]) -> StepLimits:
+    """The manifest's limits with the changes by name (see NAMES)."""
+    return StepLimits(
+        seconds=changes.get("seconds", step.seconds),
+        memory_mb=int(changes.get("memory_mb", step.memory_mb)),
+        compile_seconds=changes.get("compile_seconds", COMPILE_SECONDS),
+        compile_memory_mb=int(changes.get("compile_memory_mb", COMPILE_MEMORY_MB)),
+        processes=int(changes.get("processes", PROCESSES)),
+        file_mb=int(changes.get("file_mb", FILE_MB)),
+    )
+
+
+def parse_limits(words: Sequence[str]) -> dict[str, float]:
+    """`NAME=VALUE` words of a command line."""
+    changes: dict[str, float] = {}
+    for word in words:
+        name, _, value = word.partition("=")
+        if name not in NAMES or not re.fullmatch(r"[0-9]+(\.[0-9]+)?", value) or float(value) <= 0:
+            raise UsageError(f"--limit {word}: expected one of {', '.join(NAMES)}, then = and a number above 0")
+        changes[name] = float(value)
+    return changes

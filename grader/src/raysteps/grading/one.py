@@ -1,0 +1,70 @@
+"""Grades one submission."""
+
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.grading.grader import StepGrader, Work
+from raysteps.grading.limits import limits_of
+from raysteps.grading.results import Results, StepResult, Timing, write_document
+from raysteps.grading.settings import Settings
+from raysteps.grading.student_build import Compiled, StudentBuild
+from raysteps.judge.feedback import withhold
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.sandbox.counting import Counted
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.intake import Submission
+
+
+def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
+    return [step for step in kit.steps if not settings.only or step.id in settings.only]
+
+
+def _compile(work: Work, chosen: list[Step], pool: ThreadPoolExecutor) -> dict[str, Compiled]:
+    """Each started step that is needed: the chosen ones, and those before them, which they must work with."""
+    last = max((step.index for step in chosen), default=0)
+    sources = {step: work.source(step) for step in work.kit.steps if step.index <= last}
+    started = [(step, source) for step, source in sources.items() if source is not None]
+
+    def compile_one(item: tuple[Step, str]) -> Compiled:
+        step, source = item
+        build = StudentBuild(work.kit, work.sandbox, work.folder)
+        return build.compile(step, source.encode(), limits_of(step, work.settings.limits))
+
+    return {step.id: compiled for (step, _), compiled in zip(started, pool.map(compile_one, started), strict=True)}
+
+
+def grade_one(
+    kit: BuiltKit,
+    submission: Submission,
+    settings: Settings,
+    sandbox: Sandbox,
+    out: Path,
+    say: Callable[[str], None] = lambda text: None,
+) -> Results:
+    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only."""
+    start = time.monotonic()
+    counted = Counted(sandbox)
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        work = Work(kit, submission, settings, counted, Path(folder), out)
+        chosen = _chosen(kit, settings)
+        with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
+            say("building the steps")
+            compiled = _compile(work, chosen, pool)
+
+            def grade(step: Step) -> StepResult:
+                say(f"checking {step.id}")
+                return StepGrader(work, step, limits_of(step, settings.limits), compiled).grade()
+
+            steps = list(pool.map(grade, chosen))
+    timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+    results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+    try:
+        write_document(withhold(results.to_json(), settings.feedback), out)
+    except OSError as error:
+        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+    return results

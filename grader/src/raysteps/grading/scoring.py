@@ -1,0 +1,54 @@
+"""Turns what was seen of a step into points and a status."""
+
+from collections.abc import Sequence
+
+from raysteps.common.text import count
+from raysteps.grading.results import Status, StepResult
+from raysteps.kit.manifest import Step
+
+
+def most_points(step: Step, *, judged: bool) -> float:
+    """What the step is worth: without the judge's plan, as in a student's kit, the visible part."""
+    share = 1.0 if judged else step.weight_tests + step.weight_images
+    return round(step.points * share, 2)
+
+
+def _share(passed: Sequence[bool]) -> float:
+    return sum(passed) / len(passed) if passed else 0.0
+
+
+def _hidden_share(result: StepResult) -> float:
+    weight = sum(item.weight for item in result.hidden)
+    return sum(item.share * item.weight for item in result.hidden) / weight if weight else 0.0
+
+
+def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
+    """Visible tests and pictures by their share that passed, hidden items by what was earned of each."""
+    tests, images = [test.passed for test in result.tests], [image.passed for image in result.images]
+    points = step.points * (step.weight_tests * _share(tests) + step.weight_images * _share(images))
+    points += step.points * step.weight_hidden * _hidden_share(result)
+    outcomes = {item.outcome for items in (result.tests, result.images, result.hidden) for item in items}
+    if all(tests) and all(images) and all(item.passed for item in result.hidden):
+        return "passed", result.max
+    if "crashed" in outcomes:
+        return "crashed", round(points, 2)
+    if "timeout" in outcomes:
+        return "timeout", round(points, 2)
+    return ("partial" if points > 0 else "failed"), round(points, 2)
+
+
+def sum_up(result: StepResult) -> list[str]:
+    """What failed, in numbers, and the first crash or timeout."""
+    messages = []
+    failed = [test for test in result.tests if not test.passed]
+    if failed:
+        messages.append(f"{len(failed)} of {count(len(result.tests), 'test')} failed.")
+    wrong = [image for image in result.images if not image.passed]
+    if wrong:
+        messages.append(f"{len(wrong)} of {count(len(result.images), 'picture')} did not pass.")
+    missed = [item for item in result.hidden if not item.passed]
+    if missed:
+        messages.append(f"{len(missed)} of {count(len(result.hidden), 'hidden item')} lost points.")
+    outcomes = [(item.outcome, item.message) for items in (result.tests, result.images) for item in items]
+    bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
+    return messages + bad[:1]

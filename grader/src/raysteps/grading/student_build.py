@@ -1,0 +1,110 @@
+"""Compiles and links one step of a student, in the sandbox. The commands are the kit's; only the source is not."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_bytes
+from raysteps.grading.limits import StepLimits
+from raysteps.kit.built_kit import BuiltKit, Kind
+from raysteps.kit.linking import KNOWN_TO_COMPILER, library_name
+from raysteps.kit.manifest import Step
+from raysteps.kit.symbols import nm_arguments, parse_symbols
+from raysteps.sandbox.task import Input, Output, Ran, Sandbox, Task, Word
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """The step's library (where steps are none: its object), or why there is none."""
+
+    binary: Path | None
+    ran: Ran
+    forbidden: tuple[str, ...] = ()  # linker names that the step may not ask for
+    missing: tuple[str, ...] = ()  # functions that the step should define
+
+
+@dataclass(frozen=True)
+class Program:
+    """How a program is started."""
+
+    words: tuple[Word, ...]
+
+
+class StudentBuild:
+    """Builds into a folder of its own."""
+
+    def __init__(self, kit: BuiltKit, sandbox: Sandbox, folder: Path) -> None:
+        self._kit = kit
+        self._sandbox = sandbox
+        self._folder = folder
+
+    def _run(self, limits: StepLimits, *command: Word) -> Ran:
+        return self._sandbox.run(Task(tuple(command), limits.of_tools(), tools=True))
+
+    def compile(self, step: Step, source: bytes, limits: StepLimits) -> Compiled:
+        """The binary shows only the functions of the step, whatever the source defines."""
+        path = self._folder / step.path
+        write_bytes(path, source)
+        description = self._kit.description
+        include: list[Word] = ["-I", Input(self._kit.include, "kit")]
+        for folder in description.system_includes:
+            if str(folder) not in KNOWN_TO_COMPILER:
+                include += ["-isystem", Input(folder)]
+        words = [description.compiler, *description.compile_flags]
+        ran = self._run(limits, *words, *include, "-c", Input(path, step.file), "-o", Output("object"))
+        data = ran.outputs.get("object")
+        if ran.outcome.code != 0 or ran.outcome.timed_out or not data:
+            return Compiled(None, ran)
+        raw = self._write(f"{step.number}.o", data)
+        return Compiled(raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
+
+    def _close(self, step: Step, raw: Path, compiled: Ran, limits: StepLimits) -> Compiled:
+        """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""
+        description = self._kit.description
+        assert description.seal is not None
+        listed = self._run(limits, description.seal.nm, *nm_arguments(), Input(raw, "step.o"))
+        if listed.outcome.code != 0 or listed.outcome.timed_out:
+            raise GraderFault(f"the symbols of {step.id} cannot be listed: {listed.outcome.stderr.strip()}")
+        symbols = parse_symbols(listed.outcome.stdout)
+        strange = sorted(symbols.wanted - self._kit.allowed(step))
+        forbidden = tuple(name for name in strange if "8raysteps" in name or "5Catch" in name)
+        missing = tuple(shown for name, shown in self._kit.functions(step).items() if name not in symbols.defined)
+        if forbidden or missing:
+            return Compiled(None, compiled, forbidden, missing)
+        name = library_name(step.number)
+        words: tuple[Word, ...] = (description.compiler, *description.link_flags, "-fno-lto", "-shared")
+        words += (
+            "-Wl,-z,now",
+            f"-Wl,-soname,{name}",
+            "-Wl,--version-script",
+            Input(self._kit.exports(step), "exports"),
+        )
+        ran = self._run(limits, *words, Input(raw, "step.o"), "-o", Output("library"))
+        data = ran.outputs.get("library")
+        if not data:
+            return Compiled(None, ran)
+        return Compiled(self._write(f"libraries/{name}", data), compiled)
+
+    def program(
+        self, kind: Kind, step: Step, binaries: list[Path], limits: StepLimits, *, together: bool = False
+    ) -> tuple[Program | None, Ran | None]:
+        """The kit's program with the student's binaries; none, and what the linker said, when they do not fit."""
+        if self._kit.interpreter is not None:
+            program = self._kit.program(kind, step, together=together)
+            libraries = Input(binaries[0].parent, "steps")  # all steps of a student lie in one folder
+            return Program((self._kit.interpreter, "--library-path", libraries, Input(program, kind))), None
+        parts = [*binaries, *self._kit.rest(kind, step, together=together)]
+        words: list[Word] = [self._kit.description.compiler, *self._kit.description.link_flags]
+        words += [Input(part, part.name) for part in parts]
+        ran = self._run(limits, *words, "-o", Output("program"))
+        data = ran.outputs.get("program")
+        if not data:
+            return None, ran
+        path = self._write(f"{kind}-{step.number}{'-together' if together else ''}", data)
+        path.chmod(0o755)
+        return Program((Input(path, kind),)), None
+
+    def _write(self, name: str, data: bytes) -> Path:
+        path = self._folder / name
+        write_bytes(path, data)
+        return path

@@ -1,0 +1,101 @@
+"""Draws inputs at random. Everything is float32-exact, and the same seed draws the same everywhere."""
+
+import math
+import random
+
+from raysteps.judge.numbers import Vector, add, cross, dot, f32, length, minus, rounded, times, unit
+from raysteps.judge.surfaces import Sphere, Triangle
+from raysteps.judge.values import Fill, Light, Ray
+
+
+class Draw:
+    """A source of random values."""
+
+    def __init__(self, seed: str) -> None:
+        self._random = random.Random(seed)  # noqa: S311 - cases, not secrets
+
+    def real(self, low: float, high: float) -> float:
+        return f32(low + (high - low) * self._random.random())
+
+    def whole(self, low: int, high: int) -> int:
+        """From low to high, both included."""
+        return low + int(self._random.random() * (high - low + 1))
+
+    def chance(self, share: float) -> bool:
+        return self._random.random() < share
+
+    def sign(self) -> float:
+        return 1.0 if self.chance(0.5) else -1.0
+
+    def eighths(self, low: float, high: float) -> float:
+        """A multiple of 1/8: sums and products of such numbers are exact."""
+        return self.whole(math.ceil(low * 8), math.floor(high * 8)) / 8
+
+    def point(self, reach: float) -> Vector:
+        return self.real(-reach, reach), self.real(-reach, reach), self.real(-reach, reach)
+
+    def simple_point(self, reach: float) -> Vector:
+        return self.eighths(-reach, reach), self.eighths(-reach, reach), self.eighths(-reach, reach)
+
+    def direction(self) -> Vector:
+        """A unit vector; all directions are equally likely."""
+        z = 2 * self._random.random() - 1
+        angle = 2 * math.pi * self._random.random()
+        radius = math.sqrt(1 - z * z)
+        return rounded((radius * math.cos(angle), radius * math.sin(angle), z))
+
+    def slanted(self, least: float = 0.05) -> Vector:
+        """A direction that is parallel to no axis and to no plane of the axes."""
+        while True:
+            found = self.direction()
+            if min(abs(x) for x in found) >= least:
+                return found
+
+    def axis(self) -> Vector:
+        """Along x, y or z, either way."""
+        number, sign = self.whole(0, 2), self.sign()
+        x, y, z = (sign if i == number else 0.0 for i in range(3))
+        return x, y, z
+
+    def above(self, normal: Vector, low: float, high: float = 1.0) -> Vector:
+        """A direction whose cosine with the normal lies between low and high."""
+        side = unit(cross(normal, self.across(normal)))
+        other = cross(normal, side)
+        cosine, angle = low + (high - low) * self._random.random(), 2 * math.pi * self._random.random()
+        sine = math.sqrt(max(0.0, 1 - cosine * cosine))
+        found = add(times(cosine, normal), side, sine * math.cos(angle))
+        return rounded(unit(add(found, other, sine * math.sin(angle))))
+
+    def across(self, normal: Vector) -> Vector:
+        """Some direction that is not along the normal."""
+        while True:
+            found = self.direction()
+            if abs(dot(found, normal)) < 0.9:
+                return found
+
+    def ray_towards(self, target: Vector, distance: float) -> Ray:
+        direction = self.direction()
+        return Ray(rounded(add(target, direction, -distance)), direction)
+
+    def color(self, low: float = 0.1, high: float = 1.0) -> Vector:
+        return self.real(low, high), self.real(low, high), self.real(low, high)
+
+    def light(self, position: Vector) -> Light:
+        return Light(position, self.color(0.3, 1.6))
+
+    def fill(self) -> Fill:
+        return Fill(
+            self.color(), self.real(0.2, 1), self.real(0.2, 1), self.real(2, 40), self.real(0, 0.5), self.real(1, 2)
+        )
+
+    def sphere(self, reach: float = 5.0, low: float = 0.5, high: float = 3.0) -> Sphere:
+        return Sphere(self.point(reach), self.real(low, high))
+
+    def triangle(self, reach: float = 4.0) -> Triangle:
+        """No sliver: wide in every direction."""
+        while True:
+            a, b, c = self.point(reach), self.point(reach), self.point(reach)
+            area = length(cross(minus(b, a), minus(c, a)))
+            longest = max(length(minus(b, a)), length(minus(c, b)), length(minus(a, c)))
+            if area > 0.35 * longest * longest and longest > 0.3 * reach:
+                return Triangle(a, b, c)

@@ -1,0 +1,55 @@
+"""What the judge knows of a function: its kinds of cases, and how its answers are compared."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from raysteps.judge.answers import Answer
+from raysteps.judge.drawing import Draw
+from raysteps.judge.numbers import text
+from raysteps.judge.values import Inputs
+
+Make = Callable[[Draw], Inputs]
+
+
+@dataclass(frozen=True)
+class Group:
+    """One kind of cases. `telling`: a function that always answers the same gets none of them right."""
+
+    name: str
+    make: Make
+    telling: bool = True
+
+
+@dataclass(frozen=True)
+class Function:
+    """The first group is of ordinary cases, mixed so that neither a stub nor a constant gets through."""
+
+    name: str
+    answer: Answer[Any]
+    groups: tuple[Group, ...]
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Group]:
+        return {group.name: group for group in self.groups}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One question to a function."""
+
+    function: str
+    group: str
+    inputs: Inputs
+
+    def line(self, number: int) -> str:
+        numbers = [text(n) for value in self.inputs.values() for n in value.numbers()]
+        return " ".join([str(number), self.function, *numbers])
+
+    @property
+    def size(self) -> int:
+        return sum(len(value.numbers()) for value in self.inputs.values())
+
+    def given(self) -> str:
+        return "; ".join(f"{name}: {value.words()}" for name, value in self.inputs.items())

@@ -1,0 +1,194 @@
+"""Cases of step 03."""
+
+from dataclasses import replace
+
+from raysteps.judge.answers import Answer, read_vector, words_of_vector
+from raysteps.judge.comparing import channels, vector
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.numbers import Vector, add, mirrored, rounded, times, unit
+from raysteps.judge.values import Fill, Hit, Inputs, Light, Lights, Vec
+
+_COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colour", e, a))
+_DIRECTION = Answer(read_vector, words_of_vector, lambda _, e, a: vector("the direction", e, a))
+
+
+def _light(draw: Draw) -> Light:
+    return Light(draw.point(5), draw.color(0.3, 1.6))
+
+
+def _plain() -> Fill:
+    return Fill((1.0, 1.0, 1.0), 1.0, 1.0, 1.0)
+
+
+_WHITE = Light((0.0, 0.0, 10.0))
+
+
+def _mirror(direction: Vector, normal: Vector) -> Inputs:
+    return {"direction": Vec(direction), "normal": Vec(normal)}
+
+
+def _simple_mirror(draw: Draw) -> Inputs:
+    return _mirror(draw.simple_point(3), draw.axis())
+
+
+def _along_surface(draw: Draw) -> Inputs:
+    normal = draw.axis()
+    flat = [0.0 if n else draw.eighths(0.5, 3) * draw.sign() for n in normal]
+    return _mirror((flat[0], flat[1], flat[2]), normal)
+
+
+def _scaled(draw: Draw) -> Inputs:
+    return _mirror(rounded(times(draw.real(2, 9), draw.direction())), draw.direction())
+
+
+def _diffuse(draw: Draw, low: float, high: float) -> Inputs:
+    normal = draw.direction()
+    return {
+        "fill": draw.fill(),
+        "light": _light(draw),
+        "normal": Vec(normal),
+        "to_light": Vec(draw.above(normal, low, high)),
+    }
+
+
+def _simple_normals(draw: Draw) -> tuple[Vector, Vector]:
+    """An axis, and a direction to the light with a cosine of 1 or 0.8."""
+    normal = draw.axis()
+    if draw.chance(0.4):
+        return normal, normal
+    side = times(draw.sign(), (normal[1], normal[2], normal[0]))
+    return normal, rounded(add(times(0.8, normal), side, 0.6))
+
+
+def _simple_diffuse(draw: Draw) -> Inputs:
+    normal, to_light = _simple_normals(draw)
+    return {"fill": replace(_plain(), color=draw.color()), "light": _WHITE, "normal": Vec(normal), "to_light": Vec(to_light)}
+
+
+def _specular(draw: Draw, fill: Fill, light: Vector, normal: Vector, eye: Vector) -> Inputs:
+    return {
+        "fill": fill,
+        "light": _light(draw),
+        "normal": Vec(normal),
+        "to_light": Vec(light),
+        "to_eye": Vec(eye),
+    }
+
+
+def _highlight(draw: Draw, *, shine: float | None = None) -> Inputs:
+    """The eye is near the mirrored light."""
+    normal = draw.direction()
+    to_light = draw.above(normal, 0.1, 0.95)
+    brightest = unit(mirrored(times(-1.0, to_light), normal))
+    fill = replace(draw.fill(), shine=draw.real(2, 12) if shine is None else shine)
+    return _specular(draw, fill, to_light, normal, draw.above(brightest, 0.75, 0.995))
+
+
+def _no_highlight(draw: Draw) -> Inputs:
+    """The eye is more than a right angle away from the mirrored light."""
+    normal = draw.direction()
+    to_light = draw.above(normal, 0.1, 0.95)
+    brightest = unit(mirrored(times(-1.0, to_light), normal))
+    return _specular(draw, draw.fill(), to_light, normal, draw.above(brightest, -0.95, -0.1))
+
+
+def _light_behind(draw: Draw) -> Inputs:
+    """And the eye where the highlight would be, if the surface let the light through."""
+    normal = draw.direction()
+    to_light = draw.above(normal, -0.95, -0.1)
+    brightest = unit(mirrored(times(-1.0, to_light), normal))
+    return _specular(draw, draw.fill(), to_light, normal, draw.above(brightest, 0.8, 0.99))
+
+
+def _simple_specular(draw: Draw) -> Inputs:
+    """Light above the surface or at a slant, white, ks 1; the eye above, or where the light is brightest."""
+    normal, to_light = _simple_normals(draw)
+    brightest = rounded(unit(mirrored(times(-1.0, to_light), normal)))
+    eye = normal if draw.chance(0.5) else brightest
+    inputs = dict(_specular(draw, replace(_plain(), shine=float(draw.whole(1, 3))), to_light, normal, eye))
+    return {**inputs, "light": _WHITE}
+
+
+def _hit(draw: Draw) -> Hit:
+    normal = draw.direction()
+    return Hit(
+        draw.point(4), normal, rounded(times(-1.0, draw.above(normal, 0.15))), draw.real(1, 20), draw.fill(), draw.chance(0.7)
+    )
+
+
+def _lights(draw: Draw, hit: Hit, count: int, *, low: float = 0.1, near: float = 2.0, far: float = 15.0) -> Inputs:
+    lights = [
+        draw.light(rounded(add(hit.position, draw.above(hit.normal, low, low + 0.85), draw.real(near, far))))
+        for _ in range(count)
+    ]
+    return {"hit": hit, "lights": Lights(tuple(lights))}
+
+
+def _front_and_back(draw: Draw) -> Inputs:
+    hit = _hit(draw)
+    front, back = _lights(draw, hit, 1)["lights"], _lights(draw, hit, 2, low=-0.95)["lights"]
+    assert isinstance(front, Lights)
+    assert isinstance(back, Lights)
+    return {"hit": hit, "lights": Lights(front.lights + back.lights)}
+
+
+def _simple_shade(draw: Draw) -> Inputs:
+    """One white light, seen from straight above."""
+    normal, to_light = _simple_normals(draw)
+    hit = Hit((0.0, 0.0, 0.0), normal, times(-1.0, normal), 1.0, replace(_plain(), color=draw.color(), shine=2.0))
+    return {"hit": hit, "lights": Lights((Light(rounded(times(5.0, to_light))),))}
+
+
+def _bright(draw: Draw) -> Inputs:
+    hit = _hit(draw)
+    hit = replace(hit, fill=replace(hit.fill, color=draw.color(0.7, 1.0), kd=1.0))
+    return _lights(draw, hit, 5, low=0.1)
+
+
+FUNCTIONS = (
+    Function(
+        "mirror",
+        _DIRECTION,
+        (
+            Group("any direction", lambda d: _mirror(d.direction(), d.direction())),
+            Group("simple numbers", _simple_mirror),
+            Group("longer than 1", _scaled),
+            Group("along the surface", _along_surface),
+        ),
+    ),
+    Function(
+        "diffuse",
+        _COLOR,
+        (
+            Group("light in front", lambda d: _diffuse(d, 0.1, 0.99)),
+            Group("simple numbers", _simple_diffuse),
+            Group("light behind", lambda d: _diffuse(d, -0.99, -0.1), telling=False),
+        ),
+    ),
+    Function(
+        "specular",
+        _COLOR,
+        (
+            Group("near the highlight", _highlight),
+            Group("simple numbers", _simple_specular),
+            Group("shine 1", lambda d: _highlight(d, shine=1.0)),
+            Group("high shine", lambda d: _highlight(d, shine=d.real(20, 40))),
+            Group("far from the highlight", _no_highlight, telling=False),
+            Group("light behind", _light_behind, telling=False),
+        ),
+    ),
+    Function(
+        "shade",
+        _COLOR,
+        (
+            Group("several lights", lambda d: _lights(d, _hit(d), d.whole(2, 4))),
+            Group("simple numbers", _simple_shade),
+            Group("one light", lambda d: _lights(d, _hit(d), 1)),
+            Group("lights in front and behind", _front_and_back),
+            Group("far lights", lambda d: _lights(d, _hit(d), 2, near=50, far=200)),
+            Group("brighter than 1", _bright),
+            Group("no light", lambda d: _lights(d, _hit(d), 0), telling=False),
+        ),
+    ),
+)

@@ -1,0 +1,127 @@
+"""Cases of step 05."""
+
+from raysteps.judge.answers import Answer, first
+from raysteps.judge.comparing import angle, channels
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.numbers import Vector, add, length, minus, rounded, times
+from raysteps.judge.rays import FARTHEST, REFLECTED_RAY
+from raysteps.judge.scripts import Script, ScriptedHit, Traced, read_traced, traced_words
+from raysteps.judge.values import Hit, Inputs, Ray, Whole
+
+_DEGREES = 0.5
+
+
+def _same_ray(expected: Ray, actual: Ray, bounces: int) -> bool:
+    """Each bounce may start anywhere up to FARTHEST off its surface, and shifts what comes after it."""
+    shift = 2 * FARTHEST * bounces + 1e-3
+    near = length(minus(expected.origin, actual.origin)) <= shift
+    return near and angle(expected.direction, actual.direction) <= _DEGREES
+
+
+def _trace_problem(_inputs: Inputs, expected: Traced, actual: Traced) -> str:
+    counts = ""
+    if len(actual.cast) != len(expected.cast):
+        counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
+    rays = enumerate(zip(expected.cast, actual.cast, strict=False))
+    astray = any(not _same_ray(*pair, bounces) for bounces, pair in rays)
+    shaded = sorted(expected.shaded) == sorted(actual.shaded)
+    return first(
+        counts,
+        "a ray that was cast is wrong" if astray else "",
+        channels("the colour", expected.color, actual.color),
+        "" if shaded else "local_light was asked for other hits, or with another depth",
+    )
+
+
+def _hit(draw: Draw, low: float = 0.15, high: float = 1.0, reach: float = 3.0) -> Inputs:
+    normal = draw.direction()
+    return {"hit": Hit(draw.point(reach), normal, rounded(times(-1.0, draw.above(normal, low, high))))}
+
+
+def _simple_hit(draw: Draw) -> Inputs:
+    normal = draw.axis()
+    side = (normal[1], normal[2], normal[0])
+    straight = draw.chance(0.4)
+    direction = times(-1.0, normal) if straight else rounded(add(times(-0.8, normal), side, 0.6))
+    return {"hit": Hit(draw.simple_point(3), normal, direction)}
+
+
+def _far_hit(draw: Draw) -> Inputs:
+    normal = draw.direction()
+    position = rounded(add((100.0, -100.0, 100.0), draw.point(3)))
+    return {"hit": Hit(position, normal, rounded(times(-1.0, draw.above(normal, 0.3))))}
+
+
+def _scripted(draw: Draw, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
+    """ks between low and high."""
+    distances = [float(i + 1) + draw.real(0.1, 0.8) for i in range(count)]
+    return tuple(
+        ScriptedHit(distance, draw.direction(), draw.real(low, high), draw.color(0.05, 1.0)) for distance in distances
+    )
+
+
+def _trace(draw: Draw, hits: tuple[ScriptedHit, ...], depth: int, most: int) -> Inputs:
+    ray = Ray(draw.point(3), draw.direction())
+    return {"ray": ray, "depth": Whole(depth), "tracer": Script(most, draw.color(0.2, 0.9), hits)}
+
+
+def _mirror_and_dull(draw: Draw) -> Inputs:
+    """Some mirrors, then something dull or nothing."""
+    hits = _scripted(draw, draw.whole(1, 3), 0.2, 0.9)
+    end = _scripted(draw, 4, 0.0, 0.0)[3:] if draw.chance(0.6) else ()
+    return _trace(draw, hits + end, 1, 6)
+
+
+def _simple_trace(draw: Draw) -> Inputs:
+    """One hit straight ahead, ks 0.5, and perhaps a dull one behind."""
+    down: Vector = (0.0, 0.0, -1.0)
+    mirror = ScriptedHit(5.0, (0.0, 0.0, 1.0), 0.5, draw.color())
+    dull = ScriptedHit(3.0, (0.0, 0.0, -1.0), 0.0, draw.color())
+    hits = (mirror, dull) if draw.chance(0.7) else (mirror,)
+    return {"ray": Ray((0.0, 0.0, 5.0), down), "depth": Whole(1), "tracer": Script(5, draw.color(), hits)}
+
+
+def _depth_limit(draw: Draw) -> Inputs:
+    """More mirrors than the limit lets a ray see."""
+    most = draw.whole(1, 5)
+    return _trace(draw, _scripted(draw, most + 2, 0.3, 0.9), 1, most)
+
+
+def _deepest(draw: Draw) -> Inputs:
+    """The depth at the start is the last that counts."""
+    most = draw.whole(1, 6)
+    return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most, most)
+
+
+def _too_deep(draw: Draw) -> Inputs:
+    most = draw.whole(1, 6)
+    return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most + draw.whole(1, 3), most)
+
+
+FUNCTIONS = (
+    Function(
+        "reflected_ray",
+        REFLECTED_RAY,
+        (
+            Group("any hit", _hit),
+            Group("simple numbers", _simple_hit),
+            Group("at a grazing angle", lambda d: _hit(d, 0.06, 0.15)),
+            Group("far from the centre of the world", _far_hit),
+        ),
+    ),
+    Function(
+        "trace",
+        Answer(read_traced, traced_words, _trace_problem),
+        (
+            Group("mirrors and what they show", _mirror_and_dull),
+            Group("simple numbers", _simple_trace),
+            Group("dull surfaces", lambda d: _trace(d, _scripted(d, d.whole(1, 3), 0.0, 0.0), 1, 5)),
+            Group("a miss", lambda d: _trace(d, (), 1, 5)),
+            Group("the depth limit", _depth_limit),
+            Group("the deepest ray", _deepest),
+            Group("a bounced ray that misses", lambda d: _trace(d, (), d.whole(2, 4), 5), telling=False),
+            Group("beyond the limit", _too_deep, telling=False),
+        ),
+    ),
+)

@@ -1,0 +1,121 @@
+"""Asks the functions of a step, compares with the reference, and says what is wrong."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.text import count, shorten
+from raysteps.grading.results import CaseGroup, Ending, HiddenResult
+from raysteps.judge.answers import Verdict
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Case, Function
+from raysteps.judge.generators import functions_of
+from raysteps.judge.plan import FunctionPlan, Plan
+from raysteps.judge.worker_client import Ask, Reply, ask_worker
+from raysteps.kit.manifest import Step
+
+ORDINARY_SHARE = 0.9  # of the first kind of cases must be right, or the function earns nothing
+_STEP_FACTOR = 3  # all functions of a step together may take this many times the step's seconds
+_LONGEST = 2000
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One case with what came of it."""
+
+    case: Case
+    verdict: Verdict
+    outcome: Ending
+
+
+def make_cases(step: Step, function: Function, plan: FunctionPlan, seed: int) -> list[Case]:
+    """The same seed makes the same cases on every machine."""
+    cases = []
+    for name, amount in plan.cases.items():
+        draw = Draw(f"{seed}/{step.id}/{function.name}/{name}")
+        make = function.by_name[name].make
+        cases += [Case(function.name, name, make(draw)) for _ in range(amount)]
+    return cases
+
+
+def _reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
+    replies = ask_worker(ask, cases, 600).replies
+    bad = next((reply for reply in replies if reply.outcome != "ok" or reply.line.startswith("bad-case")), None)
+    if bad is not None:
+        raise GraderFault(f"{name}: the reference does not answer the judge: {bad.note or bad.line}")
+    return [reply.line for reply in replies]
+
+
+def _judge(function: Function, case: Case, expected: str, reply: Reply) -> Judged:
+    verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
+    if reply.outcome != "ok":
+        verdict = Verdict(reply.note, verdict.expected, f"no answer: {reply.note}")
+    return Judged(case, verdict, reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong")
+
+
+def _groups(plan: FunctionPlan, judged: Sequence[Judged]) -> list[CaseGroup]:
+    return [
+        CaseGroup(name, amount, sum(not one.verdict.problem for one in judged if one.case.group == name))
+        for name, amount in plan.cases.items()
+    ]
+
+
+def _is_right(group: CaseGroup, may_miss: float) -> bool:
+    return group.cases - group.right <= may_miss * group.cases
+
+
+def _first_wrong(judged: Sequence[Judged], wrong: Sequence[CaseGroup]) -> Judged | None:
+    """Of the first kind that is wrong, the case with the fewest numbers."""
+    for group in wrong:
+        found = [one for one in judged if one.case.group == group.name and one.verdict.problem]
+        if found:
+            return min(found, key=lambda one: one.case.size)
+    return None
+
+
+def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: Judged, share: float) -> str:
+    right = len(groups) - len(wrong)
+    kinds = "; ".join(f"{group.name} ({group.right} of {group.cases} right)" for group in wrong)
+    text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
+    text += f"wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}."
+    if share == 0 and right:
+        text += f" As long as '{groups[0].name}' is mostly wrong, the other kinds do not count."
+    return text
+
+
+def _outcome(judged: Sequence[Judged]) -> Ending:
+    outcomes = {one.outcome for one in judged}
+    bad: tuple[Ending, ...] = ("crashed", "timeout", "wrong")
+    return next((outcome for outcome in bad if outcome in outcomes), "ok")
+
+
+def _result(plan: FunctionPlan, judged: Sequence[Judged], seconds: float) -> HiddenResult:
+    groups = _groups(plan, judged)
+    wrong = [group for group in groups if not _is_right(group, plan.may_miss)]
+    ordinary = groups[0].right >= ORDINARY_SHARE * groups[0].cases
+    share = (len(groups) - len(wrong)) / len(groups) if ordinary else 0.0
+    result = HiddenResult(plan.name, "function", round(share, 6), plan.weight, groups=groups)
+    result.seconds = round(seconds, 3)
+    found = _first_wrong(judged, wrong)
+    if found is not None:
+        result.message = shorten(_message(plan.name, groups, wrong, found, share), _LONGEST)
+        result.given = shorten(found.case.given(), _LONGEST)
+        result.expected = shorten(found.verdict.expected, _LONGEST)
+        result.actual = shorten(found.verdict.actual, _LONGEST)
+        result.outcome = _outcome(judged)
+    return result
+
+
+def judge_functions(step: Step, plan: Plan, student: Ask, reference: Ask, seed: int) -> list[HiddenResult]:
+    """One result for each function, whatever the student's worker does."""
+    results = []
+    left = _STEP_FACTOR * step.seconds
+    for function_plan in plan.functions:
+        function = functions_of(step.number)[function_plan.name]
+        cases = make_cases(step, function, function_plan, seed)
+        expected = _reference_lines(reference, cases, function.name)
+        replies = ask_worker(student, cases, left)
+        left -= replies.seconds
+        judged = [_judge(function, *three) for three in zip(cases, expected, replies.replies, strict=True)]
+        results.append(_result(function_plan, judged, replies.seconds))
+    return results

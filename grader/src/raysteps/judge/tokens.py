@@ -1,0 +1,54 @@
+"""Reads the words of an answer. They come from a student's process: anything may stand there."""
+
+from raysteps.judge.numbers import Vector
+
+_MOST_DIGITS = 40
+
+
+class Garbled(Exception):
+    """An answer that does not have the form that the worker writes."""
+
+
+class Tokens:
+    """The words of one answer, from left to right."""
+
+    def __init__(self, line: str) -> None:
+        self._words = line.split()
+        self._next = 0
+
+    def word(self) -> str:
+        if self._next >= len(self._words):
+            raise Garbled("the answer is too short")
+        self._next += 1
+        return self._words[self._next - 1]
+
+    def real(self) -> float:
+        found = self.word()
+        try:
+            return float(found) if len(found) <= _MOST_DIGITS else _refuse(found)
+        except ValueError:
+            return _refuse(found)
+
+    def whole(self, low: int = 0, high: int = 1 << 31) -> int:
+        found = self.word()
+        try:
+            number = int(found) if len(found) <= _MOST_DIGITS else -1
+        except ValueError:
+            raise Garbled("the answer holds a word where a whole number belongs") from None
+        if not low <= number <= high:
+            raise Garbled("the answer holds a number out of range")
+        return number
+
+    def flag(self) -> bool:
+        return self.whole(0, 1) == 1
+
+    def vector(self) -> Vector:
+        return self.real(), self.real(), self.real()
+
+    def end(self) -> None:
+        if self._next != len(self._words):
+            raise Garbled("the answer is too long")
+
+
+def _refuse(found: str) -> float:
+    raise Garbled("the answer holds a word where a number belongs")

@@ -1,0 +1,120 @@
+"""Puts one kit folder together from what CMake built."""
+
+import shutil
+from pathlib import Path
+
+from raysteps.common.files import write_bytes, write_json
+from raysteps.kit.description import Description
+from raysteps.kit.linking import (
+    dynamic_list,
+    interpreter_of,
+    library_name,
+    link,
+    link_placeholder,
+    precompile,
+    version_script,
+)
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.kit.symbols import readable_names, symbols_of
+from raysteps.kit.test_list import list_tests
+
+_NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
+_FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "rest", "steps")
+
+
+class Assembly:
+    """Makes bin/, include/, steps/ and facts.json."""
+
+    def __init__(self, project: Project, steps: list[Step], folder: Path, description: Description) -> None:
+        self._project = project
+        self._steps = steps
+        self._folder = folder
+        self._description = description
+        self._objects: dict[str, Path] = {}
+        self._kept: dict[str, list[str]] = {}  # linker names of the functions of each step
+        for part in _FOLDERS:
+            (folder / part).mkdir()
+        self._core = self._copy(description.libraries["core"])
+        self._others = [self._copy(description.libraries[name]) for name in ("testing", "render", "io")]
+        self._others += description.catch2
+
+    def run(self) -> None:
+        """Everything, in order."""
+        self._copy_headers()
+        if self._description.compiler_version.startswith("GNU"):
+            for step in self._steps:
+                precompile(self._description, self._folder / "include", step.id)
+        for step in self._steps:
+            self._add_step(step)
+        raytrace = [self._copy(path) for path in self._description.raytrace]
+        worker = [self._copy(path) for path in self._description.worker]
+        for kind, objects in (("raytrace", raytrace), ("worker", worker)):
+            self._link_reference(kind, objects)
+            for step in self._steps:
+                self._add_program(f"{kind}-isolated-{step.number}", objects, [step])
+        tests: dict[str, dict[str, list[str]]] = {}
+        for at, step in enumerate(self._steps, start=1):
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
+            objects = [self._copy(path) for path in self._description.tests[step.number]]
+            self._link_reference(f"test-{step.number}", objects)
+            self._add_program(f"test-isolated-{step.number}", objects, [step])
+            cases = list_tests(self._folder / "bin" / f"test-{step.number}")
+            tests[step.id] = {name: sorted(tags) for name, tags in cases.items()}
+        tools = self._description.seal
+        loader = None if tools is None else interpreter_of(tools.readelf, self._folder / "bin" / "raytrace")
+        write_json(self._folder / "facts.json", {"interpreter": loader, "tests": tests})
+
+    def _copy(self, path: Path) -> Path:
+        parts = self._folder / "parts"
+        target = parts / f"{len(list(parts.iterdir())):03d}-{path.name}"
+        shutil.copyfile(path, target)
+        return target
+
+    def _copy_headers(self) -> None:
+        include = self._folder / "include"
+        for header in self._project.root.glob("framework/core/*.hpp"):
+            write_bytes(include / "core" / header.name, header.read_bytes())
+        for step in self._steps:
+            for header in (self._project.steps / step.id).glob("*.hpp"):
+                write_bytes(include / "steps" / step.id / header.name, header.read_bytes())
+
+    def _add_step(self, step: Step) -> None:
+        built = self._description.steps[step.number]
+        self._objects[step.number] = self._copy(built)
+        tools = self._description.seal
+        if tools is None:
+            return
+        kept = self._kept[step.number] = Path(f"{built}.keep").read_text("utf-8").split()
+        steps = self._folder / "steps"
+        write_bytes(steps / f"{step.number}.map", version_script(kept))
+        names = readable_names(tools.nm, self._objects[step.number])
+        write_json(steps / f"{step.number}.names.json", {name: names[name] for name in kept})
+        core = {name for name in symbols_of(tools.nm, self._core).defined if _NOT_FOR_STEPS not in name}
+        earlier = [other.number for other in self._steps if other.index <= step.index]
+        allowed = core.union(*(self._kept[number] for number in earlier))
+        write_json(steps / f"{step.number}.allowed.json", sorted(allowed))
+        write_bytes(steps / f"{step.number}.dynamic", dynamic_list(sorted(allowed)))
+        link_placeholder(self._description, kept, self._folder / "placeholders" / library_name(step.number))
+
+    def _link_reference(self, name: str, objects: list[Path]) -> None:
+        parts = [*objects, *self._objects.values(), *self._others, self._core]
+        link(self._description, parts, self._folder / "bin" / name)
+
+    def _add_program(self, name: str, objects: list[Path], mine: list[Step]) -> None:
+        """Linked with placeholders where steps are libraries, so that nothing is linked for a submission; else a list
+        of what to link."""
+        numbers = [step.number for step in mine]
+        parts = [*objects, *(path for number, path in self._objects.items() if number not in numbers)]
+        if self._description.seal is None:
+            others = [*parts, *self._others, self._core]
+            names = [path.relative_to(self._folder) if path.is_relative_to(self._folder) else path for path in others]
+            write_bytes(
+                self._folder / "rest" / f"{name}.txt", "".join(f"{path.as_posix()}\n" for path in names).encode()
+            )
+            return
+        libraries = [self._folder / "placeholders" / library_name(number) for number in numbers]
+        whole: list[str | Path] = ["-Wl,--whole-archive", self._core, "-Wl,--no-whole-archive"]
+        shown = f"-Wl,--dynamic-list={self._folder / 'steps' / f'{numbers[-1]}.dynamic'}"
+        words: list[str | Path] = [*parts, *whole, *self._others, "-Wl,--no-as-needed", *libraries, shown]
+        link(self._description, words, self._folder / "bin" / name)

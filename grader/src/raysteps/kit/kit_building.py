@@ -1,0 +1,67 @@
+"""Builds the kit for grading, into a folder named by its fingerprint."""
+
+import json
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.kit.assembly import Assembly
+from raysteps.kit.building import release_tree, what_failed
+from raysteps.kit.built_kit import BuiltKit, Say
+from raysteps.kit.description import read_description
+from raysteps.kit.fingerprint import fingerprint
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import Project
+
+_KEPT = 3
+_NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
+
+
+def build_kit(project: Project, say: Say = lambda text: None) -> BuiltKit:
+    """The kit of the repository as it is now; built when there is none yet."""
+    steps = read_steps(project)
+    for _ in range(3):
+        mark = fingerprint(project)
+        folder = project.build / "kit" / mark
+        if not (folder / "kit.json").is_file():
+            say("building the framework, the references and the tests")
+            _build(project, steps, folder)
+        if fingerprint(project) == mark:
+            os.utime(folder)
+            _forget_old(folder.parent)
+            return _load(project, steps, folder)
+    raise GraderFault("the kit's sources keep changing while it is built")
+
+
+def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
+    description = read_description(folder / "kit.json")
+    table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
+    tests = {step: {name: frozenset(tags) for name, tags in cases.items()} for step, cases in table["tests"].items()}
+    mark = f"{folder.name} {description.compiler_version}"
+    return BuiltKit(project, folder, mark, steps, description, tests, table["interpreter"])
+
+
+def _forget_old(kits: Path) -> None:
+    """Keeps the kits that were used last."""
+    built = sorted((kit for kit in kits.iterdir() if (kit / "kit.json").is_file()), key=lambda kit: kit.stat().st_mtime)
+    for kit in built[:-_KEPT]:
+        shutil.rmtree(kit, ignore_errors=True)
+
+
+def _build(project: Project, steps: list[Step], folder: Path) -> None:
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    tree = release_tree(project)
+    with tree.locked(), tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent) as name:
+        if (folder / "kit.json").is_file():
+            return  # somebody else was faster
+        outcome = tree.build(["kit"])
+        if outcome.code != 0:
+            raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
+        new = Path(name) / "kit"
+        new.mkdir()
+        Assembly(project, steps, new, read_description(tree.folder / "kit.json")).run()
+        shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
+        shutil.rmtree(folder, ignore_errors=True)
+        new.rename(folder)

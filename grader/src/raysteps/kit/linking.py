@@ -1,0 +1,69 @@
+"""Links the kit's own programs: those of the reference, and those that lack a student's steps."""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_bytes
+from raysteps.common.process import run
+from raysteps.kit.description import Description
+
+_SECONDS = 300
+KNOWN_TO_COMPILER = ("/usr/include", "/usr/local/include")
+
+
+def _run(words: Sequence[str | Path]) -> str:
+    outcome = run(words, seconds=_SECONDS, limited=False)
+    if outcome.code != 0:
+        raise GraderFault(f"a part of the kit cannot be linked: {outcome.stderr or outcome.stdout}")
+    return outcome.stdout
+
+
+def link(description: Description, objects: Sequence[str | Path], program: Path) -> None:
+    """A program, or with the right words among the objects a library."""
+    _run([description.compiler, *description.link_flags, *objects, "-o", program])
+
+
+def version_script(names: Sequence[str]) -> bytes:
+    """Shows these names of a library and hides all others."""
+    shown = "".join(f"        {name};\n" for name in names)
+    return f"{{\n    global:\n{shown}    local:\n        *;\n}};\n".encode()
+
+
+def dynamic_list(names: Sequence[str]) -> bytes:
+    """Shows these names of a program to the libraries that it loads, and no others."""
+    return ("{\n" + "".join(f"    {name};\n" for name in names) + "};\n").encode()
+
+
+def library_name(number: str) -> str:
+    return f"libstep-{number}.so"
+
+
+def link_placeholder(description: Description, names: Sequence[str], library: Path) -> None:
+    """A library with these functions and nothing in them, for programs to be linked with."""
+    source = library.with_suffix(".s")
+    lines = [f".globl {name}\n.type {name}, @function\n{name}:\n" for name in names]
+    write_bytes(source, (".text\n" + "".join(lines) + '.section .note.GNU-stack,"",%progbits\n').encode())
+    link(description, ["-shared", f"-Wl,-soname,{library.name}", source], library)
+    source.unlink()
+
+
+def precompile(description: Description, include: Path, step: str) -> None:
+    """The step's contract as g++ keeps it in memory. It is taken where a file includes the contract first, as all stubs
+    do, and saves half of the time; whatever else a file does, it is compiled as if there were none."""
+    for header in (include / "steps" / step).glob("*.hpp"):
+        folders: list[str | Path] = ["-I", include]
+        for folder in description.system_includes:
+            if str(folder) not in KNOWN_TO_COMPILER:
+                folders += ["-isystem", folder]
+        words = [description.compiler, *description.compile_flags, *folders, "-w", "-x", "c++-header", header]
+        _run([*words, "-o", f"{header}.gch"])
+
+
+def interpreter_of(readelf: str, program: Path) -> str:
+    """The dynamic loader that the program asks for."""
+    found = re.search(r"\]\s+(/\S+)", _run([readelf, "-p", ".interp", program]))
+    if found is None:
+        raise GraderFault(f"{program} names no dynamic loader")
+    return found.group(1)

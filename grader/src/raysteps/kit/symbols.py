@@ -1,0 +1,55 @@
+"""What an object file offers and what it asks for, by `nm`."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import run
+
+_SECONDS = 60
+
+
+@dataclass(frozen=True)
+class Symbols:
+    """Linker names."""
+
+    defined: frozenset[str]  # all that is defined and visible from outside
+    wanted: frozenset[str]  # undefined
+
+
+def parse_symbols(text: str) -> Symbols:
+    """The output of `nm --extern-only --format=posix`, of an object or an archive."""
+    defined, wanted = set(), set()
+    for line in text.splitlines():
+        words = line.split()
+        if len(words) < 2 or len(words[1]) != 1:
+            continue
+        name, kind = words[0], words[1]
+        if kind in "Uwv":
+            wanted.add(name)
+        else:
+            defined.add(name)
+    return Symbols(frozenset(defined), frozenset(wanted))
+
+
+def nm_arguments() -> tuple[str, ...]:
+    return ("--extern-only", "--format=posix")
+
+
+def readable_names(nm: str, path: Path) -> dict[str, str]:
+    """Linker names of one of the kit's own objects, and how C++ writes them."""
+    lists = []
+    for option in ((), ("--demangle",)):
+        words = [nm, *nm_arguments(), "--defined-only", "--no-sort", *option, path]
+        outcome = run(words, seconds=_SECONDS, limited=False, cap=64 << 20)
+        lists.append([re.sub(r" [A-Za-z]( [0-9a-f]*)*\s*$", "", line) for line in outcome.stdout.splitlines()])
+    return dict(zip(*lists, strict=True))
+
+
+def symbols_of(nm: str, path: Path) -> Symbols:
+    """Of one of the kit's own files."""
+    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, limited=False, cap=64 << 20)
+    if outcome.code != 0:
+        raise GraderFault(f"{path}: its symbols cannot be read: {outcome.stderr}")
+    return parse_symbols(outcome.stdout)

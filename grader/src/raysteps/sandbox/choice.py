@@ -1,0 +1,85 @@
+"""Finds the strongest sandbox that works here."""
+
+import os
+import shutil
+import sys
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.kit.project import here
+from raysteps.sandbox.bubblewrap import Bubblewrap
+from raysteps.sandbox.fallback import Fallback
+from raysteps.sandbox.open_air import OpenAir
+from raysteps.sandbox.task import Input, Sandbox, Task
+
+VARIABLE = "RAYSTEPS_SANDBOX"
+_CHOICES = ("bubblewrap", "fallback", "none")
+
+
+def _works(sandbox: Sandbox) -> str:
+    """Tries it once; the reason why not, or nothing."""
+    program = shutil.which("true")
+    if program is None:
+        return "the program true, to try it with, was not found"
+    try:
+        ran = sandbox.run(Task((Input(Path(program), "true"),)))
+    except (GraderFault, OSError, ValueError) as error:
+        return str(error)
+    return "" if ran.outcome.code == 0 else f"the program true ended with {ran.outcome.code}: {ran.outcome.stderr}"
+
+
+def _try(make: Callable[[], Sandbox]) -> tuple[Sandbox | None, str]:
+    try:
+        sandbox = make()
+    except (GraderFault, OSError) as error:
+        return None, str(error)
+    reason = _works(sandbox)
+    return (None, reason) if reason else (sandbox, "")
+
+
+@cache
+def _bubblewrap() -> tuple[Sandbox | None, str]:
+    if sys.platform != "linux":
+        return None, "there are no namespaces on this system"
+    return _try(lambda: Bubblewrap((here().root,)))
+
+
+@cache
+def _fallback() -> tuple[Sandbox | None, str]:
+    if sys.platform != "linux":
+        return None, "it is for Linux only"
+    return _try(lambda: Fallback((here().root,)))
+
+
+def _asked_for() -> str:
+    choice = os.environ.get(VARIABLE, "")
+    if choice and choice not in _CHOICES:
+        raise UsageError(f"{VARIABLE} is {choice!r}; it may be {', '.join(_CHOICES)}, or be absent.")
+    return choice
+
+
+def find_sandbox(*, require: bool = False) -> Sandbox:
+    """The strongest there is; with `require`, an error if it is not strong."""
+    choice = _asked_for()
+    candidates = {"bubblewrap": [_bubblewrap], "fallback": [_fallback], "none": []}.get(
+        choice, [_bubblewrap, _fallback]
+    )
+    reasons = []
+    sandbox: Sandbox | None = None
+    for candidate in candidates:
+        sandbox, reason = candidate()
+        if sandbox is not None:
+            break
+        reasons.append(reason)
+    if sandbox is None and choice in ("bubblewrap", "fallback"):
+        raise UsageError(f"{VARIABLE} asks for {choice}, but it does not work here: {reasons[0]}")
+    found = sandbox or OpenAir()
+    if require and not found.isolation.strong:
+        raise UsageError(
+            "A strong sandbox is required, and there is none here. "
+            + (f"bubblewrap: {reasons[0]} " if reasons else f"{VARIABLE} asks for {choice}. ")
+            + "See docs/sandbox.md."
+        )
+    return found

@@ -1,0 +1,166 @@
+"""Runs tasks under the keeper: what the sandboxes without namespaces have in common."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import ExitStack, nullcontext, suppress
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome
+from raysteps.common.text import printable, shorten
+from raysteps.sandbox.control import readable
+from raysteps.sandbox.inside import Inside, nameless_file
+from raysteps.sandbox.isolation import Isolation
+from raysteps.sandbox.processes import Usage, adopting_orphans, descendants, usage_of
+from raysteps.sandbox.rlimits import address_space, threads_of_user
+from raysteps.sandbox.task import Input, Limits, Ran, Task
+from raysteps.sandbox.users import lent_user
+from raysteps.sandbox.watching import Seen, watch
+from raysteps.sandbox.workplace import Workplace, fresh_workplace
+
+_MEGABYTE = 1 << 20
+_KEEPER = Path(__file__).with_name("keeper.py")
+_PATIENCE_SECONDS = 1.0
+_LINUX = sys.platform == "linux"
+
+
+class _Family:
+    """The keeper and what it keeps."""
+
+    def __init__(self, process: "subprocess.Popen[bytes]") -> None:
+        self._process = process
+        self._known: set[int] = set()
+        self._asked_at: float | None = None
+
+    def usage(self) -> Usage:
+        if not _LINUX:
+            return Usage()
+        found = descendants(self._process.pid)
+        self._known |= found
+        return usage_of(found)
+
+    def kill(self) -> None:
+        """Asks the keeper to end everything; if it does not, as when it was killed itself, does so in its place."""
+        now = time.monotonic()
+        self._asked_at = self._asked_at or now
+        if self._process.returncode is None and now < self._asked_at + _PATIENCE_SECONDS:
+            self._process.terminate()
+            return
+        if _LINUX:
+            self._hunt()
+        if self._process.returncode is None:
+            self._process.kill()
+
+    def _hunt(self) -> None:
+        """Whatever was seen below the keeper; its orphans are this process's children now."""
+        for pid in self._known & descendants(os.getpid()) - {self._process.pid}:
+            with suppress(OSError):
+                os.kill(pid, signal.SIGKILL)
+                os.waitpid(pid, 0)
+
+
+class Kept:
+    """A sandbox whose tasks run under the keeper. What is in force is for its children to say."""
+
+    isolation = Isolation()
+    _lends_users = False
+
+    def _locate(self, place: Workplace, given: Input) -> Path:
+        """Makes an input readable for the task."""
+        raise NotImplementedError
+
+    def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:
+        """What the keeper closes before it starts the command."""
+        raise NotImplementedError
+
+    def _limits(self, limits: Limits) -> dict[str, int]:
+        others = 0 if self._lends_users or not _LINUX else threads_of_user(os.getuid())
+        seconds = math.ceil(limits.cpu_seconds) + 1
+        bounds = {"RLIMIT_CORE": 0, "RLIMIT_FSIZE": limits.file_mb * _MEGABYTE, "RLIMIT_CPU": seconds}
+        if _LINUX:
+            bounds |= {"RLIMIT_AS": address_space(limits), "RLIMIT_NPROC": others + limits.processes}
+        return bounds
+
+    def run(self, task: Task) -> Ran:
+        with ExitStack() as stack:
+            stack.enter_context(adopting_orphans() if _LINUX else nullcontext())
+            user = stack.enter_context(lent_user()) if self._lends_users else None
+            place = stack.enter_context(fresh_workplace(user))
+            inputs: list[Path] = []
+
+            def locate(_: int, given: Input) -> str:
+                inputs.append(self._locate(place, given))
+                return str(inputs[-1])
+
+            inside = Inside(task, locate)
+            scratch = place.writable("tmp")
+            folders = [scratch]
+            if task.tools or not _LINUX:
+                folders.append(place.writable("out"))
+                inside.write_to_folder(folders[-1], str(folders[-1]))
+            else:
+                inside.write_to_memory(stack)
+            command = inside.command()
+            settings: dict[str, Any] = {
+                "limits": self._limits(task.limits),
+                "user": user,
+                "folder": str(scratch),
+                "environment": _environment(task, command[0], scratch),
+                "fences": self._fences(task, inputs, folders),
+            }
+            return self._keep(task, inside, settings, command, stack)
+
+    def _keep(self, task: Task, inside: Inside, settings: dict[str, Any], command: list[str], stack: ExitStack) -> Ran:
+        status, status_end = os.pipe()
+        stack.callback(os.close, status)
+        stdin = nameless_file(task.stdin, stack)
+        start = time.monotonic()
+        keeper = [sys.executable, "-I", "-S", str(_KEEPER), json.dumps(settings | {"status": status_end})]
+        try:
+            process = stack.enter_context(
+                subprocess.Popen(
+                    [*keeper, *command],
+                    stdin=stdin,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                    pass_fds=(status_end, *inside.fds),
+                    cwd="/",
+                )
+            )
+        finally:
+            os.close(status_end)
+        stack.callback(process.kill)
+        seen = watch(process, start, task.limits, _Family(process))
+        said = os.read(status, 64) if readable(status, 0) else b""
+        return Ran(
+            _outcome(seen, said), inside.outputs(), max(seen.cpu_seconds, seen.watched_cpu_seconds), seen.stopped
+        )
+
+
+def _environment(task: Task, program: str, scratch: Path) -> dict[str, str]:
+    """Nothing of the grader's own."""
+    environment = {"LC_ALL": "C", "HOME": str(scratch), "TMPDIR": str(scratch)}
+    if task.tools:
+        environment["PATH"] = os.pathsep.join(dict.fromkeys((str(Path(program).parent), "/usr/bin", "/bin")))
+    return environment
+
+
+def _outcome(seen: Seen, said: bytes) -> Outcome:
+    err = seen.stderr.decode("utf-8", "replace")
+    if said.startswith(b"cannot start"):
+        raise GraderFault(f"A command could not be started: {shorten(printable(err))}")
+    if not said and not seen.stopped and seen.status != -signal.SIGKILL:
+        raise GraderFault(f"The keeper of a task failed: {shorten(printable(err))}")
+    return Outcome(
+        code=int(said) if said and not seen.stopped else -signal.SIGKILL,
+        timed_out=seen.stopped == "wall",
+        stdout=seen.stdout.decode("utf-8", "replace"),
+        stderr=err,
+        seconds=seen.seconds,
+    )

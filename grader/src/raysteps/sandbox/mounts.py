@@ -1,0 +1,77 @@
+"""The little of the host's file system that a task sees."""
+
+import shutil
+from pathlib import Path
+
+_SYSTEM = Path("/usr")
+_LIBRARIES = ("lib", "lib32", "lib64", "libx32")
+_TOOLS = ("bin", "include", "libexec")
+_TEST_FRAMEWORKS = ("catch2",)  # a student's source has no business with them
+_LOCAL = Path("/usr/local")
+
+
+def compiler_command(name: str) -> Path:
+    """The full path of a program, past links by way of /etc, which a task does not see. The last link stays: some
+    compilers look at the name that they were called by."""
+    found = shutil.which(name)
+    if found is None:
+        return Path(name)
+    path = Path(found)
+    while path.is_symlink():
+        target = path.parent / path.readlink()
+        if not (path.is_relative_to("/etc") or target.is_relative_to("/etc")):
+            break
+        path = target
+    return path
+
+
+def _own_prefix(compiler: Path) -> Path | None:
+    """Where a compiler lives that is not the system's."""
+    prefix = compiler.resolve().parent.parent
+    return None if prefix in (_SYSTEM, Path("/")) or prefix.is_relative_to(_SYSTEM / "lib") else prefix
+
+
+def _folders(prefix: Path, names: tuple[str, ...]) -> list[Path]:
+    return [prefix / name for name in names if (prefix / name).is_dir() and not (prefix / name).is_symlink()]
+
+
+def visible_folders(compiler: Path | None) -> list[Path]:
+    """Libraries, and for tools also programs and headers."""
+    seen = _folders(_SYSTEM, _LIBRARIES + (_TOOLS if compiler is not None else ()))
+    prefix = None if compiler is None else _own_prefix(compiler)
+    if prefix is not None:
+        seen += _folders(prefix, _LIBRARIES + _TOOLS)
+        seen += [folder for folder in prefix.glob("*-*-*") if (folder / "bin").is_dir()]
+    # A compiler that was installed by hand brings the C++ library that its programs need.
+    seen += [folder for folder in _folders(_LOCAL, ("lib", "lib64")) if (folder / "libstdc++.so.6").exists()]
+    return list(dict.fromkeys(seen))
+
+
+def top_folders(compiler: Path | None) -> list[Path]:
+    """The folders of the same kind at the top, where they are not links into /usr."""
+    return _folders(Path("/"), _LIBRARIES + (() if compiler is None else ("bin",)))
+
+
+def hidden_folders(seen: list[Path], secrets: list[Path]) -> list[Path]:
+    """What lies in the visible folders and is not meant to be seen."""
+    frameworks = [folder / name for folder in seen if folder.name == "include" for name in _TEST_FRAMEWORKS]
+    inside = [secret.resolve() for secret in secrets if any(secret.resolve().is_relative_to(place) for place in seen)]
+    return [path for path in (*frameworks, *inside) if path.is_dir()]
+
+
+def root_words(compiler: Path | None, secrets: list[Path], tmp_bytes: int) -> list[str]:
+    """The words for bubblewrap that make this root, readable only; its last word must still follow: the inputs."""
+    words: list[str] = []
+    seen = [*visible_folders(compiler), *top_folders(compiler)]
+    for folder in seen:
+        words += ["--ro-bind", str(folder), str(folder)]
+    for name in (*_LIBRARIES, "bin"):
+        top = Path("/", name)
+        if top.is_symlink():
+            words += ["--symlink", str(top.readlink()), str(top)]
+    for hidden in hidden_folders(seen, secrets):
+        words += ["--tmpfs", str(hidden), "--remount-ro", str(hidden)]
+    words += ["--ro-bind-try", "/etc/ld.so.cache", "/etc/ld.so.cache"]
+    words += ["--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"]
+    words += ["--size", str(tmp_bytes), "--tmpfs", "/tmp"]  # noqa: S108  (a new one, inside)
+    return words

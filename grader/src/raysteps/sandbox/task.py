@@ -1,0 +1,95 @@
+"""What a sandbox is asked to run, and what comes back."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, Protocol
+
+from raysteps.common.process import Outcome
+from raysteps.sandbox.isolation import Isolation
+
+Stopped = Literal["", "wall", "cpu", "memory"]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a task may use. A limit that is reached ends the task, or makes its system call fail."""
+
+    wall_seconds: float = 20
+    cpu_seconds: float = 20  # of all processes of the task together where that can be had
+    memory_mb: int = 2048  # of all processes together where that can be had
+    processes: int = 64  # and threads
+    file_mb: int = 64  # largest file
+    tmp_mb: int = 64  # all of its scratch space
+    output_kb: int = 1024  # kept of stdout, and of stderr
+
+
+def _check_name(name: str) -> None:
+    if name in ("", ".", "..") or "/" in name or "\0" in name:
+        raise ValueError(f"{name!r} is not the name of a file")
+
+
+@dataclass(frozen=True)
+class Input:
+    """A host file or folder, readable inside, under a neutral name."""
+
+    path: Path
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        _check_name(self.inner_name)
+
+    @property
+    def inner_name(self) -> str:
+        return self.path.name if self.name is None else self.name
+
+
+@dataclass(frozen=True)
+class Output:
+    """A file the command writes; its bytes come back, capped by file_mb."""
+
+    name: str
+
+    def __post_init__(self) -> None:
+        _check_name(self.name)
+
+
+Word = str | Input | Output
+
+
+@dataclass(frozen=True)
+class Task:
+    """A command, never a shell line: Input and Output words become paths that are valid where it runs."""
+
+    command: tuple[Word, ...]
+    limits: Limits = Limits()
+    tools: bool = False  # compiler, assembler, linker and their headers; else only what a program needs to start
+    inputs: tuple[Input, ...] = ()  # readable, but not named in the command
+    stdin: bytes = b""
+
+    def all_inputs(self) -> Iterator[Input]:
+        """Each once, those of the command first."""
+        named = (word for word in self.command if isinstance(word, Input))
+        yield from dict.fromkeys([*named, *self.inputs])
+
+    def all_outputs(self) -> Iterator[Output]:
+        yield from dict.fromkeys(word for word in self.command if isinstance(word, Output))
+
+
+@dataclass(frozen=True)
+class Ran:
+    """How a task ended."""
+
+    outcome: Outcome
+    outputs: dict[str, bytes]  # by Output.name; missing where nothing was written or it is no regular file
+    cpu_seconds: float
+    stopped: Stopped  # the limit that ended it, where known
+
+
+class Sandbox(Protocol):
+    """Something that runs tasks, from several threads at once."""
+
+    @property
+    def isolation(self) -> Isolation: ...
+
+    def run(self, task: Task) -> Ran: ...

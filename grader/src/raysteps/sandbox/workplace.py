@@ -1,0 +1,139 @@
+"""A fresh folder on the host for one task: copies of what another user could not read, and outputs of tools."""
+
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+
+_MEGABYTE = 1 << 20
+
+
+def _mode(path: Path) -> int:
+    return path.stat().st_mode
+
+
+def _others_may_pass(folder: Path) -> bool:
+    return all(_mode(above) & stat.S_IXOTH for above in (folder, *folder.parents))
+
+
+def _others_may_read(path: Path) -> bool:
+    """Whether any user can read the file, or the folder with all that is in it."""
+    path = path.resolve()
+    if not _others_may_pass(path.parent):
+        return False
+    if not path.is_dir():
+        mode = _mode(path)
+        return bool(mode & stat.S_IROTH) and bool(mode & stat.S_IXOTH or not mode & stat.S_IXUSR)
+    for folder, _, files in os.walk(path):
+        if _mode(Path(folder)) & 0o005 != 0o005:
+            return False
+        if not all(_mode(Path(folder, name)) & stat.S_IROTH for name in files):
+            return False
+    return True
+
+
+def _copy_for_all(source: Path, target: Path) -> None:
+    """A copy that every user can read, whatever the modes of the original."""
+    if source.is_dir():
+        target.mkdir()
+        for entry in source.iterdir():
+            _copy_for_all(entry, target / entry.name)
+    else:
+        shutil.copyfile(source, target)
+        target.chmod(0o755 if _mode(source) & stat.S_IXUSR else 0o644)
+        return
+    target.chmod(0o755)
+
+
+def _common_ground() -> Path:
+    """A folder for temporary files that other users can walk through."""
+    for folder in (Path(tempfile.gettempdir()), Path("/tmp"), Path("/var/tmp")):  # noqa: S108  (fresh names only)
+        if folder.is_dir() and os.access(folder, os.W_OK) and _others_may_pass(folder.resolve()):
+            return folder
+    raise GraderFault("No folder for temporary files that other users can reach: set TMPDIR to one, such as /tmp.")
+
+
+class Workplace:
+    """What a task sees of the host, as paths of the host."""
+
+    def __init__(self, folder: Path, user: int | None) -> None:
+        self._folder = folder
+        self._user = user
+        self._copies = 0
+
+    def readable(self, path: Path) -> Path:
+        """The path itself, or a copy where the task's user could not read it."""
+        if not path.exists():
+            raise GraderFault(f"{path}: was to be read inside the sandbox, but it does not exist.")
+        if self._user is None or _others_may_read(path):
+            return path.resolve()
+        return self.copied(path, path.name)
+
+    def copied(self, path: Path, name: str) -> Path:
+        self._copies += 1
+        target = self._folder / f"in{self._copies}" / name
+        target.parent.mkdir(mode=0o755)
+        _copy_for_all(path, target)
+        return target
+
+    def linked(self, path: Path, name: str) -> Path:
+        """The path itself, or a link where it is to have another name."""
+        if path.name == name:
+            return path.absolute()
+        self._copies += 1
+        link = self._folder / f"in{self._copies}" / name
+        link.parent.mkdir(mode=0o755)
+        link.symlink_to(path.absolute())
+        return link
+
+    def writable(self, name: str) -> Path:
+        """A new folder that belongs to the task."""
+        folder = self._folder / name
+        folder.mkdir(mode=0o700)
+        if self._user is not None:
+            os.chown(folder, self._user, self._user)
+        return folder
+
+
+@contextmanager
+def fresh_workplace(user: int | None) -> Iterator[Workplace]:
+    """Goes with all that is in it, whatever modes its contents have."""
+    parent = None if user is None else _common_ground()
+    folder = Path(tempfile.mkdtemp(prefix="raysteps-run-", dir=parent))
+    try:
+        if user is not None:
+            folder.chmod(0o711)
+        yield Workplace(folder, user)
+    finally:
+        remove_tree(folder)
+
+
+def remove_tree(folder: Path) -> None:
+    """Also where a task took away its own right to list a folder."""
+    if os.geteuid() != 0:
+        for inner, names, _ in os.walk(folder):
+            for name in names:
+                path = Path(inner, name)
+                if not path.is_symlink():
+                    path.chmod(0o700)
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def read_regular(path: Path, cap: int) -> bytes | None:
+    """The bytes of a file that a task wrote: no link is followed, no pipe is waited for."""
+    try:
+        file = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError:
+        return None
+    with os.fdopen(file, "rb", buffering=0) as opened:
+        if not stat.S_ISREG(os.fstat(file).st_mode):
+            return None
+        data = bytearray()
+        while len(data) < cap and (part := opened.read(min(_MEGABYTE, cap - len(data)))):
+            data += part
+        return bytes(data) or None

@@ -1,0 +1,129 @@
+"""The command `bench grading`: what a submission costs in a class, against the plain way, measured in turns."""
+
+import os
+import resource
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_json
+from raysteps.common.process import run
+from raysteps.kit.kit_building import build_kit
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import Project
+
+_SECONDS = 3600
+_CLASS_SIZE = 8
+_PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "framework", "scenes", "solutions", "steps")
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of one submission, on average over one run."""
+
+    way: str
+    run: int
+    submissions: int
+    seconds: float
+    cpu_seconds: float
+
+
+def _processor_seconds() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
+    start, used = time.monotonic(), _processor_seconds()
+    work()
+    seconds, processor = time.monotonic() - start, _processor_seconds() - used
+    return Cost(way, number, submissions, round(seconds / submissions, 2), round(processor / submissions, 2))
+
+
+def _must(words: list[str | Path], cwd: Path) -> None:
+    outcome = run(words, seconds=_SECONDS, cwd=cwd, limited=False)
+    if outcome.code != 0 or outcome.timed_out:
+        raise GraderFault(f"{words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+
+
+def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
+    """What one does without a grader: a fresh copy of the kit with the student's files in it, configured, built,
+    tested and rendered."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-plain-") as name:
+        root = Path(name)
+        for part in _PARTS:
+            source = project.root / part
+            (shutil.copytree if source.is_dir() else shutil.copyfile)(source, root / part)
+        for step in steps:
+            shutil.copyfile(submission / "steps" / step.path, root / "steps" / step.path)
+        build = root / "build"
+        generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+        _must(["cmake", "-S", root, "-B", build, *generator], root)
+        tests = [f"test-isolated-{step.number}" for step in steps]
+        _must(["cmake", "--build", build, "--parallel", "--target", "raytrace-mine", *tests], root)
+        _must(["ctest", "--test-dir", build, "--output-on-failure", "-R", "test-isolated"], root)
+        for step in steps:
+            for case in step.images:
+                picture = root / f"{step.id}-{case.name}.ppm"
+                _must([build / "bin" / "raytrace-mine", root / case.scene, *case.args, "-o", picture, "--quiet"], root)
+
+
+def _class_of(project: Project, folder: Path, size: int) -> Path:
+    for number in range(size):
+        shutil.copytree(project.samples / "complete", folder / f"student-{number:03d}")
+    return folder
+
+
+def _class_way(project: Project, submissions: Path, out: Path) -> None:
+    jobs = str(os.cpu_count() or 1)
+    words: list[str | Path] = [sys.executable, "-m", "raysteps", "grade-class", submissions, "--out", out]
+    _must([*words, "--jobs", jobs], project.root)
+
+
+def _table(costs: list[Cost]) -> Table:
+    table = Table(title="one complete submission, all eight steps", title_justify="left")
+    for heading in ("way", "runs", "seconds", "CPU seconds", "CPU against plain"):
+        table.add_column(heading, justify="left" if heading == "way" else "right")
+    plain = _mean([cost.cpu_seconds for cost in costs if cost.way == "plain"])
+    for way in ("plain", "class"):
+        rows = [cost for cost in costs if cost.way == way]
+        processor = _mean([cost.cpu_seconds for cost in rows])
+        seconds = _mean([cost.seconds for cost in rows])
+        label = f"{way}, {rows[0].submissions} at a time" if way == "class" else way
+        table.add_row(label, str(len(rows)), f"{seconds:.2f}", f"{processor:.2f}", f"1/{plain / processor:.1f}")
+    return table
+
+
+def _mean(values: list[float]) -> float:
+    return sum(values) / len(values)
+
+
+def grading(project: Project, rounds: int, console: Console) -> int:
+    """Measures both ways in turns, prints one table and writes build/bench/grading.json."""
+    steps = read_steps(project)
+    with console.status("building the kit, which both runs of a class share"):
+        build_kit(project)
+    costs: list[Cost] = []
+    with tempfile.TemporaryDirectory(prefix="raysteps-bench-") as name:
+        submissions = _class_of(project, Path(name) / "class", _CLASS_SIZE)
+        for number in range(rounds):
+            with console.status(f"round {number + 1} of {rounds}"):
+                plain = partial(plain_way, project, steps, project.samples / "complete")
+                costs.append(_measure("plain", number, 1, plain))
+                together = partial(_class_way, project, submissions, Path(name) / f"out-{number}")
+                costs.append(_measure("class", number, _CLASS_SIZE, together))
+    console.print(_table(costs))
+    path = project.build / "bench" / "grading.json"
+    write_json(path, {"schema": "raysteps/bench-grading/v1", "costs": [asdict(cost) for cost in costs]})
+    console.print(f"Numbers: {escape(str(path))}", soft_wrap=True)
+    return 0

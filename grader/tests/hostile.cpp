@@ -1,0 +1,255 @@
+// A program that misbehaves in the way its first argument says, and tells how far it came.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+extern char** environ;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+void touch(long megabytes) {
+    const std::size_t size = static_cast<std::size_t>(megabytes) << 20U;
+    auto* memory = static_cast<volatile char*>(std::malloc(size));
+    if (memory == nullptr) {
+        std::cout << "refused\n";
+        std::exit(1);
+    }
+    for (std::size_t at = 0; at < size; at += 4096) {
+        memory[at] = 1;
+    }
+}
+
+int answer_errno() {
+    std::cout << std::strerror(errno) << '\n';
+    return 1;
+}
+
+int read_file(const Words& words) {
+    std::ifstream file(words.at(0));
+    std::stringstream text;
+    text << file.rdbuf();
+    std::cout << (file ? text.str() : "refused\n");
+    return file ? 0 : 1;
+}
+
+int connect_to(const Words& words) {
+    const int fd = socket(AF_INET, SOCK_STREAM, 0);
+    if (fd < 0) {
+        return answer_errno();
+    }
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(words.at(0))));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+        return answer_errno();
+    }
+    std::cout << "connected\n";
+    return 0;
+}
+
+int bear(const Words& words) {
+    int born = 0;
+    for (; born < std::stoi(words.at(0)); ++born) {
+        const pid_t child = fork();
+        if (child < 0) {
+            break;
+        }
+        if (child == 0) {
+            sleep(2);
+            _exit(0);
+        }
+    }
+    std::cout << born << '\n';
+    return 0;
+}
+
+int bomb(const Words&) {
+    setsid();
+    for (;;) {
+        if (fork() < 0) {
+            usleep(1000);
+        }
+    }
+}
+
+int start_threads(const Words& words) {
+    std::vector<std::thread> threads;
+    try {
+        for (int n = 0; n < std::stoi(words.at(0)); ++n) {
+            threads.emplace_back([] { std::this_thread::sleep_for(std::chrono::milliseconds(500)); });
+        }
+    } catch (const std::system_error&) {
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    std::cout << threads.size() << '\n';
+    return 0;
+}
+
+int eat(const Words& words) {
+    const int eaters = words.size() > 1 ? std::stoi(words.at(1)) : 0;
+    for (int n = 0; n < eaters; ++n) {
+        if (fork() == 0) {
+            touch(std::stol(words.at(0)));
+            sleep(30);
+            _exit(0);
+        }
+    }
+    if (eaters == 0) {
+        touch(std::stol(words.at(0)));
+    }
+    while (wait(nullptr) > 0) {
+    }
+    std::cout << "full\n";
+    return 0;
+}
+
+int spin(const Words& words) {
+    for (int n = 1; n < std::stoi(words.at(0)); ++n) {
+        if (fork() == 0) {
+            break;
+        }
+    }
+    for (volatile unsigned n = 0;;) {
+        n = n + 1;
+    }
+}
+
+int stubborn(const Words&) {
+    for (const int number : {SIGTERM, SIGINT, SIGHUP, SIGXCPU}) {
+        std::signal(number, SIG_IGN);
+    }
+    for (;;) {
+        sleep(60);
+    }
+}
+
+int leave_a_daemon(const Words&) {
+    if (fork() == 0) {
+        setsid();
+        if (fork() == 0) {
+            sleep(60);
+        }
+        _exit(0);
+    }
+    wait(nullptr);
+    std::cout << "done\n";
+    return 0;
+}
+
+int flood(const Words&) {
+    const std::string line(1 << 16, 'x');
+    for (int n = 0; n < 800; ++n) {
+        std::cout << line;
+    }
+    return 0;
+}
+
+int fill(const Words& words) {
+    const std::string megabyte(1 << 20, 'x');
+    int files = 0;
+    for (; files < 500; ++files) {
+        std::ofstream file(words.at(0) + "/flood" + std::to_string(files));
+        if (!file.write(megabyte.data(), static_cast<std::streamsize>(megabyte.size())).flush()) {
+            break;
+        }
+    }
+    std::cout << files << '\n';
+    return 0;
+}
+
+int write_to(const Words& words) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::ofstream file(words.at(0), std::ios::binary | std::ios::trunc);
+    const std::string megabyte(1 << 20, 'x');
+    for (int n = 0; n < std::stoi(words.at(1)); ++n) {
+        file.write(megabyte.data(), static_cast<std::streamsize>(megabyte.size()));
+    }
+    return file.flush() ? 0 : 1;
+}
+
+int hoard(const Words& words) {
+    for (int n = 0; n < std::stoi(words.at(0)); ++n) {
+        const int fd = memfd_create("hoard", 0);
+        const std::string megabyte(1 << 20, 'x');
+        if (fd < 0 || write(fd, megabyte.data(), megabyte.size()) < 0) {
+            return answer_errno();
+        }
+    }
+    std::cout << "full\n";
+    return 0;
+}
+
+int list_open_files(const Words&) {
+    for (int fd = 0; fd < 256; ++fd) {
+        if (fcntl(fd, F_GETFD) >= 0) {
+            std::cout << fd << ' ';
+        }
+    }
+    return 0;
+}
+
+int environment(const Words&) {
+    for (char** word = environ; *word != nullptr; ++word) {
+        std::cout << *word << '\n';
+    }
+    return 0;
+}
+
+const std::map<std::string, std::function<int(const Words&)>> ways{
+    {"bear", bear},
+    {"bomb", bomb},
+    {"code", [](const Words& words) { return std::stoi(words.at(0)); }},
+    {"connect", connect_to},
+    {"daemon", leave_a_daemon},
+    {"eat", eat},
+    {"environment", environment},
+    {"fifo", [](const Words& words) { return mkfifo(words.at(0).c_str(), 0600); }},
+    {"files", list_open_files},
+    {"fill", fill},
+    {"flood", flood},
+    {"hoard", hoard},
+    {"kill", [](const Words& words) { return kill(std::stoi(words.at(0)), SIGKILL) == 0 ? 0 : answer_errno(); }},
+    {"link", [](const Words& words) { return symlink(words.at(0).c_str(), words.at(1).c_str()); }},
+    {"read", read_file},
+    {"signal", [](const Words& words) { return std::raise(std::stoi(words.at(0))); }},
+    {"spin", spin},
+    {"stubborn", stubborn},
+    {"threads", start_threads},
+    {"write", write_to},
+    {"echo",
+     [](const Words&) {
+         std::cout << std::cin.rdbuf();
+         return 0;
+     }},
+};
+
+}  // namespace
+
+int main(int count, char** words) {
+    return count > 1 ? ways.at(words[1])(Words(words + 2, words + count)) : 0;
+}

@@ -1,0 +1,74 @@
+"""What is said when a step does not build."""
+
+import pytest
+
+from raysteps.common.process import Outcome
+from raysteps.grading.build_messages import compile_message, forbidden_message, is_fault_of_machine, link_message
+from raysteps.kit.manifest import Step
+from raysteps.sandbox.task import Ran, Stopped
+
+SOURCE = "#include <a>\n\nint one;\nint two = nope;\nint three;\n"
+
+
+def ran(stderr: str, *, stopped: Stopped = "", seconds: float = 1.0) -> Ran:
+    return Ran(Outcome(1, stopped == "wall", "", stderr, seconds), {}, seconds, stopped)
+
+
+@pytest.fixture
+def shadows(steps: list[Step]) -> Step:
+    return steps[3]
+
+
+def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Step) -> None:
+    output = "/in/0/kit/core/ray.hpp:3:1: error: in a header\n/in/1/shadows.cpp:4:11: error: 'nope' was not declared\n"
+    assert compile_message(shadows, SOURCE, ran(output)) == (
+        "It does not build: shadows.cpp:4:11: 'nope' was not declared\n"
+        "    3 | int one;\n    4 | int two = nope;\n      |           ^\n    5 | int three;"
+    )
+
+
+@pytest.mark.parametrize(
+    ("said", "expected"),
+    [
+        (ran("/in/0/kit/core/ray.hpp:3:1: error: in a header"), "It does not build: ray.hpp:3:1: in a header"),
+        (ran("c++: fatal error: Killed"), "It does not build: c++: fatal error: Killed"),
+        (ran(""), "It does not build: the compiler gave up and said nothing."),
+        (ran("", stopped="memory"), "It does not build: the compiler needed more memory than it may have."),
+    ],
+)
+def test_other_ends_of_a_compiler(shadows: Step, said: Ran, expected: str) -> None:
+    assert compile_message(shadows, SOURCE, said) == expected
+
+
+def test_a_compiler_that_was_stopped(shadows: Step) -> None:
+    message = compile_message(shadows, SOURCE, ran("", stopped="wall", seconds=60.2))
+    assert message.startswith("It does not build: the compiler was stopped after 60 s")
+
+
+def test_no_escape_codes_reach_the_terminal(shadows: Step) -> None:
+    output = "/in/1/shadows.cpp:1:2: error: \x1b[31mred\x1b[0m\x07"
+    assert compile_message(shadows, "\x1b[2Jfirst", ran(output)).splitlines()[:2] == [
+        "It does not build: shadows.cpp:1:2: red",
+        "    1 | first",
+    ]
+
+
+def test_a_place_beyond_the_source_is_no_trouble(shadows: Step) -> None:
+    message = compile_message(shadows, "", ran("/in/1/shadows.cpp:9:9: error: unterminated #if"))
+    assert message.startswith("It does not build: shadows.cpp:9:9: unterminated #if")
+
+
+def test_a_missing_function_is_named() -> None:
+    output = "/usr/bin/ld: tracer.cpp:(.text+0x1): undefined reference to `raysteps::shadow_ray(int)'\n"
+    assert link_message(ran(output)).startswith("It does not build: raysteps::shadow_ray(int) is missing.")
+
+
+def test_a_step_that_reaches_for_what_is_not_its_own() -> None:
+    later = {"_ZN8raysteps12build_octreeE": "06-octree"}
+    assert "a function of step 06-octree" in forbidden_message(tuple(later), later)
+    assert "counters" in forbidden_message(("_ZN8raysteps7t_statsE",), later)
+
+
+def test_a_full_disk_is_not_the_students_fault() -> None:
+    assert is_fault_of_machine(ran("fatal error: error writing to /tmp/a.s: No space left on device"))
+    assert not is_fault_of_machine(ran("/in/1/shadows.cpp:1:2: error: 'space' was not declared"))

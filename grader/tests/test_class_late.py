@@ -1,0 +1,91 @@
+"""The late policy: reading it, and what it takes."""
+
+from datetime import timedelta
+
+import pytest
+
+from raysteps.classroom.late_policy import LatePolicy, parse_late_policy
+from raysteps.classroom.lateness import apply_policy
+from raysteps.common.errors import UsageError
+
+_POLICY = """
+deadline = 2026-11-20T23:59:00+01:00
+grace_minutes = 10
+percent_per_day = 10
+max_days = 5
+
+[extensions]
+S2 = 2026-11-23T23:59:00+01:00
+"s 3" = 1
+"""
+
+
+def _policy() -> LatePolicy:
+    return parse_late_policy(_POLICY, "late.toml")
+
+
+def test_reading() -> None:
+    policy = _policy()
+    assert policy.grace == timedelta(minutes=10)
+    assert policy.extensions["s2"] - policy.deadline == timedelta(days=3)
+    assert policy.extensions["s 3"] - policy.deadline == timedelta(days=1)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("deadline = \n", r"^late\.toml: is not TOML: .*line 1"),
+        ("percent_per_day = 5\n", r"^late\.toml:1: expected the key `deadline`"),
+        ("# due\ndeadline = 2026-11-20T23:59:00\npercent_per_day = 5", r"^late\.toml:2: `deadline`: .* time zone"),
+        ("deadline = 2026-11-20\npercent_per_day = 5", r"^late\.toml:1: `deadline`: .* time zone"),
+        ('deadline = "2026-13-20T23:59:00Z"\npercent_per_day = 5', r"^late\.toml:1: 2026-13-20.* no date"),
+        (_POLICY.replace("= 10\nmax", "= 101\nmax"), r"^late\.toml:4: `percent_per_day`: .*from 0 to 100, found 101"),
+        (_POLICY.replace("grace_minutes = 10", "grace_minutes = nan"), r"^late\.toml:3: `grace_minutes`"),
+        (_POLICY.replace("max_days = 5", "max_days = 1.5"), r"^late\.toml:5: `max_days`: expected a whole number"),
+        (_POLICY.replace("max_days = 5", "max_dais = 5"), r"^late\.toml:5: `max_dais` is no key .* max_days"),
+        (_POLICY.replace("max_days = 5", "max_days = true"), r"^late\.toml:5: `max_days`"),
+        (_POLICY.replace('"s 3" = 1', '"s 3" = 2026-12-01'), r"^late\.toml:9: `extensions\.s 3`: expected a number"),
+        (_POLICY.replace('"s 3" = 1', '"s 3" = -1'), r"^late\.toml:9: `extensions\.s 3`"),
+        (_POLICY.replace('"s 3" = 1', "s2 = 1"), r"^late\.toml:9: `extensions\.s2` stands there twice"),
+        (_POLICY.replace("2026-11-23T", "2026-11-03T"), r"^late\.toml:8: `extensions\.S2` ends before"),
+        ("extensions = 3\n" + _POLICY.split("[")[0], r"^late\.toml:1: `extensions`: expected a table"),
+    ],
+)
+def test_messages_name_line_and_key(text: str, message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        parse_late_policy(text, "late.toml")
+
+
+@pytest.mark.parametrize(
+    ("submitted", "days", "points", "words"),
+    [
+        ("2026-11-20T22:00:00+00:00", 0, 85.0, "on time"),
+        ("2026-11-20T23:59:00+01:00", 0, 85.0, "on time"),
+        ("2026-11-21T00:09:00+01:00", 0, 85.0, "10 minutes of grace"),
+        ("2026-11-21T00:09:01+01:00", 1, 76.5, "takes 10 % off 85 points: 85 - 8.5 = 76.5 points"),
+        ("2026-11-21T23:59:00+01:00", 1, 76.5, "1 day after"),
+        ("2026-11-21T22:59:01+00:00", 2, 68.0, "2 days begun"),
+        ("2026-11-25T23:59:00+01:00", 5, 42.5, "5 days begun"),
+        ("2026-11-26T00:00:00+01:00", 6, 0.0, "more than 5 days: 0 points"),
+        ("2026-11-21T00:30:00", 1, 76.5, "31 minutes after"),  # in the zone of the deadline
+        ("", 0, 85.0, "not known"),
+    ],
+)
+def test_arithmetic(submitted: str, days: int, points: float, words: str) -> None:
+    late = apply_policy(_policy(), ["s1"], submitted, 85.0)
+    assert (late.days, late.points) == (days, points)
+    assert words in late.words
+
+
+def test_extensions_move_the_deadline() -> None:
+    late = apply_policy(_policy(), ["s2"], "2026-11-23T23:59:00+01:00", 50.0)
+    assert (late.days, late.points) == (0, 50.0)
+    assert "extension" in late.words
+    late = apply_policy(_policy(), ["s1", "S 3"], "2026-11-22T12:00:00+01:00", 50.0)  # two students, one submission
+    assert (late.days, late.points, late.deadline) == (1, 45.0, "2026-11-21 23:59+01:00")
+
+
+def test_never_below_nothing() -> None:
+    policy = parse_late_policy("deadline = 2026-11-20T23:59:00Z\npercent_per_day = 40", "late.toml")
+    late = apply_policy(policy, [], "2026-12-20T23:59:00Z", 50.0)
+    assert (late.percent, late.points) == (100.0, 0.0)

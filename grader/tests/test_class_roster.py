@@ -1,0 +1,113 @@
+"""Who is in a class, and which entry is whose."""
+
+from pathlib import Path
+
+import pytest
+
+from raysteps.classroom.matching import match
+from raysteps.classroom.roster import Student, read_roster
+from raysteps.common.errors import UsageError
+
+
+def _write(folder: Path, text: str) -> Path:
+    path = folder / "roster.csv"
+    path.write_bytes(text.encode())
+    return path
+
+
+def _student(line: int, **words: str) -> Student:
+    return Student(line, words.pop("id", ""), words.pop("name", ""), words.pop("email", ""), **words)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "id,name,email,submission,submitted_at\n7,Ann Lee,ann@x.edu,a.zip,2026-11-20T10:00:00+01:00\n",
+        "\ufeffStudent ID;Full Name;E-Mail Address;File name;Submitted At\r\n"
+        "7;Ann Lee;ann@x.edu;a.zip;2026-11-20 10:00:00+01:00\r\n\r\n",
+        "Surname\tFirst_Name\tSIS User ID\tEMAIL\tFolder\tTime\nLee\tAnn\t7\tann@x.edu\ta.zip\t2026-11-20T10:00+01:00",
+    ],
+)
+def test_headers_are_tolerant(tmp_path: Path, text: str) -> None:
+    (student,) = read_roster(_write(tmp_path, text))
+    assert (student.id, student.name, student.email) == ("7", "Ann Lee", "ann@x.edu")
+    assert (student.submission, student.submitted_at) == ("a.zip", "2026-11-20T10:00:00+01:00")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("color,size\nred,1\n", r"roster\.csv:1: expected a header"),
+        ("", r"roster\.csv:1: expected a header"),
+        ("id\n", "found none"),
+        ("id,name\n7,Ann\n8,Bob\n7,Cleo\n", r"roster\.csv:4: the id '7' stands in line 2, too"),
+        ("name,email\nAnn,A@x.edu\nBob,a@X.edu\n", r"roster\.csv:3: the email"),
+        ("id,name\n,\n7,A\n ,x\n,,\n", None),
+        ("id,email,time\n,,2026-11-20T10:00\n", r"roster\.csv:2: expected an id"),
+        ("id,submitted_at\n7,yesterday\n", r"roster\.csv:2: submitted_at is 'yesterday'"),
+        ("id,submitted_at\n7,2026-11-20\n", r"roster\.csv:2: submitted_at"),
+        ('id,name\n7,"Ann\n', r"roster\.csv:\d: is not CSV"),
+    ],
+)
+def test_messages_name_the_line(tmp_path: Path, text: str, message: str | None) -> None:
+    path = _write(tmp_path, text)
+    if message is None:
+        assert [student.shown for student in read_roster(path)] == ["7", "x"]
+        return
+    with pytest.raises(UsageError, match=message):
+        read_roster(path)
+
+
+def test_other_encodings_are_refused_by_line(tmp_path: Path) -> None:
+    path = tmp_path / "roster.csv"
+    path.write_bytes(b"id,name\n7,Jos\xe9\n")
+    with pytest.raises(UsageError, match=r"roster\.csv:2: is not UTF-8"):
+        read_roster(path)
+    with pytest.raises(UsageError, match="cannot be read"):
+        read_roster(tmp_path / "missing.csv")
+
+
+def test_entries_are_found_by_id_email_and_name() -> None:
+    students = [
+        _student(2, id="s1", name="Ann Lee"),
+        _student(3, id="s2", email="bob@x.edu"),
+        _student(4, name="Cleo de Vries"),
+        _student(5, id="s4", submission="odd name.zip"),
+        _student(6, id="s5", name="Eve Fox"),
+    ]
+    entries = ["S1.zip", "bob", "Cleo de Vries_991_assignsubmission_file", "odd name.zip", "s99", "x_s5"]
+    matches = match(entries, students)
+    assert sorted(matches.pairs) == [(0, 0), (1, 1), (2, 2), (3, 3)]
+    assert set(matches.entry_notes) == {4, 5}  # the end of a name may be what a student wrote there
+    assert matches.student_notes == {}
+
+
+def test_nobody_gets_an_entry_that_fits_several() -> None:
+    students = [_student(2, id="1", name="Ann Lee"), _student(3, id="2", name="ann LEE")]
+    matches = match(["ann_lee", "1.zip"], students)
+    assert matches.pairs == [(1, 0)]
+    assert "several students (1, 2)" in matches.entry_notes[0]
+
+
+def test_the_longer_name_is_the_better_fit() -> None:
+    students = [_student(2, id="12"), _student(3, id="12-3"), _student(4, name="Ann")]
+    matches = match(["12-3_work.zip", "12_work", "ann_miller"], students)
+    assert sorted(matches.pairs) == [(0, 1), (1, 0)]
+    assert 2 in matches.entry_notes
+
+
+def test_two_students_may_share_what_the_roster_names() -> None:
+    students = [_student(2, id="1", submission="team"), _student(3, id="2", submission="team.zip"), _student(4, id="3")]
+    matches = match(["team.zip", "3"], students)
+    assert sorted(matches.pairs) == [(0, 0), (0, 1), (1, 2)]
+
+
+def test_a_submission_that_the_roster_names_and_nobody_handed_in() -> None:
+    matches = match(["1.zip"], [_student(2, id="1", submission="other.zip")])
+    assert matches.pairs == []
+    assert "other.zip, which is not there" in matches.student_notes[0]
+    assert matches.entry_notes.keys() == {0}
+
+
+def test_without_a_roster_there_is_nothing_to_note() -> None:
+    assert match(["a", "b"], []).entry_notes == {}

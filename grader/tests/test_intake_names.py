@@ -1,0 +1,132 @@
+"""Names of files: wrong case, copies, wrong folders, separators of other systems, and names made to hurt."""
+
+import io
+import os
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import UsageError
+from raysteps.kit.manifest import Step
+from raysteps.submission.intake import take_in
+
+GOOD = "steps/04-shadows/shadows.cpp"
+
+
+def _folder(root: Path, *names: str) -> Path:
+    for name in names:
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(f"// {name}\n")
+    return root
+
+
+@pytest.mark.parametrize("name", ["Steps/04-Shadows/Shadows.CPP", "SHADOWS.cpp", "Anna/STEPS/04-shadows/shadows.cpp"])
+def test_other_case_is_taken_and_remarked(tmp_path: Path, steps: list[Step], name: str) -> None:
+    submission = take_in(_folder(tmp_path, name), steps)
+    assert set(submission.sources) == {"04-shadows"}
+    assert submission.remarks == {"04-shadows": f"{name} was taken for {GOOD}."}
+    assert not submission.notes
+
+
+def test_the_exact_name_wins_over_another_case(tmp_path: Path, steps: list[Step]) -> None:
+    submission = take_in(_folder(tmp_path, "steps/04-shadows/Shadows.cpp", GOOD), steps)
+    assert submission.sources["04-shadows"] == f"// {GOOD}\n".encode()
+    assert not submission.remarks
+    assert not submission.notes
+
+
+def test_two_of_another_case_are_one_too_many(tmp_path: Path, steps: list[Step]) -> None:
+    submission = take_in(_folder(tmp_path, "Shadows.cpp", "SHADOWS.cpp"), steps)
+    assert not submission.sources
+    assert "more than once" in submission.notes["04-shadows"]
+
+
+def test_letters_of_other_alphabets_are_not_taken_for_ours(tmp_path: Path, steps: list[Step]) -> None:
+    with pytest.raises(UsageError, match="holds no step"):  # a long s and a Kelvin sign
+        take_in(_folder(tmp_path, "\u017fhadows.cpp", "\u212aamera_rays.cpp"), steps)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "shadows (1).cpp",
+        "shadows.cc",
+        "shadows.cpp.txt",
+        "shadows - Copy.cpp",
+        "Copy of shadows.cpp",
+        "shadows_final_v2.cpp",
+        "shadow.cpp",
+        "steps/04-shadows/04_shadows.cxx",
+        "steps/shadow/src/shadows.cpp",
+        "steps/05-reflection/shadows.cpp",
+    ],
+)
+def test_close_names_are_explained(tmp_path: Path, steps: list[Step], name: str) -> None:
+    submission = take_in(_folder(tmp_path, name, "octree.cpp"), steps)
+    assert set(submission.sources) == {"06-octree"}
+    assert submission.notes == {"04-shadows": f"{name} was not taken: expected is {GOOD}."}
+
+
+@pytest.mark.parametrize("name", ["shadows (1).cpp", "steps/04-shadows/shadows_test.cpp", "shadows.cpp~"])
+def test_close_names_do_not_matter_beside_the_right_one(tmp_path: Path, steps: list[Step], name: str) -> None:
+    submission = take_in(_folder(tmp_path, name, GOOD), steps)
+    assert submission.sources == {"04-shadows": f"// {GOOD}\n".encode()}
+    assert not submission.notes
+    assert not submission.remarks
+
+
+def test_the_files_of_the_kit_beside_a_step_are_no_close_names(tmp_path: Path, steps: list[Step]) -> None:
+    names = ["shadows.hpp", "shadows_test.cpp", "README.md", "step.toml", "shadows.o", "shadows.png"]
+    with pytest.raises(UsageError, match="holds no step"):
+        take_in(_folder(tmp_path, *(f"steps/04-shadows/{name}" for name in names)), steps)
+
+
+def test_backslashes_part_folders(tmp_path: Path, steps: list[Step]) -> None:
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("steps\\04-shadows\\shadows.cpp", "int x;")
+        archive.writestr("..\\octree.cpp", "int x;")
+    assert set(take_in(tmp_path / "a.zip", steps).sources) == {"04-shadows"}
+    unpacked = tmp_path / "unpacked"
+    unpacked.mkdir()
+    (unpacked / "steps\\04-shadows\\shadows.cpp").write_text("int x;")
+    assert set(take_in(unpacked, steps).sources) == {"04-shadows"}
+
+
+def test_a_name_that_goes_on_after_a_nul_is_another_name(tmp_path: Path, steps: list[Step]) -> None:
+    path = tmp_path / "a.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("shadows.cppX.txt", "int x;")
+    path.write_bytes(path.read_bytes().replace(b"shadows.cppX", b"shadows.cpp\0"))
+    with pytest.raises(UsageError, match="holds no step"):
+        take_in(path, steps)
+
+
+def test_odd_names_do_no_harm(tmp_path: Path, steps: list[Step]) -> None:
+    odd = ["<b>x</b>", "=cmd()", "\x1b[31mred", "a\nb", "-fplugin=x.so", "@file", "'; drop", "%s%n", "\u202egpj"]
+    folder = _folder(tmp_path / "a", GOOD, *odd)
+    (Path(os.fsdecode(os.fsencode(folder) + b"/\xff\xfe"))).write_text("x")
+    submission = take_in(folder, steps)
+    assert set(submission.sources) == {"04-shadows"}
+    assert not submission.notes
+    assert not submission.remarks
+
+
+def test_a_message_never_holds_control_characters(tmp_path: Path, steps: list[Step]) -> None:
+    with tarfile.open(tmp_path / "a.tar", "w") as archive:
+        info = tarfile.TarInfo("\x9b31m\x7fx/" + "y" * 300 + "/shadows (1).cpp")
+        archive.addfile(info, io.BytesIO(b""))
+    note = take_in(tmp_path / "a.tar", steps).notes["04-shadows"]
+    assert note.isprintable()
+    assert len(note) < 250
+
+
+def test_names_of_ten_megabytes_are_refused(tmp_path: Path, steps: list[Step]) -> None:
+    for form in (tarfile.PAX_FORMAT, tarfile.GNU_FORMAT):
+        path = tmp_path / f"{form}.tar.gz"
+        with tarfile.open(path, "w:gz", format=form) as archive:
+            archive.addfile(tarfile.TarInfo("a" * 10_000_000), io.BytesIO(b""))
+            archive.addfile(tarfile.TarInfo("shadows.cpp"), io.BytesIO(b""))
+        with pytest.raises(UsageError, match="impossible size"):
+            take_in(path, steps)

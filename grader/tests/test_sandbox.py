@@ -1,0 +1,264 @@
+"""Every sandbox runs honest programs, and holds those that are not."""
+
+import os
+import signal
+import socket
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from sandboxes import Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
+
+from raysteps.kit.project import here
+from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
+
+__all__ = ["any_sandbox", "hostile", "misbehave", "sandbox", "secret"]  # pytest finds fixtures by name
+
+
+def _compile(sandbox: Sandbox, source: Path, *options: str) -> Ran:
+    return sandbox.run(Task(("c++", *options, "-c", Input(source), "-o", Output("out.o")), tools=True))
+
+
+# Honest programs
+
+
+def test_a_program_reads_and_writes(any_sandbox: Sandbox, hostile: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "scene.nff"
+    scene.write_text("sphere\n", encoding="ascii")
+    read = any_sandbox.run(Task((Input(hostile), "read", Input(scene, "0.nff"))))
+    assert (read.outcome.code, read.outcome.stdout, read.stopped) == (0, "sphere\n", "")
+    echo = any_sandbox.run(Task((Input(hostile), "echo"), stdin=b"hello\n" * 100_000))
+    assert echo.outcome.stdout == "hello\n" * 100_000
+    written = any_sandbox.run(Task((Input(hostile), "write", Output("a.ppm"), "2")))
+    assert written.outcome.code == 0
+    assert written.outputs == {"a.ppm": b"x" * (2 << 20)}
+    nothing = any_sandbox.run(Task((Input(hostile), "code", "0", Output("a.ppm"))))
+    assert nothing.outputs == {}
+
+
+@pytest.mark.parametrize("code", [0, 1, 3, 127])
+def test_exit_codes(any_sandbox: Sandbox, misbehave: Misbehave, code: int) -> None:
+    outcome = misbehave(any_sandbox, "code", str(code)).outcome
+    assert (outcome.code, outcome.signal_name, outcome.timed_out) == (code, None, False)
+
+
+@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT, signal.SIGKILL])
+def test_signals(any_sandbox: Sandbox, misbehave: Misbehave, number: signal.Signals) -> None:
+    assert misbehave(any_sandbox, "signal", str(int(number))).outcome.signal_name == number.name
+
+
+def test_compiling_and_linking(any_sandbox: Sandbox, tmp_path: Path) -> None:
+    source = tmp_path / "one.cpp"
+    source.write_text("#include <vector>\nint main() { return int(std::vector<int>{4, 3}.size()); }\n")
+    compiled = _compile(any_sandbox, source)
+    assert compiled.outcome.code == 0, compiled.outcome.stderr
+    object_file = tmp_path / "one.o"
+    object_file.write_bytes(compiled.outputs["out.o"])
+    linked = any_sandbox.run(Task(("c++", Input(object_file), "-o", Output("one")), tools=True))
+    assert linked.outcome.code == 0, linked.outcome.stderr
+    program = tmp_path / "one"
+    program.write_bytes(linked.outputs["one"])
+    program.chmod(0o700)
+    assert any_sandbox.run(Task((Input(program),))).outcome.code == 2
+
+
+def test_folders_are_inputs(any_sandbox: Sandbox, tmp_path: Path) -> None:
+    (tmp_path / "include" / "core").mkdir(parents=True, mode=0o700)
+    (tmp_path / "include" / "core" / "a.hpp").write_text("inline int a() { return 1; }\n")
+    (tmp_path / "b.cpp").write_text('#include "core/a.hpp"\nint b() { return a(); }\n')
+    folder = Input(tmp_path / "include")
+    task = Task(("c++", "-c", "-I", folder, Input(tmp_path / "b.cpp"), "-o", Output("b.o")), tools=True)
+    ran = any_sandbox.run(task)
+    assert ran.outcome.code == 0, ran.outcome.stderr
+
+
+def test_the_environment_is_empty(any_sandbox: Sandbox, misbehave: Misbehave, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TOKEN", "secret")
+    names = {line.partition("=")[0] for line in misbehave(any_sandbox, "environment").outcome.stdout.splitlines()}
+    assert names <= {"LC_ALL", "HOME", "PWD", "TMPDIR"}
+
+
+def test_no_open_files_but_its_own(any_sandbox: Sandbox, misbehave: Misbehave, tmp_path: Path) -> None:
+    with (tmp_path / "open").open("w") as file:
+        file.write("x")
+        words = misbehave(any_sandbox, "files", Output("a")).outcome.stdout.split()
+    assert words[:3] == ["0", "1", "2"]
+    assert len(words) == 4
+
+
+# What must not be seen or reached
+
+
+def test_network_is_refused(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = str(server.getsockname()[1])
+        assert misbehave(sandbox, "connect", port).outcome.code == 1
+
+
+def test_a_program_cannot_read_secrets(sandbox: Sandbox, misbehave: Misbehave, secret: Path) -> None:
+    solution = next(here().solutions.rglob("*.cpp"))
+    for path in (secret, solution, Path("/etc/passwd")):
+        assert path.read_text(encoding="utf-8")
+        ran = misbehave(sandbox, "read", str(path))
+        assert (ran.outcome.code, ran.outcome.stdout) == (1, "refused\n")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '#include "{}"\n',
+        'asm(".incbin \\"{}\\"");\n',
+        '#if __has_include("{}")\n#error the answer is known\n#endif\nint a = ;\n',
+    ],
+)
+def test_a_source_cannot_read_secrets(sandbox: Sandbox, secret: Path, tmp_path: Path, text: str) -> None:
+    source = tmp_path / "spy.cpp"
+    source.write_text(text.format(secret), encoding="ascii")
+    ran = _compile(sandbox, source)
+    assert ran.outcome.code != 0
+    assert "answer" not in ran.outcome.stderr + ran.outcome.stdout
+    assert ran.outputs == {}
+
+
+def test_the_test_framework_is_hidden(sandbox: Sandbox, tmp_path: Path) -> None:
+    source = tmp_path / "listener.cpp"
+    source.write_text(
+        "#if __has_include(<catch2/catch_all.hpp>) || __has_include(<catch2/catch.hpp>)\n#error found\n#endif\n"
+    )
+    assert "found" not in _compile(sandbox, source).outcome.stderr
+
+
+def test_the_grader_cannot_be_killed(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    with subprocess.Popen(["sleep", "30"]) as bystander:
+        ran = misbehave(sandbox, "kill", str(bystander.pid))
+        assert ran.outcome.code == 1
+        assert bystander.poll() is None
+        bystander.kill()
+
+
+# Limits
+
+
+def test_sleeping_is_ended(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
+    start = time.monotonic()
+    ran = misbehave(any_sandbox, "stubborn", wall_seconds=1)
+    assert time.monotonic() - start < 3
+    assert ran.stopped == "wall"
+    assert ran.outcome.timed_out
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_computing_is_ended(any_sandbox: Sandbox, misbehave: Misbehave, processes: int) -> None:
+    start = time.monotonic()
+    ran = misbehave(any_sandbox, "spin", str(processes), cpu_seconds=1, wall_seconds=20)
+    assert time.monotonic() - start < 10
+    assert ran.stopped == "cpu"
+    assert not ran.outcome.timed_out
+    assert 0.9 < ran.cpu_seconds < 3
+
+
+def test_cpu_time_is_told(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
+    ran = misbehave(any_sandbox, "spin", "1", wall_seconds=1)
+    assert ran.cpu_seconds > 0.2
+
+
+@pytest.mark.parametrize("eaters", [0, 6])
+def test_memory_is_limited(any_sandbox: Sandbox, misbehave: Misbehave, eaters: int) -> None:
+    many = [str(eaters)] if eaters else []
+    start = time.monotonic()
+    ran = misbehave(any_sandbox, "eat", "100" if eaters else "6000", *many, memory_mb=300, wall_seconds=20)
+    assert time.monotonic() - start < 10
+    assert ran.outcome.code != 0
+    assert "full" not in ran.outcome.stdout
+    if eaters:
+        assert ran.stopped == "memory"
+
+
+def test_memory_that_no_process_owns_is_refused(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    assert misbehave(sandbox, "hoard", "40").outcome.code == 1
+
+
+def test_processes_are_limited(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    born = int(misbehave(sandbox, "bear", "100", processes=20).outcome.stdout)
+    assert 10 <= born <= 20
+
+
+def test_a_fork_bomb_is_held(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    start = time.monotonic()
+    ran = misbehave(sandbox, "bomb", processes=20, wall_seconds=1)
+    assert time.monotonic() - start < 3
+    assert ran.stopped == "wall"
+    assert processes_running("program") == []
+
+
+def test_a_neighbours_bomb_takes_no_threads(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    if sandbox.isolation.name == "landlock":
+        pytest.skip("without another user or a namespace, the kernel counts the processes of all tasks together")
+    neighbour = threading.Thread(target=misbehave, args=(sandbox, "bomb"), kwargs={"processes": 30, "wall_seconds": 3})
+    neighbour.start()
+    time.sleep(0.5)
+    ran = misbehave(sandbox, "threads", "25", processes=30)
+    neighbour.join()
+    assert ran.outcome.stdout == "25\n"
+
+
+def test_a_daemon_does_not_hold_the_grader(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
+    start = time.monotonic()
+    ran = misbehave(any_sandbox, "daemon")
+    assert time.monotonic() - start < 5
+    assert (ran.outcome.code, ran.outcome.stdout) == (0, "done\n")
+    assert processes_running("program") == []
+
+
+def test_a_flood_is_capped(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
+    ran = misbehave(any_sandbox, "flood", output_kb=100)
+    assert ran.outcome.code == 0
+    assert ran.outcome.stdout == "x" * (100 << 10)
+
+
+@pytest.mark.parametrize("folder", ["/tmp", "/dev/shm", "/", "/in", "/var/tmp", "."])
+def test_scratch_is_limited(sandbox: Sandbox, misbehave: Misbehave, folder: str) -> None:
+    assert int(misbehave(sandbox, "fill", folder, tmp_mb=8).outcome.stdout) <= 8
+
+
+def test_a_file_is_limited(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
+    ran = misbehave(any_sandbox, "write", Output("big"), "20", file_mb=5)
+    assert ran.outcome.code == 1
+    assert len(ran.outputs["big"]) == 5 << 20
+
+
+@pytest.mark.parametrize("way", ["link", "fifo"])
+def test_an_output_is_a_regular_file_or_nothing(any_sandbox: Sandbox, hostile: Path, secret: Path, way: str) -> None:
+    target = [str(secret)] if way == "link" else []
+    command: tuple[Word, ...] = (Input(hostile), way, *target, Output("out"))
+    ran = any_sandbox.run(Task(command, limits=Limits(wall_seconds=5), tools=True))
+    assert ran.outcome.code == 0
+    assert ran.outputs == {}
+
+
+def _traces(folder: Path) -> tuple[str, list[Path], list[Path]]:
+    """Mounts, temporary files, and control groups of this process."""
+    groups = [path for path in Path("/sys/fs/cgroup").rglob(f"raysteps-{os.getpid()}-*") if path.is_dir()]
+    return Path("/proc/self/mounts").read_text(encoding="utf-8"), list(folder.iterdir()), groups
+
+
+def test_nothing_is_left_behind(
+    any_sandbox: Sandbox, misbehave: Misbehave, secret: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = secret.parent
+    monkeypatch.setattr("tempfile.tempdir", str(folder))
+    before = _traces(folder)
+    misbehave(any_sandbox, "daemon")
+    misbehave(any_sandbox, "stubborn", wall_seconds=0.5)
+    misbehave(any_sandbox, "fill", ".", tmp_mb=4)
+    misbehave(any_sandbox, "write", Output("a"), "1")
+    assert _traces(folder) == before
+    assert processes_running("program") == []
+
+
+def test_what_a_run_costs(any_sandbox: Sandbox, misbehave: Misbehave, capsys: pytest.CaptureFixture[str]) -> None:
+    seconds = [misbehave(any_sandbox, "code", "0").outcome.seconds for _ in range(10)]
+    with capsys.disabled():
+        print(f"  one run, {any_sandbox.isolation.name}: {min(seconds) * 1000:.1f} ms ", end="")

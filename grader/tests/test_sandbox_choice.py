@@ -1,0 +1,187 @@
+"""Which sandbox is taken, what becomes of it when the grader is killed, and what an ordinary user gets."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from sandboxes import Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox_named
+
+from raysteps.common.errors import UsageError
+from raysteps.kit.project import here
+from raysteps.sandbox import choice
+from raysteps.sandbox.bubblewrap import Bubblewrap
+from raysteps.sandbox.choice import VARIABLE, find_sandbox
+from raysteps.sandbox.mounts import hidden_folders, visible_folders
+from raysteps.sandbox.rlimits import limit_words
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task
+from raysteps.sandbox.users import can_lend_users, lent_user
+
+__all__ = ["any_sandbox", "hostile", "misbehave"]  # pytest finds fixtures by name
+_NOBODY = 65534
+
+
+def test_the_strongest_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    assert find_sandbox().isolation == sandbox_named("bubblewrap").isolation
+    assert find_sandbox(require=True).isolation.strong
+
+
+@pytest.mark.parametrize("name", ["fallback", "none"])
+def test_what_is_weak_can_be_refused(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    assert not sandbox_named(name).isolation.strong
+    monkeypatch.setenv(VARIABLE, name)
+    with pytest.raises(UsageError, match="strong sandbox is required"):
+        find_sandbox(require=True)
+
+
+def test_an_unknown_choice_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, "jail")
+    with pytest.raises(UsageError, match="'jail'; it may be bubblewrap, fallback, none"):
+        find_sandbox()
+
+
+def test_a_machine_without_bubblewrap(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    monkeypatch.setattr(choice, "_bubblewrap", lambda: (None, "it is not installed."))
+    monkeypatch.setattr(choice, "_fallback", lambda: (None, "the kernel is too old."))
+    assert find_sandbox().isolation.name == "limits only"
+    with pytest.raises(UsageError, match="it is not installed"):
+        find_sandbox(require=True)
+    monkeypatch.setenv(VARIABLE, "fallback")
+    with pytest.raises(UsageError, match="the kernel is too old"):
+        find_sandbox()
+
+
+@pytest.fixture
+def readable_folder() -> Iterator[Path]:
+    """A folder among the system's libraries that stands for a kit that was installed there."""
+    for folder in sorted(Path("/usr/lib").iterdir()):
+        if folder.is_dir() and not folder.is_symlink() and "-linux-" not in folder.name:
+            files = [path for path in folder.iterdir() if path.is_file() and os.access(path, os.R_OK)]
+            if any(path.stat().st_size for path in files):
+                yield folder
+                return
+    pytest.skip("no folder in /usr/lib has a file")
+
+
+def test_a_kit_among_the_libraries_is_masked(hostile: Path, readable_folder: Path) -> None:
+    file = next(path for path in readable_folder.iterdir() if path.is_file() and path.stat().st_size)
+    task = Task((Input(hostile), "read", str(file)))
+    sandbox_named("bubblewrap")
+    assert Bubblewrap().run(task).outcome.code == 0
+    assert Bubblewrap((readable_folder,)).run(task).outcome.code == 1
+
+
+def test_hidden_folders(tmp_path: Path) -> None:
+    (tmp_path / "include" / "catch2").mkdir(parents=True)
+    (tmp_path / "include" / "kit").mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    hidden = hidden_folders([tmp_path / "include"], [tmp_path / "include" / "kit", tmp_path / "elsewhere"])
+    assert hidden == [tmp_path / "include" / "catch2", tmp_path / "include" / "kit"]
+
+
+def test_a_compiler_elsewhere_brings_its_folders(tmp_path: Path) -> None:
+    for name in ("bin", "lib", "libexec", "share"):
+        (tmp_path / name).mkdir()
+    seen = visible_folders(tmp_path / "bin" / "g++")
+    assert [path.name for path in seen if path.is_relative_to(tmp_path)] == ["lib", "bin", "libexec"]
+    assert Path("/usr/lib") in visible_folders(None)
+    assert Path("/usr/bin") not in visible_folders(None)
+
+
+def test_users_are_lent_once() -> None:
+    with lent_user() as one, lent_user() as two:
+        assert one != two
+
+
+def test_no_word_for_a_limit_that_is_not_wanted() -> None:
+    assert not [word for word in limit_words(Limits(), processes=None, memory=False) if word.startswith(("--as", "--n"))
+                and "nofile" not in word]  # fmt: skip
+
+
+def test_two_at_once(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
+    seen: list[bytes | None] = []
+
+    def work() -> None:
+        for _ in range(5):
+            seen.append(misbehave(any_sandbox, "write", Output("a"), "1").outputs.get("a"))
+
+    workers = [threading.Thread(target=work) for _ in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert seen == [b"x" * (1 << 20)] * 20
+
+
+@pytest.mark.parametrize("name", ["bubblewrap", "fallback", "none"])
+@pytest.mark.parametrize("way", ["stubborn", "bomb"])
+def test_a_killed_grader_leaves_nothing(name: str, way: str, hostile: Path) -> None:
+    sandbox_named(name)
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom raysteps.sandbox.choice import find_sandbox\n"
+        "from raysteps.sandbox.task import Input, Limits, Task\n"
+        "limits = Limits(wall_seconds=30, processes=10)\n"
+        "find_sandbox().run(Task((Input(Path(sys.argv[1]), 'orphan'), sys.argv[2]), limits))\n"
+    )
+    environment = {**os.environ, VARIABLE: name}
+    with subprocess.Popen([sys.executable, "-c", code, str(hostile), way], env=environment) as grader:
+        until = time.monotonic() + 10
+        while not processes_running("orphan") and time.monotonic() < until:
+            time.sleep(0.05)
+        assert processes_running("orphan")
+        grader.send_signal(signal.SIGKILL)
+    until = time.monotonic() + 5
+    while processes_running("orphan") and time.monotonic() < until:
+        time.sleep(0.05)
+    assert processes_running("orphan") == []
+
+
+def _python_for_others() -> list[str]:
+    """An interpreter of the same version that the user nobody can start."""
+    version = f"{sys.version_info.major}.{sys.version_info.minor}"
+    for name in (sys.executable, f"/usr/bin/python{version}"):
+        command = [name, "-c", "import sys; print('%d.%d' % sys.version_info[:2])"]
+        try:
+            said = subprocess.run(
+                command, user=_NOBODY, group=_NOBODY, extra_groups=[], capture_output=True, check=True
+            )
+        except (OSError, subprocess.CalledProcessError):
+            continue
+        if said.stdout.decode().strip() == version:
+            return [name]
+    return []
+
+
+def test_the_same_as_an_ordinary_user() -> None:
+    if not can_lend_users():
+        pytest.skip(
+            "only root can try it as somebody else; an ordinary user runs these tests as an ordinary user anyway"
+        )
+    sandbox_named("bubblewrap")
+    python = _python_for_others()
+    if not python or not os.stat(here().root).st_mode & 0o005 == 0o005:
+        pytest.skip("the user nobody can start no Python of this version, or not read the kit")
+    folder = Path(tempfile.mkdtemp(prefix="nobody-"))
+    try:
+        folder.chmod(0o777)
+        tests = Path(__file__).parent
+        packages = [str(Path(pytest.__file__).parents[1]), str(here().root / "grader" / "src")]
+        outcome = subprocess.run(
+            [*python, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "--basetemp", str(folder / "t"),
+             "-k", "not ordinary", str(tests / "test_sandbox.py"), str(tests / "test_sandbox_choice.py")],
+            user=_NOBODY, group=_NOBODY, extra_groups=[], cwd=tests.parent, check=False, capture_output=True, text=True,
+            env={"PATH": "/usr/bin:/bin", "PYTHONPATH": os.pathsep.join(packages), "PYTHONDONTWRITEBYTECODE": "1"},
+        )  # fmt: skip
+    finally:
+        shutil.rmtree(folder)
+    assert outcome.returncode == 0, outcome.stdout[-5000:] + outcome.stderr[-2000:]
+    assert "passed" in outcome.stdout
