@@ -10,8 +10,8 @@ namespace raysteps {
 namespace {
 
 constexpr int k_levels = 3;
-constexpr std::size_t k_most_nodes = 40000;
-constexpr std::size_t k_most_entries = 400000;
+constexpr std::size_t k_most_nodes = 100000;
+constexpr std::size_t k_most_entries = 1000000;
 constexpr int k_deepest = 500;
 
 bool apart(const Box& a, const Box& b) {

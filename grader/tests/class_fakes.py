@@ -68,6 +68,7 @@ class FakeGrader:
     def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: Say) -> None:
         source = next(iter(submission.sources.values()), b"").decode()
         log(f"begin {submission.name}")
+        log(f"at {os.environ.get('FAKE_WORKER', 'here')}")
         time.sleep(_number("wait", source) or 0)
         self._misbehave(submission.name, source)
         points = _number("points", source) or 0.0

@@ -5,21 +5,28 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from raysteps.common.errors import UsageError
+from raysteps.kit.project import here
+from raysteps.sandbox.bubblewrap import Bubblewrap
 from raysteps.sandbox.choice import VARIABLE, find_sandbox
+from raysteps.sandbox.mode import AsRoot
 from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task
+from raysteps.sandbox.users import can_lend_users
 
 Misbehave = Callable[..., Ran]
 
 
 def sandbox_named(name: str) -> Sandbox:
     """Skips the test where there is no such sandbox."""
-    if name == "bubblewrap" and shutil.which("bwrap") is None:
+    if name.startswith("bubblewrap") and shutil.which("bwrap") is None:
         pytest.skip("bubblewrap is not installed")
+    if name == "bubblewrap as root":
+        return _as_root()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(VARIABLE, name)
         try:
@@ -30,12 +37,20 @@ def sandbox_named(name: str) -> Sandbox:
             pytest.skip(str(error))
 
 
-@pytest.fixture(params=["bubblewrap", "fallback"])
+@cache
+def _as_root() -> Sandbox:
+    """What root gets where user namespaces are refused."""
+    if not can_lend_users():
+        pytest.skip("only root can try this")
+    return Bubblewrap((here().root,), AsRoot())
+
+
+@pytest.fixture(params=["bubblewrap", "bubblewrap as root", "fallback"])
 def sandbox(request: pytest.FixtureRequest) -> Sandbox:
     return sandbox_named(str(request.param))
 
 
-@pytest.fixture(params=["bubblewrap", "fallback", "none"])
+@pytest.fixture(params=["bubblewrap", "bubblewrap as root", "fallback", "none"])
 def any_sandbox(request: pytest.FixtureRequest) -> Sandbox:
     return sandbox_named(str(request.param))
 

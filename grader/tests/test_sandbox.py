@@ -105,6 +105,16 @@ def test_a_program_cannot_read_secrets(sandbox: Sandbox, misbehave: Misbehave, s
         assert (ran.outcome.code, ran.outcome.stdout) == (1, "refused\n")
 
 
+def test_a_neutral_name_is_all_that_is_told(sandbox: Sandbox, hostile: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "trap-for-cheats.nff"
+    scene.write_text("sphere\n", encoding="ascii")
+    for file in ("/proc/self/mountinfo", "/proc/self/cmdline", "/proc/self/environ"):
+        task = Task((Input(hostile, "program"), "read", file), inputs=(Input(scene, "1.nff"),))
+        said = sandbox.run(task).outcome.stdout
+        assert said
+        assert "trap" not in said
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -1,6 +1,7 @@
 """Stubs from solutions, and what counts as not started."""
 
 import dataclasses
+import time
 
 import pytest
 
@@ -87,3 +88,66 @@ def test_white_space_does_not_make_a_start() -> None:
     assert same_code("int a;\n", "// mine\nint a; /* later */")
     assert not same_code("int a;", "int b;")
     assert not same_code('f("// a");', 'f("// b");')
+
+
+def test_unfinished_functions_are_code_and_not_text(step: Step) -> None:
+    call = 'RAYSTEPS_TODO("02-intersection", "f");'
+    for hidden in (
+        f'const char* text = R"({call})";',
+        f'const char* text = R"x(" /* )" {call})x";',
+        'const char* text = "' + call.replace('"', '\\"') + '";',
+        f"/* ' */ // {call}",
+        f"// a comment that goes on \\\n{call}",
+        f"/\\\n/ {call}",
+        f"/\\\n* {call} *\\\n/",
+        f"/* never closed {call}",
+    ):
+        assert unfinished_functions(hidden, step) == [], hidden
+    for seen in (
+        f"char quote = '\"'; {call} char other = '\"';",
+        f"char quote = '\\''; {call} // '",
+        f"long many = 1'000'000; {call} // 1'0",
+        f'auto text = R"(")"; {call} auto more = "";',
+        f'auto text = u8R"//(")//"; {call}',
+        f'auto text = "//"; {call}',
+        f'auto text = "\\\\"; {call} auto more = "//";',
+        f'auto text = LR"(\\)"; {call}',
+        f"int a = b /*c*// d; {call}",
+        'RAYSTEPS_\\\nTODO /* why */ ("02-inter\\\nsection", // where\n "f")',
+    ):
+        assert unfinished_functions(seen, step) == ["f"], seen
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "same"),
+    [
+        ("int a = 1'000;", "int a = 1'000 ; // '", True),
+        ("int a = 1'000;", "int a = 1000;", False),
+        ("f('a', 'b')", "f('a','b')", True),
+        ("f('\"', x, '\"')", "f('\"',  x, '\"')", True),
+        ('f("a b")', 'f("ab")', False),
+        ('f("a\\\nb")', 'f("ab")', True),
+        ('R"(a b)"', 'R"(ab)"', False),
+        ('R"(a\\\nb)"', 'R"(ab)"', False),
+        ('R"(// a)"', 'R"(// b)"', False),
+        ("int ab;", "int a b;", False),
+        ("int a\\\nb;", "int ab;", True),
+        ("int a; // it's", "int a; // isn't", True),
+        ("#define A b\nc", "#define A b c", False),
+        ("#define A b \\\n c\n", "#define A b c\n", True),
+        ("int a;\r\nint b;\r\n", "int a; int b;", True),
+        ('x = y /* " */ + 1; // "', "x = y + 1;", True),
+        ("a = 0x1p+3 + 1.e-5f;", "a=0x1p+3+1.e-5f;", True),
+        ("a = u8'x' + L'y';", "a = u8'x'+L'y';", True),
+    ],
+)
+def test_what_is_the_same_code(one: str, other: str, same: bool) -> None:
+    assert same_code(one, other) is same
+    assert same_code(other, one) is same
+
+
+@pytest.mark.parametrize("piece", ['R"a(', "/*", '"', "'", "\\\n", "\\", "1'", "/\\\n", "a\\\n", "#\n", "((((", '"\\'])
+def test_no_source_takes_long_to_read(piece: str) -> None:
+    start = time.monotonic()
+    assert not same_code(piece * (1_000_000 // len(piece)), "int a;")
+    assert time.monotonic() - start < 5

@@ -26,7 +26,7 @@ Ray down_onto(float x, float y) { return {{x, y, 2.0F}, {0.0F, 0.0F, -1.0F}}; }
 
 }  // namespace
 
-TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection]") {
+TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection][Triangle::intersect]") {
     const Triangle triangle({0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, colored({0.1F, 0.2F, 0.3F}));
     const Ray ray = down_onto(0.25F, 0.25F);
     const std::optional<HitRecord> hit = triangle.intersect(ray);
@@ -40,7 +40,8 @@ TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection
     CHECK(hit->from_outside);
 }
 
-TEST_CASE("Triangle: seen from behind the normal turns towards the ray", "[02-intersection]") {
+TEST_CASE("Triangle: seen from behind the normal turns towards the ray",
+          "[02-intersection][Triangle::intersect][part]") {
     const Ray up{{0.25F, 0.25F, -3.0F}, {0.0F, 0.0F, 1.0F}};
     const std::optional<HitRecord> hit = corner_triangle().intersect(up);
     INFO("a triangle has two sides: the ray comes from below and hits its back");
@@ -50,7 +51,7 @@ TEST_CASE("Triangle: seen from behind the normal turns towards the ray", "[02-in
     CHECK_FALSE(hit->from_outside);
 }
 
-TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection]") {
+TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection][Triangle::intersect][part]") {
     const Triangle triangle = corner_triangle();
     SECTION("0.01 inside each edge is a hit") {
         CHECK(triangle.intersect(down_onto(0.4F, 0.01F)).has_value());
@@ -69,7 +70,7 @@ TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection]
     }
 }
 
-TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection]") {
+TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection][Triangle::intersect][part]") {
     const Triangle triangle = corner_triangle();
     const glm::vec3 down{0.0F, 0.0F, -1.0F};
     const glm::vec3 along{1.0F, 0.0F, 0.0F};
@@ -88,7 +89,7 @@ TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection
     }
 }
 
-TEST_CASE("Triangle: any triangle from any side", "[02-intersection]") {
+TEST_CASE("Triangle: any triangle from any side", "[02-intersection][Triangle::intersect][part]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -121,7 +122,7 @@ TEST_CASE("Triangle: any triangle from any side", "[02-intersection]") {
     }
 }
 
-TEST_CASE("Sphere: head-on the nearer of the two points", "[02-intersection]") {
+TEST_CASE("Sphere: head-on the nearer of the two points", "[02-intersection][Sphere::intersect]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 2.0F, colored({0.9F, 0.8F, 0.7F}));
     const Ray ray{{0.0F, 0.0F, 5.0F}, {0.0F, 0.0F, -1.0F}};
     const std::optional<HitRecord> hit = sphere.intersect(ray);
@@ -135,7 +136,7 @@ TEST_CASE("Sphere: head-on the nearer of the two points", "[02-intersection]") {
     CHECK(hit->from_outside);
 }
 
-TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-intersection]") {
+TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-intersection][Sphere::intersect][part]") {
     const Sphere sphere({1.0F, 2.0F, 3.0F}, 5.0F, Fill{});
     const std::optional<HitRecord> hit = sphere.intersect({{4.0F, 2.0F, 13.0F}, {0.0F, 0.0F, -1.0F}});
     INFO("the line passes the centre at 3; the half chord is 4; the origin is 10 above the centre");
@@ -145,7 +146,7 @@ TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-interse
     CHECK_THAT(hit->normal, IsNear({0.6F, 0.0F, 0.8F}));
 }
 
-TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection]") {
+TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection][Sphere::intersect][part]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 2.0F, Fill{});
     const std::optional<HitRecord> hit = sphere.intersect({{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}});
     INFO("the points are at distances -3 and 1: the nearer one that is above 0 counts");
@@ -156,7 +157,7 @@ TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection]") {
     CHECK_FALSE(hit->from_outside);
 }
 
-TEST_CASE("Sphere: misses beside and behind", "[02-intersection]") {
+TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::intersect][part]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 1.0F, Fill{});
     const glm::vec3 down{0.0F, 0.0F, -1.0F};
     SECTION("the line passes the centre at 0.99: a hit") {
@@ -170,7 +171,8 @@ TEST_CASE("Sphere: misses beside and behind", "[02-intersection]") {
     }
 }
 
-TEST_CASE("Sphere: position on the surface and unit normal for any sphere", "[02-intersection]") {
+TEST_CASE("Sphere: position on the surface and unit normal for any sphere",
+          "[02-intersection][Sphere::intersect][part]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -194,7 +196,7 @@ TEST_CASE("Sphere: position on the surface and unit normal for any sphere", "[02
     }
 }
 
-TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-intersection]") {
+TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-intersection][closest_hit]") {
     const Sphere near_red({0.0F, 0.0F, -4.0F}, 1.0F, colored({1.0F, 0.0F, 0.0F}));
     const Sphere far_green({0.0F, 0.0F, -9.0F}, 1.0F, colored({0.0F, 1.0F, 0.0F}));
     const Sphere behind({0.0F, 0.0F, 3.0F}, 1.0F, colored({0.0F, 0.0F, 1.0F}));
@@ -212,7 +214,7 @@ TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-inte
     }
 }
 
-TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersection]") {
+TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersection][closest_hit][part]") {
     const Sphere one({0.0F, 0.0F, -4.0F}, 1.0F, Fill{});
     const Sphere two({0.0F, 0.0F, -8.0F}, 1.0F, Fill{});
     const Ray away{{0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};

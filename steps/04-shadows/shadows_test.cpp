@@ -34,7 +34,7 @@ Sphere ball(const glm::vec3& center, float radius) { return {center, radius, Fil
 
 }  // namespace
 
-TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-shadows]") {
+TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-shadows][shadow_ray]") {
     const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
     const Light light{{4.0F, 2.0F, 4.0F}, k_white};
     const Ray ray = shadow_ray(hit, light);
@@ -47,7 +47,7 @@ TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-s
     CHECK_THAT(ray.direction, IsNear({0.6F, 0.0F, 0.8F}, 5e-3F));
 }
 
-TEST_CASE("shadow_ray for any hit and light", "[04-shadows]") {
+TEST_CASE("shadow_ray for any hit and light", "[04-shadows][shadow_ray][any]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("shadow_ray for any hit and light", "[04-shadows]") {
     }
 }
 
-TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows]") {
+TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows][is_lit][part]") {
     FakeCaster scene;
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
     CHECK(is_lit(scene, hit, {{0.0F, 0.0F, 10.0F}, k_white}));
@@ -75,7 +75,7 @@ TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows]") {
     CHECK(scene.rays.size() >= 2);
 }
 
-TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows]") {
+TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows][is_lit][part]") {
     const Sphere blocker = ball({0.0F, 0.0F, 5.0F}, 1.0F);
     FakeCaster scene = scene_of({&blocker});
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
@@ -85,7 +85,7 @@ TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows]") {
     CHECK(is_lit(scene, hit, {{10.0F, 0.0F, 5.0F}, k_white}));
 }
 
-TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows]") {
+TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows][is_lit][part]") {
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
     const Light light{{0.0F, 0.0F, 5.0F}, k_white};
     SECTION("hit at 0, light at 5, ball from 5.5 to 7.5: lit") {
@@ -106,14 +106,14 @@ TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows
     }
 }
 
-TEST_CASE("is_lit: what lies on the other side of the surface does not block", "[04-shadows]") {
+TEST_CASE("is_lit: what lies on the other side of the surface does not block", "[04-shadows][is_lit][part]") {
     const Sphere below = ball({0.0F, 0.0F, -5.0F}, 1.0F);
     FakeCaster scene = scene_of({&below});
     INFO("the ball is under the floor, on the line through light and hit but not between them");
     CHECK(is_lit(scene, hit_at({0.0F, 0.0F, 0.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
 }
 
-TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shadows]") {
+TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shadows][is_lit][part]") {
     Random random;
     INFO(random);
     const Sphere sphere = ball({0.3F, -0.2F, 0.1F}, 1.7F);
@@ -130,7 +130,7 @@ TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shado
     CHECK(dark == 0);
 }
 
-TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows]") {
+TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows][is_lit][part]") {
     Random random;
     INFO(random);
     const glm::vec3 corner{-9.0F, -7.0F, 0.3F};
@@ -152,7 +152,7 @@ TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows]") {
     CHECK(dark == 0);
 }
 
-TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", "[04-shadows]") {
+TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", "[04-shadows][is_lit][part]") {
     const Sphere pebble = ball({0.0F, 0.0F, 0.05F}, 0.02F);
     FakeCaster scene = scene_of({&pebble});
     const Light light{{0.0F, 0.0F, 10.0F}, k_white};
@@ -162,7 +162,7 @@ TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", 
     CHECK(is_lit(scene, hit_at({0.1F, 0.0F, 0.0F}, k_up), light));
 }
 
-TEST_CASE("is_lit: a lamp inside a hollow ball lights its wall", "[04-shadows]") {
+TEST_CASE("is_lit: a lamp inside a hollow ball lights its wall", "[04-shadows][is_lit][part]") {
     const Sphere room = ball({0.0F, 0.0F, 0.0F}, 5.0F);
     FakeCaster scene = scene_of({&room});
     const std::optional<HitRecord> hit = room.intersect({{0.0F, 0.0F, 0.0F}, {0.0F, 0.6F, -0.8F}});

@@ -45,7 +45,7 @@ void between_mirrors(FakeTracer& tracer, float ks, const Color& own_light) {
 
 }  // namespace
 
-TEST_CASE("reflected_ray: like a ball off the floor", "[05-reflection]") {
+TEST_CASE("reflected_ray: like a ball off the floor", "[05-reflection][reflected_ray][part]") {
     const HitRecord hit = floor_hit(1.0F, {0.6F, 0.0F, -0.8F});
     const Ray ray = reflected_ray(hit);
     CAPTURE(ray);
@@ -55,7 +55,7 @@ TEST_CASE("reflected_ray: like a ball off the floor", "[05-reflection]") {
     CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
 }
 
-TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection]") {
+TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection][reflected_ray][any]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -75,14 +75,14 @@ TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection]")
     }
 }
 
-TEST_CASE("trace: a primary ray that misses sees the background", "[05-reflection]") {
+TEST_CASE("trace: a primary ray that misses sees the background", "[05-reflection][trace][part]") {
     FakeTracer tracer;
     tracer.background_color = k_sky;
     follow_bounces(tracer);
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear(k_sky));
 }
 
-TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection]") {
+TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection][trace][part]") {
     FakeTracer tracer;
     tracer.background_color = k_sky;
     tracer.answer_in_order({floor_hit(1.0F)});
@@ -94,7 +94,7 @@ TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection]") {
     CHECK_THAT(trace(tracer, k_eye_ray, 2), IsNear(k_black));
 }
 
-TEST_CASE("trace: a dull surface shows its own light and casts no second ray", "[05-reflection]") {
+TEST_CASE("trace: a dull surface shows its own light and casts no second ray", "[05-reflection][trace][part]") {
     FakeTracer tracer;
     tracer.background_color = k_sky;
     tracer.answer_in_order({floor_hit(0.0F), floor_hit(0.0F)});
@@ -107,7 +107,7 @@ TEST_CASE("trace: a dull surface shows its own light and casts no second ray", "
     CHECK(tracer.shaded[0].depth == 1);
 }
 
-TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection]") {
+TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection][trace]") {
     FakeTracer tracer;
     HitRecord mirror_hit = floor_hit(0.5F);
     HitRecord red_hit = floor_hit(0.0F);
@@ -127,7 +127,7 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     CHECK(tracer.shaded[0].depth + tracer.shaded[1].depth == 3);
 }
 
-TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-reflection]") {
+TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-reflection][trace][part]") {
     const float ks = 0.5F;
     for (const int max_depth : {1, 2, 3, 5}) {
         FakeTracer tracer;
@@ -147,7 +147,7 @@ TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-re
     }
 }
 
-TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-reflection]") {
+TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-reflection][trace][part]") {
     FakeTracer tracer;
     tracer.max_depth = 4;
     tracer.background_color = k_sky;
@@ -160,7 +160,7 @@ TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-
     CHECK(tracer.cast.size() == before);
 }
 
-TEST_CASE("trace: a mirror with ks below 1 never adds energy", "[05-reflection]") {
+TEST_CASE("trace: a mirror with ks below 1 never adds energy", "[05-reflection][trace][part]") {
     FakeTracer tracer;
     tracer.max_depth = 30;
     between_mirrors(tracer, 0.8F, Color(0.2F, 0.1F, 0.05F));

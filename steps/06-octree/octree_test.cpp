@@ -81,7 +81,7 @@ void look_for(const Node& node, const Surface* surface, const glm::vec3& point, 
 
 }  // namespace
 
-TEST_CASE("Box::clip: straight through", "[06-octree]") {
+TEST_CASE("Box::clip: straight through", "[06-octree][Box::clip]") {
     const std::optional<Interval> part = k_cube.clip({{0.0F, 0.0F, 5.0F}, k_down});
     INFO("a cube from -1 to 1, a ray down from height 5: in at 4, out at 6");
     REQUIRE(part.has_value());
@@ -93,7 +93,7 @@ TEST_CASE("Box::clip: straight through", "[06-octree]") {
     CHECK_FALSE(k_cube.clip({{1.5F, 0.0F, 5.0F}, k_down}).has_value());
 }
 
-TEST_CASE("Box::clip: an origin inside enters at 0", "[06-octree]") {
+TEST_CASE("Box::clip: an origin inside enters at 0", "[06-octree][Box::clip][part]") {
     const std::optional<Interval> part = k_cube.clip({{0.0F, 0.5F, 0.25F}, k_down});
     REQUIRE(part.has_value());
     CHECK(part->enter == about(0.0));
@@ -101,7 +101,7 @@ TEST_CASE("Box::clip: an origin inside enters at 0", "[06-octree]") {
     CHECK(part->leave == about(1.25));
 }
 
-TEST_CASE("Box::clip: slanted hit and miss", "[06-octree]") {
+TEST_CASE("Box::clip: slanted hit and miss", "[06-octree][Box::clip][part]") {
     const glm::vec3 slanted{0.6F, 0.0F, -0.8F};
     const std::optional<Interval> part = k_cube.clip({{-3.0F, 0.0F, 3.0F}, slanted});
     INFO("x in [-1, 1] for distances 10/3 to 20/3, z for 2.5 to 5: both from 10/3 to 5");
@@ -112,7 +112,7 @@ TEST_CASE("Box::clip: slanted hit and miss", "[06-octree]") {
     CHECK_FALSE(k_cube.clip({{-1.0F, 0.0F, 5.0F}, slanted}).has_value());
 }
 
-TEST_CASE("Box::clip: zeros in the direction and rays along faces and edges", "[06-octree]") {
+TEST_CASE("Box::clip: zeros in the direction and rays along faces and edges", "[06-octree][Box::clip][part]") {
     SECTION("minus zero is zero") {
         const std::optional<Interval> part = k_cube.clip({{0.5F, 0.5F, 5.0F}, {-0.0F, 0.0F, -1.0F}});
         REQUIRE(part.has_value());
@@ -141,7 +141,7 @@ TEST_CASE("Box::clip: zeros in the direction and rays along faces and edges", "[
     }
 }
 
-TEST_CASE("Box::clip: the interval holds what is inside for any box", "[06-octree]") {
+TEST_CASE("Box::clip: the interval holds what is inside for any box", "[06-octree][Box::clip][any]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -165,7 +165,7 @@ TEST_CASE("Box::clip: the interval holds what is inside for any box", "[06-octre
     }
 }
 
-TEST_CASE("bounds_of: the smallest box around all", "[06-octree]") {
+TEST_CASE("bounds_of: the smallest box around all", "[06-octree][bounds_of]") {
     const Sphere sphere({1.0F, 0.0F, 0.0F}, 2.0F, Fill{});
     const Triangle triangle({0.0F, 5.0F, 0.0F}, {-4.0F, 0.0F, 1.0F}, {0.0F, 0.0F, -3.0F}, Fill{});
     const Box box = bounds_of({&sphere, &triangle});
@@ -176,7 +176,7 @@ TEST_CASE("bounds_of: the smallest box around all", "[06-octree]") {
     CHECK(none.min.x > none.max.x);
 }
 
-TEST_CASE("split: bit 0 is the upper half of x and bit 1 of y and bit 2 of z", "[06-octree]") {
+TEST_CASE("split: bit 0 is the upper half of x and bit 1 of y and bit 2 of z", "[06-octree][split]") {
     const Box box{{0.0F, 10.0F, -4.0F}, {2.0F, 14.0F, 4.0F}};
     const std::array<Box, 8> parts = split(box);
     const glm::vec3 middle{1.0F, 12.0F, 0.0F};
@@ -188,7 +188,7 @@ TEST_CASE("split: bit 0 is the upper half of x and bit 1 of y and bit 2 of z", "
     }
 }
 
-TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree]") {
+TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree][Sphere::overlaps][any]") {
     SECTION("where surface and box have a point in common") {
         INFO("inside the cube, through a face, through a corner, and a sphere larger than the cube");
         CHECK(Sphere({0.2F, 0.0F, 0.0F}, 0.5F, Fill{}).overlaps(k_cube));
@@ -216,7 +216,7 @@ TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree]") {
     }
 }
 
-TEST_CASE("Triangle::overlaps: never a no too many", "[06-octree]") {
+TEST_CASE("Triangle::overlaps: never a no too many", "[06-octree][Triangle::overlaps][any]") {
     SECTION("all corners outside, and yet through the middle of the cube") {
         CHECK(Triangle({-9.0F, -9.0F, 0.0F}, {9.0F, -9.0F, 0.0F}, {0.0F, 9.0F, 0.0F}, Fill{}).overlaps(k_cube));
     }
@@ -248,7 +248,7 @@ TEST_CASE("Triangle::overlaps: never a no too many", "[06-octree]") {
     }
 }
 
-TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree]") {
+TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree][any]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 150, 10);
@@ -272,7 +272,7 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
     }
 }
 
-TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree]") {
+TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree][build_octree][closest_hit_in][any]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
@@ -297,7 +297,8 @@ TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree]") {
     }
 }
 
-TEST_CASE("closest_hit_in: a nearer hit in a later box is not lost", "[06-octree]") {
+TEST_CASE("closest_hit_in: a nearer hit in a later box is not lost",
+          "[06-octree][build_octree][closest_hit_in][part]") {
     // A large triangle, slanted, runs through boxes near and far; small balls stand before it.
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, -8.0F}, glm::vec3{24.0F, -8.0F, 8.0F},
@@ -314,7 +315,7 @@ TEST_CASE("closest_hit_in: a nearer hit in a later box is not lost", "[06-octree
     }
 }
 
-TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree]") {
+TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree][build_octree][closest_hit_in][part]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
@@ -334,7 +335,7 @@ TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree]"
     CHECK(tested > 0.0);
 }
 
-TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree]") {
+TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in][part]") {
     SECTION("100 spheres in the same place: dividing must come to an end") {
         Scene scene;
         for (int i = 0; i < 100; ++i) {

@@ -20,20 +20,20 @@ int byte(float channel) { return static_cast<int>(to_byte(channel)); }
 
 }  // namespace
 
-TEST_CASE("tone_map: c / (c + 1) at known values", "[07-tone-mapping]") {
+TEST_CASE("tone_map: c / (c + 1) at known values", "[07-tone-mapping][tone_map]") {
     INFO("0 -> 0, 1 -> 1/2, 3 -> 3/4, 9 -> 9/10");
     CHECK_THAT(tone_map({0.0F, 1.0F, 3.0F}), IsNear({0.0F, 0.5F, 0.75F}));
     CHECK_THAT(tone_map({9.0F, 0.25F, 99.0F}), IsNear({0.9F, 0.2F, 0.99F}));
 }
 
-TEST_CASE("tone_map: each channel by itself", "[07-tone-mapping]") {
+TEST_CASE("tone_map: each channel by itself", "[07-tone-mapping][tone_map][part]") {
     INFO("red alone stays red alone; a map of the brightness as a whole would change the other channels");
     CHECK_THAT(tone_map({4.0F, 0.0F, 0.0F}), IsNear({0.8F, 0.0F, 0.0F}));
     CHECK_THAT(tone_map({1.0F, 0.0F, 1.0F}), IsNear({0.5F, 0.0F, 0.5F}));
     CHECK_THAT(tone_map({0.0F, 1.0F, 1000.0F}), IsNear({0.0F, 0.5F, 1000.0F / 1001.0F}));
 }
 
-TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-tone-mapping]") {
+TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-tone-mapping][tone_map][part]") {
     float before = 0.0F;
     for (float light = 0.001F; light < 1e6F; light *= 1.5F) {
         CAPTURE(light);
@@ -47,7 +47,7 @@ TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-
     CHECK(before == about(1.0, 1e-3));
 }
 
-TEST_CASE("tone_map: infinite and very large and negative and NaN", "[07-tone-mapping]") {
+TEST_CASE("tone_map: infinite and very large and negative and NaN", "[07-tone-mapping][tone_map][part]") {
     const Color light = tone_map({k_infinity, 1.0F, k_largest});
     INFO("infinity / (infinity + 1) is NaN in floats: an infinite channel must become 1 all the same");
     CHECK(light.r == about(1.0));
@@ -58,7 +58,7 @@ TEST_CASE("tone_map: infinite and very large and negative and NaN", "[07-tone-ma
     CHECK_THAT(tone_map({k_nan, 1.0F, -k_infinity}), IsNear({0.0F, 0.5F, 0.0F}));
 }
 
-TEST_CASE("to_byte: the ends and the middle", "[07-tone-mapping]") {
+TEST_CASE("to_byte: the ends and the middle", "[07-tone-mapping][to_byte]") {
     CHECK(byte(0.0F) == 0);
     INFO("1 -> 255: a factor of 256 would run over");
     CHECK(byte(1.0F) == 255);
@@ -66,7 +66,7 @@ TEST_CASE("to_byte: the ends and the middle", "[07-tone-mapping]") {
     CHECK((byte(0.5F) == 127 || byte(0.5F) == 128));
 }
 
-TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mapping]") {
+TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mapping][to_byte][part]") {
     INFO("100.4 of 255 -> 100, 100.6 of 255 -> 101");
     CHECK(byte(100.4F / 255.0F) == 100);
     CHECK(byte(100.6F / 255.0F) == 101);
@@ -75,14 +75,14 @@ TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mappi
     CHECK(byte(0.6F / 255.0F) == 1);
 }
 
-TEST_CASE("to_byte: every byte comes back", "[07-tone-mapping]") {
+TEST_CASE("to_byte: every byte comes back", "[07-tone-mapping][to_byte][part]") {
     for (int expected = 0; expected <= 255; ++expected) {
         CAPTURE(expected);
         REQUIRE(byte(static_cast<float>(expected) / 255.0F) == expected);
     }
 }
 
-TEST_CASE("to_byte: clamps and survives what is no colour", "[07-tone-mapping]") {
+TEST_CASE("to_byte: clamps and survives what is no colour", "[07-tone-mapping][to_byte][part]") {
     INFO("above 1 is white, below 0 is black; without a clamp 1.1 would wrap round to almost black");
     CHECK(byte(1.1F) == 255);
     CHECK(byte(2.0F) == 255);

@@ -39,7 +39,7 @@ float sine(const glm::vec3& direction, const glm::vec3& normal) { return glm::le
 
 }  // namespace
 
-TEST_CASE("refract: straight down goes straight on in any glass", "[08-refraction]") {
+TEST_CASE("refract: straight down goes straight on in any glass", "[08-refraction][refract][part]") {
     for (const float eta : {1.0F / 1.5F, 1.0F, 1.5F}) {
         CAPTURE(eta);
         const std::optional<glm::vec3> out = refract({0.0F, 0.0F, -1.0F}, k_up, eta);
@@ -48,21 +48,21 @@ TEST_CASE("refract: straight down goes straight on in any glass", "[08-refractio
     }
 }
 
-TEST_CASE("refract: into glass the ray bends towards the normal", "[08-refraction]") {
+TEST_CASE("refract: into glass the ray bends towards the normal", "[08-refraction][refract]") {
     INFO("45 degrees, index 1.5: sin = 0.707107 / 1.5 = 0.471405, that is 28.13 degrees");
     const std::optional<glm::vec3> out = refract(downwards(45.0F), k_up, 1.0F / 1.5F);
     REQUIRE(out.has_value());
     CHECK_THAT(*out, IsNear({0.471405F, 0.0F, -0.881917F}));
 }
 
-TEST_CASE("refract: out of glass the ray bends away from the normal", "[08-refraction]") {
+TEST_CASE("refract: out of glass the ray bends away from the normal", "[08-refraction][refract]") {
     INFO("30 degrees inside, index 1.5: sin = 0.5 * 1.5 = 0.75, that is 48.59 degrees");
     const std::optional<glm::vec3> out = refract(downwards(30.0F), k_up, 1.5F);
     REQUIRE(out.has_value());
     CHECK_THAT(*out, IsNear({0.75F, 0.0F, -0.661438F}));
 }
 
-TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction]") {
+TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction][refract][part]") {
     INFO("index 1.5: the critical angle is asin(1 / 1.5) = 41.81 degrees");
     CHECK(refract(downwards(41.0F), k_up, 1.5F).has_value());
     CHECK_FALSE(refract(downwards(42.5F), k_up, 1.5F).has_value());
@@ -71,7 +71,7 @@ TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction
     CHECK(refract(downwards(89.0F), k_up, 1.0F / 1.5F).has_value());
 }
 
-TEST_CASE("refract: Snell's law for any direction", "[08-refraction]") {
+TEST_CASE("refract: Snell's law for any direction", "[08-refraction][refract][any]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -102,7 +102,7 @@ TEST_CASE("refract: Snell's law for any direction", "[08-refraction]") {
     }
 }
 
-TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction]") {
+TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction][transmitted_ray][part]") {
     SECTION("from outside eta is 1 / index") {
         const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
         CHECK_THAT(transmitted_ray(hit).direction, IsNear({0.471405F, 0.0F, -0.881917F}));
@@ -120,7 +120,7 @@ TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction]") {
     }
 }
 
-TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refraction]") {
+TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refraction][transmitted_ray][part]") {
     const HitRecord hit = glass_hit(downwards(60.0F), 1.5F, false);
     const Ray ray = transmitted_ray(hit);
     CAPTURE(ray);
@@ -130,7 +130,7 @@ TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refrac
     CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
 }
 
-TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction]") {
+TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][transmitted_ray][part]") {
     for (const bool from_outside : {true, false}) {
         for (const float index : {1.0F, 0.0F}) {
             CAPTURE(index, from_outside);
@@ -142,7 +142,7 @@ TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction]")
     }
 }
 
-TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refraction]") {
+TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refraction][transmitted_ray][part]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -158,7 +158,7 @@ TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refra
     }
 }
 
-TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refraction]") {
+TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refraction][transmitted_light][part]") {
     FakeTracer tracer;
     tracer.on_trace = [](const Ray&, int) { return Color(0.8F, 0.4F, 0.2F); };
     const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
@@ -169,7 +169,7 @@ TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refrac
     CHECK_THAT(tracer.traced[0].ray.direction, IsNear({0.471405F, 0.0F, -0.881917F}));
 }
 
-TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction]") {
+TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][transmitted_light][part]") {
     FakeTracer tracer;
     tracer.on_trace = [](const Ray&, int) { return k_white; };
     HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);

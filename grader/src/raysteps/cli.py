@@ -9,10 +9,12 @@ from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.classroom import command as classroom
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.demo import demo
 from raysteps.commands.render import render
 from raysteps.common.errors import RaystepsError
+from raysteps.exports import command as exports
 from raysteps.grading.limits import parse_limits
 from raysteps.grading.settings import Settings
 from raysteps.kit.manifest import choose, read_steps
@@ -52,6 +54,9 @@ def _parser() -> argparse.ArgumentParser:
     add.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
     add.add_argument("--jobs", type=int, metavar="N", help="steps at a time (as many as there are processors)")
 
+    classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
+    exports.add_arguments(commands.add_parser("export", help="for Gradescope, Classroom 50, Canvas and others"))
+
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
     add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
 
@@ -83,6 +88,10 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return check(project, arguments.steps, console)
         case "grade":
             return exit_code(grade(project, _wish(project, arguments), console))
+        case "grade-class":
+            return classroom.run(project, arguments, console)
+        case "export":
+            return exports.run(project, arguments, console)
         case "demo":
             return demo(project, arguments.out, console)
         case "bench" if arguments.what == "grading":

@@ -9,7 +9,7 @@ from raysteps.classroom.graders import Say
 from raysteps.classroom.messages import Answer, Job
 from raysteps.common.errors import GraderFault, UsageError
 
-_CONNECT_SECONDS = 20
+_CONNECT_SECONDS = 15
 _LOOK_SECONDS = 2
 _ATTEMPTS = 3
 _GONE = "the scheduler at {} is gone; what was graded is kept, and --resume goes on"
@@ -25,7 +25,7 @@ def _connect(address: str) -> Any:
             "--scheduler needs dask.distributed; install it with: .venv/bin/pip install -e 'grader[cluster]'"
         ) from error
     try:
-        return distributed.Client(address, timeout=_CONNECT_SECONDS, set_as_default=False)
+        return distributed.Client(address, timeout=_CONNECT_SECONDS)
     except (OSError, TimeoutError) as error:
         raise UsageError(f"--scheduler {address}: there is no scheduler that answers ({error})") from error
 

@@ -8,18 +8,12 @@ from raysteps.sandbox.task import Ran
 
 _ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<text>.+)$", re.M)
 _MISSING = re.compile(r"undefined reference to [`'](?P<name>.+?)'|undefined symbol: (?P<other>\S.*)")
-_MACHINE = re.compile(r"No space left on device|Disk quota exceeded|Read-only file system")
 _MOST_LOG = 64_000
 
 
 def build_log(ran: Ran) -> str:
     """All that the compiler said, as text that cannot steer a terminal."""
     return shorten(printable(ran.outcome.stderr + ran.outcome.stdout).strip(), _MOST_LOG)
-
-
-def is_fault_of_machine(ran: Ran) -> bool:
-    """Whether a build failed for want of disk, whatever the source says."""
-    return _MACHINE.search(ran.outcome.stderr) is not None
 
 
 def _context(source: str, line: int, column: int) -> str:

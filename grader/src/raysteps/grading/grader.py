@@ -1,5 +1,6 @@
 """Grades one step of one submission."""
 
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,7 +10,6 @@ from raysteps.grading.build_messages import (
     build_log,
     compile_message,
     forbidden_message,
-    is_fault_of_machine,
     link_message,
     missing_message,
 )
@@ -28,6 +28,8 @@ from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.intake import Submission
+
+_LEAST_ROOM = 256 << 20  # bytes, more than a build can use
 
 
 @dataclass(frozen=True)
@@ -85,8 +87,7 @@ class StepGrader:
         return result
 
     def _compile_message(self, compiled: Compiled, source: str) -> str:
-        if is_fault_of_machine(compiled.ran):
-            raise GraderFault(f"{self._step.id} was not built: {build_log(compiled.ran)}")
+        self._expect_room()
         if compiled.forbidden:
             owners = {
                 name: step.id
@@ -99,6 +100,12 @@ class StepGrader:
             return missing_message(compiled.missing)
         return compile_message(self._step, source, compiled.ran)
 
+    def _expect_room(self) -> None:
+        """A full disk is nobody's fault. The disk is asked, not the compiler, whose words a source can shape."""
+        free = shutil.disk_usage(self._work.folder).free
+        if free < _LEAST_ROOM:
+            raise GraderFault(f"{self._step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
+
     def _does_not_build(self, message: str) -> StepResult:
         self._result.status = "does-not-build"
         self._result.messages.append(message)
@@ -108,8 +115,7 @@ class StepGrader:
     def _program(self, kind: Kind, binary: Path) -> Program | None:
         program, ran = self._build.program(kind, self._step, [binary], self._limits)
         if program is None and ran is not None:
-            if is_fault_of_machine(ran):
-                raise GraderFault(f"{self._step.id} was not linked: {build_log(ran)}")
+            self._expect_room()
             self._result.build_log = (self._result.build_log + "\n" + build_log(ran)).strip()
             self._does_not_build(link_message(ran))
         return program
@@ -123,6 +129,8 @@ class StepGrader:
             return
         tags = work.kit.tests[step.id]
         result.tests = run_tests(work.sandbox, tests, list(tags), self._limits)
+        if any(test.outcome == "timeout" for test in result.tests):
+            self._gallery.hung()
         result.images = [judge(self._gallery, raytrace, step, case) for case in step.images]
         if self._plan is not None and worker is not None:
             seed = work.settings.seed
@@ -147,8 +155,7 @@ class StepGrader:
             return Cumulative(False, f"Does not build: {listed(broken)}.")
         program, ran = self._build.program("raytrace", step, built, self._limits, together=True)
         if ran is not None:
-            if is_fault_of_machine(ran):
-                raise GraderFault(f"{step.id} was not linked: {build_log(ran)}")
+            self._expect_room()
             return Cumulative(False, f"The steps do not build together. {link_message(ran)}")
         assert program is not None
         return judge_together(self._gallery, program, step)

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from raysteps.common.errors import UsageError
 from raysteps.kit.manifest import Step
@@ -25,6 +25,10 @@ class StepLimits:
     compile_memory_mb: int = COMPILE_MEMORY_MB
     processes: int = PROCESSES
     file_mb: int = FILE_MB
+
+    def after_a_timeout(self) -> "StepLimits":
+        """A step that hung once may hang in all that follows, and others are waiting."""
+        return replace(self, seconds=min(self.seconds, max(1.0, self.seconds / 4)))
 
     def of_tools(self) -> Limits:
         """For the compiler, the assembler and the linker."""

@@ -14,17 +14,23 @@ from raysteps.kit.manifest import ImageCase, Step
 from raysteps.sandbox.task import Sandbox
 
 
-@dataclass(frozen=True)
+@dataclass
 class Gallery:
-    """What pictures are made and judged with, and where they go."""
+    """What pictures are made and judged with, and where they go. Patience ends with the first program that hangs."""
 
     kit: BuiltKit
     sandbox: Sandbox
     limits: StepLimits
     out: Path
 
+    def hung(self) -> None:
+        self.limits = self.limits.after_a_timeout()
+
     def render(self, program: Program, scene: Path, args: tuple[str, ...]) -> Rendered:
-        return render(self.sandbox, program, scene, args, self.limits.of_program())
+        rendered = render(self.sandbox, program, scene, args, self.limits.of_program())
+        if rendered.ran.stopped in ("wall", "cpu"):
+            self.hung()
+        return rendered
 
 
 def trouble(rendered: Rendered) -> tuple[Ending, str]:

@@ -66,8 +66,8 @@ def run_tests(sandbox: Sandbox, program: Program, names: list[str], limits: Step
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]
-    each = max(1.0, limits.seconds / 4)
-    deadline = time.monotonic() + 3 * limits.seconds
+    each = limits.after_a_timeout().seconds
+    deadline = time.monotonic() + 2 * limits.seconds
     results = []
     for name in names:
         if time.monotonic() > deadline:

@@ -53,7 +53,9 @@ class Answer(Generic[T]):
         expected = self.reference(name, inputs, expected_line)
         if actual_line.startswith("threw"):
             said = printable(actual_line.removeprefix("threw").strip())
-            return Verdict("an exception left the function", self.words(expected), f"an exception: {shorten(said, 200)}")
+            return Verdict(
+                "an exception left the function", self.words(expected), f"an exception: {shorten(said, 200)}"
+            )
         try:
             actual = self.parse(actual_line)
             return Verdict(self.problem(inputs, expected, actual), self.words(expected), self.words(actual))

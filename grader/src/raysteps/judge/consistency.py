@@ -1,17 +1,21 @@
 """A visible test that claims to pass counts only when the judge saw the same.
 
 The program under test reports on itself, so it could report anything. The judge's cases come from outside. A claim is
-a contradiction only where an honest program cannot make it:
+a contradiction only where no honest program makes it, however many mistakes it has:
 
-- a test of any inputs (tag [any]) passes, but of the ordinary cases of each of its functions less than half are right:
-  such a test asks hundreds of inputs of the same kind;
-- any other test passes, but of each of its functions not one case is right, of all kinds that take a real answer. One
-  example may well come out right where the function is wrong for most inputs, so nothing less is a contradiction;
-- a test of an edge (tag [edge]) is never one: a function that is hardly begun may pass it;
+- all tests of a function pass, but of its ordinary cases less than half are right. The tests together ask for
+  everything, in hundreds of inputs;
+- a test tagged [any] passes, but less than half are right: it alone asks for the whole answer to any input;
+- a test without a mark passes, but of all cases that take a real answer not one is right. It asks for the whole answer
+  to a few inputs, and these may come out right where most others do not;
+- a test tagged [part] proves nothing alone: it asks for a part of the answer, or a function hardly begun passes it;
 - a picture passes, but its twin is grossly wrong.
+
+Where a test asks for several functions, all of them must speak against it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 from raysteps.common.text import listed
 from raysteps.grading.results import HiddenResult, ImageResult, StepResult, TestResult
@@ -22,49 +26,71 @@ from raysteps.judge.plan import Plan
 from raysteps.kit.manifest import Step
 
 ANY = "any"
-EDGE = "edge"
+PART = "part"
 _HALF = 0.5
 _GROSSLY = 10  # times what the twin's gate allows
 _GROSS_SHARE = 0.05
 _MESSAGE = "The program says that this passes, but the judge's own inputs say otherwise; it does not count."
 
-
-def _mostly_wrong(result: HiddenResult) -> bool:
-    """Of the ordinary cases."""
-    return bool(result.groups) and result.groups[0].right < _HALF * result.groups[0].cases
+Tags = Mapping[str, frozenset[str]]
 
 
-def _wholly_wrong(result: HiddenResult, function: Function) -> bool:
-    """In every kind that takes a real answer. Where the worker crashed, nobody knows what the rest would have been."""
-    telling = [group for group in result.groups if function.by_name[group.name].telling]
-    return bool(telling) and result.outcome == "wrong" and not any(group.right for group in telling)
+@dataclass(frozen=True)
+class _Seen:
+    """What the judge saw of one function, and whether all its visible tests claim to pass."""
+
+    function: Function
+    result: HiddenResult
+    all_claimed: bool
+
+    def mostly_wrong(self) -> bool:
+        """Of the ordinary cases less than half are right."""
+        groups = self.result.groups
+        return bool(groups) and groups[0].right < _HALF * groups[0].cases
+
+    def wholly_wrong(self) -> bool:
+        """Not one case is right of those that take a real answer; of yes and no, some always are. Where the worker
+        ended early, nobody knows what the rest would have been."""
+        if self.result.outcome != "wrong":
+            return False
+        if self.function.yes_or_no:
+            return self.mostly_wrong()
+        telling = [group for group in self.result.groups if self.function.by_name[group.name].telling]
+        return bool(telling) and not any(group.right for group in telling)
+
+    def denied(self) -> bool:
+        """All its tests together claim more than the judge saw."""
+        return self.all_claimed and self.mostly_wrong()
 
 
-def _contradicted(
-    test: TestResult, tags: frozenset[str], seen: Mapping[str, HiddenResult], known: Mapping[str, Function]
-) -> list[str]:
-    """The functions that speak against the claim: all of the test's, or none."""
-    names = sorted(name for name in tags if name in seen)
-    if not test.passed or not names or EDGE in tags:
-        return []
-    if ANY in tags:
-        return names if all(_mostly_wrong(seen[name]) for name in names) else []
-    return names if all(_wholly_wrong(seen[name], known[name]) for name in names) else []
-
-
-def _tests(
-    step: Step, tests: Sequence[TestResult], hidden: Sequence[HiddenResult], tags: Mapping[str, frozenset[str]]
-) -> list[str]:
-    seen = {item.name: item for item in hidden if item.kind == "function"}
+def _look(step: Step, tests: Sequence[TestResult], hidden: Sequence[HiddenResult], tags: Tags) -> dict[str, _Seen]:
     known = functions_of(step.number)
+    seen = {}
+    for item in hidden:
+        if item.kind == "function" and item.name in known:
+            mine = [test.passed for test in tests if item.name in tags.get(test.name, frozenset())]
+            seen[item.name] = _Seen(known[item.name], item, len(mine) > 1 and all(mine))
+    return seen
+
+
+def _speaks_against(marks: frozenset[str]) -> Callable[[_Seen], bool]:
+    """When a function alone speaks against a test with these tags."""
+    if ANY in marks:
+        return _Seen.mostly_wrong
+    return _Seen.denied if PART in marks else _Seen.wholly_wrong
+
+
+def _tests(step: Step, result: StepResult, tags: Tags) -> list[str]:
+    seen = _look(step, result.tests, result.hidden, tags)
     lines = []
-    for test in tests:
-        names = _contradicted(test, tags.get(test.name, frozenset()), seen, known)
-        if names:
-            much = "most" if ANY in tags.get(test.name, frozenset()) else "all"
+    for test in result.tests:
+        marks = tags.get(test.name, frozenset())
+        names = sorted(name for name in marks if name in seen)
+        against = _speaks_against(marks)
+        if test.passed and names and all(against(seen[name]) or seen[name].denied() for name in names):
             lines.append(
-                f"The test '{test.name}' claims to pass, but the judge found {much} of the ordinary cases of "
-                f"{listed(names)} wrong."
+                f"The test '{test.name}' claims to pass, but most of the judge's ordinary cases of {listed(names)} "
+                "came out wrong."
             )
             test.passed, test.outcome, test.message = False, "wrong", _MESSAGE
     return lines
@@ -81,12 +107,12 @@ def _images(plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenRe
         if twin.wrong_share > max(_GROSS_SHARE, _GROSSLY * gates[image.name]):
             lines.append(
                 f"The picture '{image.name}' is right, but the same scene seen from a little farther round is "
-                f"grossly wrong."
+                "grossly wrong."
             )
             image.passed, image.outcome, image.message = False, "wrong", _MESSAGE
     return lines
 
 
-def contradictions(step: Step, plan: Plan, result: StepResult, tags: Mapping[str, frozenset[str]]) -> list[str]:
+def contradictions(step: Step, plan: Plan, result: StepResult, tags: Tags) -> list[str]:
     """Takes back the claims that the judge did not see, and says so for the instructor, one line each."""
-    return _tests(step, result.tests, result.hidden, tags) + _images(plan, result.images, result.hidden)
+    return _tests(step, result, tags) + _images(plan, result.images, result.hidden)

@@ -24,11 +24,13 @@ class Group:
 
 @dataclass(frozen=True)
 class Function:
-    """The first group is of ordinary cases, mixed so that neither a stub nor a constant gets through."""
+    """The first group is of ordinary cases, mixed so that neither a stub nor a constant gets through.
+    `yes_or_no`: a function that knows nothing is still right in some of them."""
 
     name: str
     answer: Answer[Any]
     groups: tuple[Group, ...]
+    yes_or_no: bool = False
 
     @cached_property
     def by_name(self) -> Mapping[str, Group]:

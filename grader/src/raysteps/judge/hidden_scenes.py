@@ -14,6 +14,8 @@ from raysteps.judge.plan import Plan, RandomPlan, TwinPlan
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.kit.project import Project
 
+_SHARE_SLACK = 1.1  # from another place a ray meets other boxes
+
 
 @dataclass(frozen=True)
 class HiddenScene:
@@ -49,9 +51,8 @@ def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: 
         raise GraderFault(f"{path}: cannot be read: {error.strerror}") from error
     nff = changed(text, draw, spheres=twin.moves == "camera and spheres")
     args = _with_size(image.args, twin.size)
-    return HiddenScene(
-        twin_name(image.name), image.name, nff, args, twin.max_wrong, image.max_share, twin.weight
-    )
+    share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)
+    return HiddenScene(twin_name(image.name), image.name, nff, args, twin.max_wrong, share, twin.weight)
 
 
 def _random(step: Step, scene: RandomPlan, seed: int) -> HiddenScene:

@@ -60,5 +60,7 @@ def read_traced(tokens: Tokens) -> Traced:
 
 def traced_words(answer: Traced) -> str:
     cast = "; ".join(ray.words() for ray in answer.cast) or "none"
-    shaded = ", ".join(f"of the hit at {text(distance)} at depth {depth}" for distance, depth in answer.shaded) or "none"
+    shaded = (
+        ", ".join(f"of the hit at {text(distance)} at depth {depth}" for distance, depth in answer.shaded) or "none"
+    )
     return f"colour {vector_words(answer.color)}; rays cast: {cast}; local_light asked: {shaded}"

@@ -45,8 +45,11 @@ class Tokens:
     def vector(self) -> Vector:
         return self.real(), self.real(), self.real()
 
+    def at_end(self) -> bool:
+        return self._next == len(self._words)
+
     def end(self) -> None:
-        if self._next != len(self._words):
+        if not self.at_end():
             raise Garbled("the answer is too long")
 
 

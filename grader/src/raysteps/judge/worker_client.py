@@ -81,7 +81,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], most_seconds: float) -> Replies:
         replies.append(Reply("", "wrong", "the answer is too long") if was_cut else _trouble(ran))
         restarts += 1
         if restarts > _MOST_RESTARTS:
-            return _give_up(replies, cases, seconds, Reply("", "crashed", "not asked any more after that"))
+            return _give_up(replies, cases, seconds, Reply("", replies[-1].outcome, "not asked any more after that"))
     return Replies(replies, seconds)
 
 

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
+from raysteps.kit.cpp_tokens import tokens
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
 _BEGIN = re.compile(r"^(\s*)// BEGIN SOLUTION(?: (\S.*))?$")
 _END = re.compile(r"^\s*// END SOLUTION$")
 _MARKER = re.compile(r"^\s*// (BEGIN SOLUTION|END SOLUTION|TODO:|RETURN )")
-_TODO = re.compile(r'RAYSTEPS_TODO\s*\(\s*"[^"]*"\s*,\s*"([^"]*)"\s*\)')
-_COMMENT_OR_STRING = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'""", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -73,19 +72,17 @@ def without_markers(solution: str) -> str:
     return "\n".join(line for line in solution.splitlines() if not _MARKER.match(line)).rstrip() + "\n"
 
 
-def _without_comments(source: str) -> str:
-    return _COMMENT_OR_STRING.sub(lambda found: " " if found.group().startswith("/") else found.group(), source)
-
-
 def unfinished_functions(source: str, step: Step) -> list[str]:
     """The functions whose RAYSTEPS_TODO line is still in the source (a commented-out one is not)."""
-    left = set(_TODO.findall(_without_comments(source)))
-    return [name for name in step.functions if name in left]
+    code = tokens(source)
+    called = [code[at : at + 6] for at, word in enumerate(code) if word == "RAYSTEPS_TODO"]
+    left = {call[4] for call in called if len(call) == 6 and (call[1], call[3], call[5]) == ("(", ",", ")")}
+    return [name for name in step.functions if f'"{name}"' in left]
 
 
 def same_code(one: str, other: str) -> bool:
     """Whether two sources differ in comments and white space only."""
-    return "".join(_without_comments(one).split()) == "".join(_without_comments(other).split())
+    return tokens(one) == tokens(other)
 
 
 def stub_for(project: Project, step: Step) -> str:

@@ -6,19 +6,20 @@ import shutil
 import signal
 import subprocess
 import time
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.cgroups import Group, find_parents, new_group
-from raysteps.sandbox.control import Control, readable
+from raysteps.sandbox.cgroups import find_parents, new_group
+from raysteps.sandbox.control import Control
 from raysteps.sandbox.inside import Inside, nameless_file
 from raysteps.sandbox.isolation import Isolation
+from raysteps.sandbox.mode import AsUser, Mode
 from raysteps.sandbox.mounts import compiler_command, root_words
-from raysteps.sandbox.processes import Usage, adopting_orphans, descendants, reap, usage_of
+from raysteps.sandbox.processes import adopting_orphans
 from raysteps.sandbox.rlimits import counts_per_namespace, limit_words, threads_of_user
+from raysteps.sandbox.running import Running, outcome
 from raysteps.sandbox.seccomp import syscall_filter
 from raysteps.sandbox.task import Input, Limits, Ran, Task
 from raysteps.sandbox.users import can_lend_users, lent_user
@@ -26,67 +27,26 @@ from raysteps.sandbox.watching import Seen, watch
 from raysteps.sandbox.workplace import Workplace, fresh_workplace
 
 _MEGABYTE = 1 << 20
-_DYING_SECONDS = 5.0
 _OUTPUTS = "/out"
-_OWN_PROCESSES = 2  # bubblewrap itself, and the first process inside, which waits for the others
-_SIGNALS = range(129, 129 + signal.NSIG)
-_NAMESPACES = ("--unshare-all", "--unshare-user", "--disable-userns", "--die-with-parent", "--new-session")
-
-
-class _Running:
-    """The processes of one task, from outside."""
-
-    def __init__(self, process: "subprocess.Popen[bytes]", first: int, group: Group | None) -> None:
-        self._process = process
-        self._first = first
-        self._group = group
-        self._handle = os.pidfd_open(first)
-
-    def usage(self) -> Usage:
-        return usage_of(descendants(self._first)) if self._group is None else self._group.usage()
-
-    def kill(self) -> None:
-        """With the first process of its namespace, the kernel ends all others."""
-        with suppress(ProcessLookupError):
-            signal.pidfd_send_signal(self._handle, signal.SIGKILL)
-        if self._process.returncode is None:
-            self._process.kill()
-
-    def reap(self) -> float:
-        """Waits until everything inside is dead; the CPU seconds of what bubblewrap did not wait for."""
-        if not readable(self._handle, _DYING_SECONDS):
-            raise GraderFault(f"The processes of a sandbox do not die (the first is {self._first}).")
-        return reap(self._first, self._handle)
-
-    def close(self) -> None:
-        os.close(self._handle)
-
-
-def _outcome(seen: Seen, code: int | None) -> Outcome:
-    """bubblewrap turns the signal that ended a command into an exit code; this turns it back."""
-    if seen.stopped or code is None:
-        code = -signal.SIGKILL
-    elif code in _SIGNALS:
-        code = 128 - code
-    return Outcome(
-        code=code,
-        timed_out=seen.stopped == "wall",
-        stdout=seen.stdout.decode("utf-8", "replace"),
-        stderr=seen.stderr.decode("utf-8", "replace"),
-        seconds=seen.seconds,
-    )
+_HOME = "/tmp"  # noqa: S108  (its own, inside)
+_OWN_PROCESSES = 2
+_KILLED = (-signal.SIGKILL, 128 + signal.SIGKILL)
 
 
 class Bubblewrap:
     """Every task in namespaces of its own; as root, also as a user of its own."""
 
-    def __init__(self, secrets: tuple[Path, ...] = ()) -> None:
+    def __init__(self, secrets: tuple[Path, ...] = (), mode: Mode | None = None) -> None:
         program = shutil.which("bwrap")
         if program is None:
             raise GraderFault("bubblewrap is not installed (the program bwrap was not found).")
         self._program = program
+        self._options = _options_of(program)
         self._secrets = list(secrets)
+        self._mode = mode or AsUser()
         self._lends_users = can_lend_users()
+        if not (self._mode.starts_as_user or self._lends_users):
+            raise GraderFault("only root can make namespaces without a user namespace.")
         self._parents = find_parents()
         self._filter = syscall_filter()
         self.isolation = Isolation("bubblewrap", strong=True, description=self._describe())
@@ -104,11 +64,14 @@ class Bubblewrap:
         )
 
     def _inside(self, task: Task, place: Workplace, stack: ExitStack) -> tuple[Inside, list[str]]:
+        """The names inside, and the words that mount them."""
         mounts: list[str] = []
 
         def locate(number: int, given: Input) -> str:
             inner = f"/in/{number}/{given.inner_name}"
-            mounts.extend(["--ro-bind", str(place.readable(given.path)), inner])
+            # The list of mounts, which a task can read, has the host's names; a copy has none to tell.
+            shown = place.readable(given.path) if given.name is None else place.copied(given.path, given.name)
+            mounts.extend(["--ro-bind", str(shown), inner])
             return inner
 
         inside = Inside(task, locate)
@@ -120,19 +83,28 @@ class Bubblewrap:
             inside.write_to_memory(stack)
         return inside, mounts
 
-    def _words(self, task: Task, inside: Inside, mounts: list[str], control: Control) -> list[str]:
+    def _words(self, task: Task, inside: Inside, words_inside: list[str], user: int | None) -> list[str]:
         limits = task.limits
         first = task.command[0]
         compiler = compiler_command(first if isinstance(first, str) else "c++") if task.tools else None
-        own = limits.processes + _OWN_PROCESSES if self._lends_users else None
-        words = limit_words(limits, processes=own, memory=self._parents is None)
-        words += [self._program, *_NAMESPACES, "--hostname", "sandbox", "--clearenv"]
-        words += ["--setenv", "LC_ALL", "C", "--setenv", "HOME", "/tmp"]  # noqa: S108  (its own)
+        mounts, before = self._mode.before_command(limits, user)
+        words = limit_words(limits, memory=self._parents is None) + self._mode.limits(limits, user)
+        words += [self._program, *self._mode.namespaces(self._options), "--die-with-parent", "--new-session"]
+        words += ["--hostname", "sandbox", "--clearenv", "--setenv", "LC_ALL", "C", "--setenv", "HOME", _HOME]
         if compiler is not None:
             words += ["--setenv", "PATH", os.pathsep.join(dict.fromkeys((str(compiler.parent), "/usr/bin")))]
-        words += root_words(compiler, self._secrets, limits.tmp_mb * _MEGABYTE)
-        words += [*mounts, "--remount-ro", "/", "--chdir", "/tmp"]  # noqa: S108
-        return [*words, *control.words(), "--", *inside.command()]
+        root = root_words(compiler, self._secrets)
+        words += [*self._mode.folders([*root, *mounts, *words_inside]), *root]
+        words += self._scratch(task)
+        words += [*mounts, *words_inside, "--remount-ro", "/", "--chdir", _HOME]
+        return [*words, "--", *before, *inside.command()]
+
+    def _scratch(self, task: Task) -> list[str]:
+        words = self._mode.around_tmp()
+        if "--size" in self._options:
+            return [*words, "--size", str(task.limits.tmp_mb * _MEGABYTE), "--tmpfs", _HOME]
+        # An older bubblewrap cannot limit it. A compiler needs it; a student's program does without.
+        return [*words, "--tmpfs", _HOME, *([] if task.tools else ["--remount-ro", _HOME])]
 
     def _limit_processes(self, first: int, limits: Limits) -> None:
         """Of an ordinary user, whose other processes must not count: set from outside, inside the namespace."""
@@ -149,31 +121,32 @@ class Bubblewrap:
             user = stack.enter_context(lent_user()) if self._lends_users else None
             place = stack.enter_context(fresh_workplace(user))
             group = stack.enter_context(new_group(self._parents, task.limits)) if self._parents else None
-            inside, mounts = self._inside(task, place, stack)
+            inside, words = self._inside(task, place, stack)
             control = Control(stack)
-            fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
-            mounts += [word for fd in fences for word in ("--seccomp", str(fd))]
             stdin = nameless_file(task.stdin, stack)
+            fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
+            words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
+            changed = user if self._mode.starts_as_user else None
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    self._words(task, inside, mounts, control),
+                    self._words(task, inside, words, user),
                     stdin=stdin,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.PIPE,
                     pass_fds=(control.status_fd, control.gate_fd, *inside.fds, *fences),
                     cwd="/",
-                    user=user,
-                    group=user,
-                    extra_groups=None if user is None else [],
+                    user=changed,
+                    group=changed,
+                    extra_groups=None if changed is None else [],
                 )
             )
             stack.callback(process.kill)
             control.hand_over()
             first = control.first_process()
             if first is None:
-                raise self._cannot_start(process)
-            running = _Running(process, first, group)
+                raise _cannot_start(process)
+            running = Running(process, first, group)
             stack.callback(running.close)
             stack.callback(running.kill)
             if group is not None:
@@ -184,12 +157,24 @@ class Bubblewrap:
             # What the kernel ended with its namespace, nobody waited for; there the last look has to do.
             cpu = max(seen.cpu_seconds + running.reap(), seen.watched_cpu_seconds)
             code = control.exit_code()
-            if code is None and not seen.stopped and seen.status not in (-signal.SIGKILL, 128 + signal.SIGKILL):
-                raise GraderFault(f"bubblewrap failed: {shorten(printable(seen.stderr.decode('utf-8', 'replace')))}")
-            return Ran(_outcome(seen, code), inside.outputs(), cpu, seen.stopped)
+            if code is None and not seen.stopped and seen.status not in _KILLED:
+                raise _failed(seen)
+            return Ran(outcome(seen, code), inside.outputs(), cpu, seen.stopped)
 
-    def _cannot_start(self, process: "subprocess.Popen[bytes]") -> GraderFault:
-        assert process.stderr is not None
-        process.kill()
-        said = process.stderr.read().decode("utf-8", "replace")
-        return GraderFault(f"bubblewrap cannot make a sandbox: {shorten(printable(said))}")
+
+def _options_of(program: str) -> frozenset[str]:
+    """What this version can do."""
+    said = subprocess.run([program, "--help"], capture_output=True, check=False, timeout=10, text=True)
+    return frozenset(word for word in (said.stdout + said.stderr).split() if word.startswith("--"))
+
+
+def _cannot_start(process: "subprocess.Popen[bytes]") -> GraderFault:
+    assert process.stderr is not None
+    process.kill()
+    said = process.stderr.read().decode("utf-8", "replace")
+    return GraderFault(f"bubblewrap cannot make a sandbox: {shorten(printable(said).strip())}")
+
+
+def _failed(seen: Seen) -> GraderFault:
+    said = seen.stderr.decode("utf-8", "replace")
+    return GraderFault(f"bubblewrap failed: {shorten(printable(said).strip())}")

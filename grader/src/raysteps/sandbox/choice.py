@@ -11,8 +11,10 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.kit.project import here
 from raysteps.sandbox.bubblewrap import Bubblewrap
 from raysteps.sandbox.fallback import Fallback
+from raysteps.sandbox.mode import AsRoot
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Input, Sandbox, Task
+from raysteps.sandbox.users import can_lend_users
 
 VARIABLE = "RAYSTEPS_SANDBOX"
 _CHOICES = ("bubblewrap", "fallback", "none")
@@ -43,7 +45,11 @@ def _try(make: Callable[[], Sandbox]) -> tuple[Sandbox | None, str]:
 def _bubblewrap() -> tuple[Sandbox | None, str]:
     if sys.platform != "linux":
         return None, "there are no namespaces on this system"
-    return _try(lambda: Bubblewrap((here().root,)))
+    secrets = (here().root,)
+    sandbox, reason = _try(lambda: Bubblewrap(secrets))
+    if sandbox is None and can_lend_users():
+        sandbox, _ = _try(lambda: Bubblewrap(secrets, AsRoot()))
+    return sandbox, reason
 
 
 @cache
@@ -77,9 +83,6 @@ def find_sandbox(*, require: bool = False) -> Sandbox:
         raise UsageError(f"{VARIABLE} asks for {choice}, but it does not work here: {reasons[0]}")
     found = sandbox or OpenAir()
     if require and not found.isolation.strong:
-        raise UsageError(
-            "A strong sandbox is required, and there is none here. "
-            + (f"bubblewrap: {reasons[0]} " if reasons else f"{VARIABLE} asks for {choice}. ")
-            + "See docs/sandbox.md."
-        )
+        why = reasons[0] if reasons else f"{VARIABLE} asks for {choice}."
+        raise UsageError(f"A strong sandbox is required, and there is none here: {why}\nSee docs/sandbox.md.")
     return found

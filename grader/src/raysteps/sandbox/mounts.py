@@ -59,8 +59,8 @@ def hidden_folders(seen: list[Path], secrets: list[Path]) -> list[Path]:
     return [path for path in (*frameworks, *inside) if path.is_dir()]
 
 
-def root_words(compiler: Path | None, secrets: list[Path], tmp_bytes: int) -> list[str]:
-    """The words for bubblewrap that make this root, readable only; its last word must still follow: the inputs."""
+def root_words(compiler: Path | None, secrets: list[Path]) -> list[str]:
+    """The words for bubblewrap that make this root."""
     words: list[str] = []
     seen = [*visible_folders(compiler), *top_folders(compiler)]
     for folder in seen:
@@ -72,6 +72,4 @@ def root_words(compiler: Path | None, secrets: list[Path], tmp_bytes: int) -> li
     for hidden in hidden_folders(seen, secrets):
         words += ["--tmpfs", str(hidden), "--remount-ro", str(hidden)]
     words += ["--ro-bind-try", "/etc/ld.so.cache", "/etc/ld.so.cache"]
-    words += ["--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"]
-    words += ["--size", str(tmp_bytes), "--tmpfs", "/tmp"]  # noqa: S108  (a new one, inside)
-    return words
+    return [*words, "--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"]

@@ -18,15 +18,18 @@ def address_space(limits: Limits) -> int:
     return (limits.memory_mb + limits.processes * _PER_THREAD_MB) * _MEGABYTE
 
 
-def limit_words(limits: Limits, *, processes: int | None, memory: bool) -> list[str]:
-    """A command that sets the limits for the command that follows it. `processes` counts those of the user."""
+def processes_word(most: int) -> str:
+    """For prlimit; it counts the processes and threads of a user."""
+    return f"--nproc={most}"
+
+
+def limit_words(limits: Limits, *, memory: bool) -> list[str]:
+    """A command that sets the limits for the command that follows it."""
     file = limits.file_mb * _MEGABYTE
     words = [str(shutil.which("prlimit")), "--core=0", f"--fsize={file}", f"--nofile={_OPEN_FILES}"]
     words += ["--cpu=" + str(math.ceil(limits.cpu_seconds) + 1)]
     if memory:
         words += [f"--as={address_space(limits)}"]
-    if processes is not None:
-        words += [f"--nproc={processes}"]
     return words
 
 

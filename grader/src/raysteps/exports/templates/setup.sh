@@ -19,5 +19,5 @@ cd "$kit"
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 # This builds all that grading needs, and shows that this machine grades as it should: the sample is worth all points.
-raysteps grade grader/samples/complete --out "$out"
+raysteps grade grader/samples/complete --out "$out" --jobs 1
 chmod 700 "$kit"

@@ -63,7 +63,12 @@ def _simple_normals(draw: Draw) -> tuple[Vector, Vector]:
 
 def _simple_diffuse(draw: Draw) -> Inputs:
     normal, to_light = _simple_normals(draw)
-    return {"fill": replace(_plain(), color=draw.color()), "light": _WHITE, "normal": Vec(normal), "to_light": Vec(to_light)}
+    return {
+        "fill": replace(_plain(), color=draw.color()),
+        "light": _WHITE,
+        "normal": Vec(normal),
+        "to_light": Vec(to_light),
+    }
 
 
 def _specular(draw: Draw, fill: Fill, light: Vector, normal: Vector, eye: Vector) -> Inputs:
@@ -113,7 +118,12 @@ def _simple_specular(draw: Draw) -> Inputs:
 def _hit(draw: Draw) -> Hit:
     normal = draw.direction()
     return Hit(
-        draw.point(4), normal, rounded(times(-1.0, draw.above(normal, 0.15))), draw.real(1, 20), draw.fill(), draw.chance(0.7)
+        draw.point(4),
+        normal,
+        rounded(times(-1.0, draw.above(normal, 0.15))),
+        draw.real(1, 20),
+        draw.fill(),
+        draw.chance(0.7),
     )
 
 

@@ -1,5 +1,6 @@
 """Cases of step 08."""
 
+import math
 from dataclasses import dataclass, replace
 
 from raysteps.judge.answers import Answer, first
@@ -77,7 +78,7 @@ def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> st
 
 
 def _sine(eta: float, cosine: float) -> float:
-    return eta * (1 - min(1.0, cosine * cosine)) ** 0.5
+    return eta * math.sqrt(1 - min(1.0, cosine * cosine))
 
 
 def _directions(draw: Draw, eta: float, *, total: bool) -> tuple[Vector, Vector]:

@@ -31,9 +31,6 @@ def _lit_problem(_inputs: Inputs, expected: _Lit, actual: _Lit) -> str:
     return "a light that is seen counts as hidden" if expected.lit else "a light that is hidden counts as seen"
 
 
-
-
-
 def _read_lit(tokens: Tokens) -> _Lit:
     return _Lit(tokens.flag(), tokens.whole())
 
@@ -124,7 +121,7 @@ def _things(draw: Draw, hit: Hit, light: Light, *, blocked: bool) -> list[Surfac
 def _lit_or_not(draw: Draw) -> Inputs:
     hit = _any_hit(draw)
     light = _light(draw, hit, 4, 30)
-    return _scene(_things(draw, hit, light, blocked=draw.chance(0.5)), hit, light)
+    return _scene(_things(draw, hit, light, blocked=draw.chance(0.3)), hit, light)
 
 
 def _simple_scene(draw: Draw) -> Inputs:
@@ -233,5 +230,6 @@ FUNCTIONS = (
             Group("a floor does not shade itself", _own_triangle, telling=False),
             Group("small and close to the surface", _pebble, telling=False),
         ),
+        yes_or_no=True,
     ),
 )

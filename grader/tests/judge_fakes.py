@@ -1,0 +1,49 @@
+"""Workers that are Python functions: the judge does not notice."""
+
+from collections.abc import Callable, Sequence
+
+from raysteps.common.process import Outcome
+from raysteps.judge.numbers import Vector, text
+from raysteps.sandbox.task import Ran
+
+Answer = Callable[[str, list[float]], str]
+
+
+class Ended(Exception):
+    """The worker ends in the middle of a case; `code` as a process would."""
+
+    def __init__(self, code: int = -11, *, timed_out: bool = False, half: str = "") -> None:
+        super().__init__()
+        self.code = code
+        self.timed_out = timed_out
+        self.half = half  # what it wrote of a line
+
+
+def ran(stdout: str, code: int = 0, *, timed_out: bool = False, seconds: float = 0.01) -> Ran:
+    return Ran(Outcome(code, timed_out, stdout, "", seconds), {}, 0.0, "wall" if timed_out else "")
+
+
+class FakeWorker:
+    """Answers cases as worker.cpp does. Counts how often it was started."""
+
+    def __init__(self, answer: Answer, seconds: float = 0.01) -> None:
+        self._answer = answer
+        self._seconds = seconds
+        self.starts = 0
+
+    def __call__(self, stdin: bytes) -> Ran:
+        self.starts += 1
+        said = ""
+        lines = stdin.decode().splitlines()
+        for line in lines:
+            number, function, *rest = line.split()
+            said += f"start {number}\n"
+            try:
+                said += f"done {number} {self._answer(function, [float(word) for word in rest])}\n"
+            except Ended as end:
+                return ran(said + end.half, end.code, timed_out=end.timed_out, seconds=self._seconds)
+        return ran(said + f"end {len(lines)}\n", seconds=self._seconds)
+
+
+def words(numbers: Sequence[float] | Vector) -> str:
+    return " ".join(text(float(number)) for number in numbers)

@@ -1,0 +1,177 @@
+"""The database of a class, and the tables made from it."""
+
+import csv
+import io
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from raysteps.classroom.database import ClassDatabase, Registered, Registration, RunFacts
+from raysteps.classroom.keys import submission_key, without_times
+from raysteps.classroom.messages import Answer, Job
+from raysteps.classroom.spreadsheet import csv_bytes, safe_cell
+from raysteps.classroom.tables import VERSION, open_database, transaction
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.submission.intake import Submission
+
+_SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
+
+
+def _facts(uid: str) -> RunFacts:
+    return RunFacts(uid, "kit", "/in", "1/1", _SETTINGS, [], "", [])
+
+
+def _begin(database: ClassDatabase, uid: str = "a") -> int:
+    return database.begin_run(
+        _facts(uid), [Registered("ann.zip", "ann", "here")], [Registration("1", "Ann", "", ("ann.zip",))]
+    )
+
+
+def _answer(points: float, **pictures: bytes) -> Answer:
+    document = {"total": {"points": points, "max": 10}}
+    return Answer("ann", "graded", document, {f"pictures/{name}.png": data for name, data in pictures.items()})
+
+
+def _count(database: ClassDatabase, table: str) -> int:
+    return int(database.connection.execute(f"SELECT count(*) FROM {table}").fetchone()[0])
+
+
+def test_a_result_is_kept_once_per_run(tmp_path: Path) -> None:
+    with closing(ClassDatabase(tmp_path)) as database:
+        run = _begin(database)
+        assert database.record(run, _answer(5, a=b"x", b=b"y"), "key")
+        assert not database.record(run, _answer(9, a=b"z"), "key")
+        current = database.current("ann")
+        assert current is not None
+        assert current["points"] == 5
+        again = _begin(database, "b")
+        assert database.record(again, _answer(7, a=b"x"), "key")
+        current = database.current("ann")
+        assert current is not None
+        assert (current["points"], current["run"]) == (7, again)
+        assert database.pictures(current["submission"], run) == {"pictures/a.png": b"x", "pictures/b.png": b"y"}
+        assert (_count(database, "results"), _count(database, "blobs")) == (2, 2)
+        states = [row["state"] for row in database.connection.execute("SELECT state FROM runs ORDER BY number")]
+        assert states == ["interrupted", "running"]
+
+
+def test_half_a_result_is_none(tmp_path: Path) -> None:
+    with closing(ClassDatabase(tmp_path)) as database:
+        run = _begin(database)
+        broken = Answer("ann", "graded", {"total": {"points": 1, "max": 10}}, {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
+        with pytest.raises(TypeError):
+            database.record(run, broken, "key")
+        assert (_count(database, "results"), _count(database, "blobs"), _count(database, "pictures")) == (0, 0, 0)
+
+
+def test_the_schema_holds(tmp_path: Path) -> None:
+    with closing(ClassDatabase(tmp_path)) as database:
+        run = _begin(database)
+        mode = database.connection.execute("PRAGMA journal_mode").fetchone()[0]
+        assert mode == "wal"
+        row = "INSERT INTO results VALUES (?, ?, 'k', ?, ?, ?, '', '', 'w', 1, 't')"
+        for values in ((99, run, "graded", 1, "{}"), (1, run, "graded", None, "{}"), (1, run, "fault", 1, "")):
+            with pytest.raises(sqlite3.IntegrityError):
+                database.connection.execute(row, values)
+
+
+def test_other_files_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "class.sqlite"
+    path.write_text("not a database at all, but long enough to look at" * 20)
+    with pytest.raises(UsageError, match="cannot be opened"):
+        open_database(path)
+    path.unlink()
+    with closing(sqlite3.connect(path)) as other:
+        other.execute("CREATE TABLE mine (a)")
+    with pytest.raises(UsageError, match="not one of a class"):
+        open_database(path)
+    path.unlink()
+    with closing(open_database(path)) as connection:
+        connection.execute(f"PRAGMA user_version = {VERSION + 1}")
+    with pytest.raises(UsageError, match=f"has version {VERSION + 1}"):
+        open_database(path)
+
+
+def test_a_transaction_is_all_or_nothing(tmp_path: Path) -> None:
+    with closing(ClassDatabase(tmp_path)) as database:
+
+        def interrupted() -> None:
+            with transaction(database.connection):
+                database.connection.execute("INSERT INTO blobs VALUES ('a', x'00')")
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            interrupted()
+        assert _count(database, "blobs") == 0
+
+
+def test_keys_depend_on_all_that_a_grade_depends_on() -> None:
+    submission = Submission("ann", {"01": b"x"}, {"02": "none"}, {})
+    key = submission_key(submission, "kit", _SETTINGS)
+    assert key == submission_key(Submission("ann", {"01": b"x"}, {"02": "none"}, {}), "kit", dict(_SETTINGS))
+    others = [
+        submission_key(Submission("ann", {"01": b"y"}, {"02": "none"}, {}), "kit", _SETTINGS),
+        submission_key(Submission("ann", {"01": b"x"}, {"02": "other"}, {}), "kit", _SETTINGS),
+        submission_key(Submission("ann", {"01": b"x"}, {"02": "none"}, {"01": "odd"}), "kit", _SETTINGS),
+        submission_key(Submission("bob", {"01": b"x"}, {"02": "none"}, {}), "kit", _SETTINGS),
+        submission_key(submission, "kit2", _SETTINGS),
+        *(
+            submission_key(submission, "kit", {**_SETTINGS, **change})
+            for change in ({"seed": 2}, {"only": ["01"]}, {"feedback": "score"}, {"limits": {"wall_seconds": 1}})
+        ),
+    ]
+    assert len({key, *others}) == 10
+
+
+def test_without_times() -> None:
+    document = {"timing": {"seconds": 1}, "steps": [{"images": [{"seconds": 2, "name": "a"}], "points": 3}]}
+    assert without_times(document) == {"steps": [{"images": [{"name": "a"}], "points": 3}]}
+    assert document["timing"] == {"seconds": 1}
+
+
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", " =1", "\uff1d1+1", "\u200b=1", "\x1b[2J"]
+)
+def test_cells_that_a_spreadsheet_would_run(text: str) -> None:
+    assert safe_cell(text) == f"'{text}"
+
+
+@pytest.mark.parametrize(
+    ("value", "cell"), [("ann", "ann"), (-1.5, "-1.5"), (10.0, "10"), (None, ""), ("a=b", "a=b"), ("a\0b", "ab")]
+)
+def test_other_cells_stay(value: str | float | None, cell: str) -> None:
+    assert safe_cell(value) == cell
+
+
+def test_csv_reads_back() -> None:
+    rows = [["a", "b"], ['with "quotes", commas\nand lines', "é"]]
+    data = csv_bytes(rows)
+    assert list(csv.reader(io.StringIO(data.decode("utf-8-sig"), newline=""))) == rows
+
+
+def test_messages_survive_the_way() -> None:
+    job = Job(Submission("ann", {"01": b"\0\xff"}, {"02": "n"}, {"01": "r"}), _SETTINGS, "a.b:c", "kit", True, "run")
+    assert Job.from_json(job.to_json()) == job
+    answer = Answer("ann", "graded", {"a": 1}, {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
+    assert Answer.from_json(answer.to_json()) == answer
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"pictures": {"../../etc/passwd.png": ""}},
+        {"pictures": {"pictures/../../a.png": ""}},
+        {"pictures": {"/pictures/a.png": ""}},
+        {"status": "great"},
+        {"document": None},
+        {"fault": "and yet"},
+        {"seconds": -1},
+        {"more": 1},
+    ],
+)
+def test_answers_that_break_the_schema(change: dict[str, object]) -> None:
+    good = Answer("ann", "graded", {"a": 1}).to_json()
+    with pytest.raises(GraderFault, match="breaks its schema"):
+        Answer.from_json({**good, **change})

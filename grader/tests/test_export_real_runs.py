@@ -1,0 +1,134 @@
+"""The exported autograders run for real, in imitations of each system's folders. Builds the kit once more."""
+
+import io
+import json
+import os
+import shutil
+import stat
+import subprocess
+import sys
+import tarfile
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from raysteps.exports.archives import into_folder
+from raysteps.exports.autograders import autolab_tar, gradescope_zip, prairielearn_folder
+from raysteps.exports.formats import validate
+from raysteps.kit.project import Project
+
+pytestmark = pytest.mark.slow
+
+
+def _environment(**more: str) -> dict[str, str]:
+    """The Python environment of the tests stands in for the one that setup.sh would install."""
+    return {**os.environ, "RAYSTEPS_VENV": sys.prefix, **more}
+
+
+def _unpack(data: bytes, folder: Path) -> None:
+    """As unzip does: with the modes."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        for info in archive.infolist():
+            path = Path(archive.extract(info, folder))
+            path.chmod(info.external_attr >> 16 & 0o777)
+
+
+@pytest.fixture(scope="module")
+def autograder(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """An imitation of /autograder after setup.sh."""
+    root = tmp_path_factory.mktemp("autograder")
+    _unpack(gradescope_zip(project, ["--minutes", "9", "--seed", "7"]), root / "source")
+    shutil.copy(root / "source" / "run_autograder", root)
+    done = subprocess.run(["sh", root / "source" / "setup.sh"], env=_environment(), capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr.decode()[-4000:]
+    yield root
+    shutil.rmtree(root, ignore_errors=True)
+
+
+def _run_autograder(root: Path) -> tuple[int, Any]:
+    environment = _environment(RAYSTEPS_AUTOGRADER=str(root))
+    done = subprocess.run([root / "run_autograder"], cwd=root, env=environment, capture_output=True, check=False)
+    return done.returncode, json.loads((root / "results" / "results.json").read_text())
+
+
+def _hand_in(root: Path, sample: Path) -> None:
+    shutil.rmtree(root / "submission", ignore_errors=True)
+    shutil.copytree(sample, root / "submission")
+
+
+def test_gradescope(autograder: Path, project: Project) -> None:
+    assert stat.S_IMODE((autograder / "source" / "kit").stat().st_mode) == 0o700
+    _hand_in(autograder, project.samples / "partial")
+    (autograder / "submission_metadata.json").write_text('{"users": [{"name": "Ann Lee"}]}')
+    code, results = _run_autograder(autograder)
+    assert code == 0
+    validate(results, "gradescope")
+    assert results["output"].startswith("Submitted by Ann Lee.")
+    points = dict.fromkeys(range(1, 9), 0.0)
+    for test in results["tests"]:
+        points[int(test["number"].split(".")[0])] += test["score"]
+    assert [round(points[number], 2) for number in (1, 2, 3)] == [10, 20, 15]
+    assert points[4] < 10
+    assert "leaderboard" not in results
+
+    _hand_in(autograder, project.samples / "complete")
+    code, results = _run_autograder(autograder)
+    assert code == 0
+    assert round(sum(test["score"] for test in results["tests"]), 2) == 110
+    assert 0 < results["leaderboard"][0]["value"] < 50
+
+
+def test_gradescope_reports_its_own_faults(autograder: Path, project: Project) -> None:
+    _hand_in(autograder, project.samples / "partial")
+    scenes, hidden = autograder / "source" / "kit" / "scenes", autograder / "source" / "scenes-gone"
+    scenes.rename(hidden)
+    try:
+        code, results = _run_autograder(autograder)
+    finally:
+        hidden.rename(scenes)
+    assert code == 4
+    validate(results, "gradescope")
+    assert not any("score" in test for test in results["tests"])
+
+    cli = autograder / "source" / "kit" / "grader" / "src" / "raysteps" / "cli.py"
+    text = cli.read_text()
+    cli.write_text("broken(")
+    try:
+        code, results = _run_autograder(autograder)
+    finally:
+        cli.write_text(text)
+    assert code != 0
+    validate(results, "gradescope")
+    assert "no score yet" in results["output"]
+
+
+def test_prairielearn(autograder: Path, project: Project, tmp_path: Path) -> None:
+    folder = tmp_path / "serverFilesCourse" / "raysteps"
+    into_folder(prairielearn_folder(project, ["--minutes", "9", "--steps", "01", "04"]), folder)
+    shutil.copytree(project.samples / "partial", tmp_path / "student")
+    environment = _environment(RAYSTEPS_GRADE=str(tmp_path), RAYSTEPS_KIT=str(autograder / "source" / "kit"))
+    done = subprocess.run([folder / "run.sh"], env=environment, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    results = json.loads((tmp_path / "results" / "results.json").read_text())
+    validate(results, "prairielearn")
+    assert 0.5 < results["score"] < 1
+    assert sum(len(test.get("images", [])) for test in results["tests"]) == 3 * 5
+
+
+def test_autolab(autograder: Path, project: Project, tmp_path: Path) -> None:
+    with tarfile.open(fileobj=io.BytesIO(autolab_tar(project, ["--minutes", "9", "--steps", "04"]))) as archive:
+        archive.extractall(tmp_path, filter="data")
+    (tmp_path / "autograde-Makefile").rename(tmp_path / "Makefile")
+    with zipfile.ZipFile(tmp_path / "handin.zip", "w") as archive:
+        for path in (project.samples / "partial").rglob("*.cpp"):
+            archive.write(path, path.relative_to(project.samples / "partial"))
+    environment = _environment(RAYSTEPS_KIT=str(autograder / "source" / "kit"))
+    done = subprocess.run(["make"], cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    *said, feedback, scores = done.stdout.decode().splitlines()
+    validate([json.loads(feedback), json.loads(scores)], "autolab")
+    assert 0 < json.loads(scores)["scores"]["04-shadows"] < 10
+    assert "04 Shadows:" in "\n".join(said)

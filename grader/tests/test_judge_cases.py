@@ -1,0 +1,104 @@
+"""The hidden cases: repeatable, float32-exact, complete."""
+
+import struct
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import GraderFault
+from raysteps.judge.generators import functions_of
+from raysteps.judge.judging import make_cases
+from raysteps.judge.numbers import f32, text
+from raysteps.judge.plan import Plan, read_plan
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+
+_FEW = 3  # kinds of cases at least, so that a share says something
+
+
+def _plan(project: Project, step: Step) -> Plan:
+    plan = read_plan(project, step)
+    assert plan is not None
+    return plan
+
+
+def _lines(project: Project, step: Step, seed: int) -> list[str]:
+    lines = []
+    for plan in _plan(project, step).functions:
+        cases = make_cases(step, functions_of(step.number)[plan.name], plan, seed)
+        lines += [case.line(i) for i, case in enumerate(cases)]
+    return lines
+
+
+def test_every_step_has_a_plan(project: Project, steps: list[Step]) -> None:
+    for step in steps:
+        plan = _plan(project, step)
+        assert [function.name for function in plan.functions] == list(step.functions)
+        for function in plan.functions:
+            assert len(function.cases) >= _FEW, function.name
+
+
+def test_the_same_seed_makes_the_same_cases(project: Project, steps: list[Step]) -> None:
+    for step in steps:
+        lines = _lines(project, step, 7)
+        assert lines == _lines(project, step, 7), step.id
+        other = _lines(project, step, 8)
+        assert len(lines) == len(other)
+        same = sum(line == twin for line, twin in zip(lines, other, strict=True))
+        assert same < 0.2 * len(lines), step.id
+
+
+def test_numbers_read_back_as_the_same_float32(project: Project, steps: list[Step]) -> None:
+    for step in steps:
+        for line in _lines(project, step, 3):
+            for word in line.split()[2:]:
+                value = float(word)
+                assert text(f32(value)) in (word, f"{word}.0"), line
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [(0.1, "0.1"), (1.0, "1"), (-0.0, "-0"), (float("nan"), "nan"), (float("-inf"), "-inf"), (3, "3"), (1e-5, "1e-05")],
+)
+def test_shortest_text(value: float, expected: str) -> None:
+    assert text(f32(value) if isinstance(value, float) else value) == expected
+
+
+def test_text_of_any_float() -> None:
+    for bits in range(0, 1 << 32, 9_999_991):
+        (value,) = struct.unpack("f", struct.pack("I", bits))
+        if value == value:
+            assert struct.pack("f", float(text(value))) == struct.pack("f", value)
+
+
+def _with_plan(tmp_path: Path, step: Step, content: str) -> Project:
+    path = tmp_path / "solutions" / step.id / "cases.toml"
+    path.parent.mkdir(parents=True)
+    path.write_text(content, encoding="utf-8")
+    return Project(tmp_path)
+
+
+def test_a_students_kit_has_no_plan(tmp_path: Path, steps: list[Step]) -> None:
+    assert read_plan(Project(tmp_path), steps[0]) is None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("weight = 1", "weight = 0", "exclusiveMinimum|minimum|0"),
+        ('"any ray" = 40', '"any rays" = 40', "any ray, simple numbers"),
+        ("[functions.point_at]", "[functions.point_to]", "list the functions"),
+        ('of = "few-pixels"', 'of = "many-pixels"', "a twin for each picture"),
+        ("weight = 1", "weight = ", "not a plan"),
+        ("weight = 1", "weight = 1\ncolour = 2", "colour"),
+    ],
+)
+def test_a_bad_plan_is_the_kits_fault(
+    tmp_path: Path, project: Project, steps: list[Step], old: str, new: str, said: str
+) -> None:
+    good = (project.solutions / steps[0].id / "cases.toml").read_text(encoding="utf-8")
+    assert old in good
+    bad = good.replace(old, new, 1).replace("[functions.point_at.cases]", new.replace("]", ".cases]"), 1)
+    bad = bad if "point_to" in new else good.replace(old, new, 1)
+    with pytest.raises(GraderFault, match=said):
+        read_plan(_with_plan(tmp_path, steps[0], bad), steps[0])

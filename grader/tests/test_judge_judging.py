@@ -1,0 +1,234 @@
+"""What becomes of right, wrong, missing and hostile answers. Step 07 is simple enough to be answered in Python."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from judge_fakes import Ended, FakeWorker, ran, words
+
+from raysteps.common.errors import GraderFault
+from raysteps.grading.results import HiddenResult
+from raysteps.judge.judging import judge_functions
+from raysteps.judge.numbers import f32
+from raysteps.judge.plan import Plan, read_plan
+from raysteps.judge.worker_client import Ask
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.sandbox.task import Ran
+
+_SEED = 5
+
+
+def _mapped(c: float) -> float:
+    if not c > 0:
+        return 0.0
+    return 1.0 if math.isinf(c) else f32(c / (c + 1))
+
+
+def _byte(c: float) -> int:
+    return 0 if not c > 0 else round(min(c, 1.0) * 255)
+
+
+def right(function: str, numbers: list[float]) -> str:
+    return words([_mapped(c) for c in numbers]) if function == "tone_map" else str(_byte(numbers[0]))
+
+
+def stub(function: str, numbers: list[float]) -> str:
+    return "0 0 0" if function == "tone_map" else "0"
+
+
+@pytest.fixture(scope="module")
+def step(steps: list[Step]) -> Step:
+    return next(step for step in steps if step.number == "07")
+
+
+@pytest.fixture(scope="module")
+def plan(project: Project, step: Step) -> Plan:
+    plan = read_plan(project, step)
+    assert plan is not None
+    return plan
+
+
+def judge(step: Step, plan: Plan, student: Ask) -> dict[str, HiddenResult]:
+    results = judge_functions(step, plan, student, FakeWorker(right), _SEED)
+    assert [result.name for result in results] == ["tone_map", "to_byte"]
+    return {result.name: result for result in results}
+
+
+def test_right_answers(step: Step, plan: Plan) -> None:
+    for result in judge(step, plan, FakeWorker(right)).values():
+        assert result.share == 1
+        assert result.outcome == "ok"
+        assert result.message == result.given == result.expected == result.actual == ""
+        assert all(group.cases == group.right > 0 for group in result.groups)
+
+
+def test_a_stub_earns_nothing(step: Step, plan: Plan) -> None:
+    for result in judge(step, plan, FakeWorker(stub)).values():
+        assert result.share == 0
+        assert result.outcome == "wrong"
+
+
+@pytest.mark.parametrize("constant", ["0 0 0", "1 1 1", "0.5 0.5 0.5", "nan nan nan", "128", "255"])
+def test_a_constant_earns_nothing(step: Step, plan: Plan, constant: str) -> None:
+    for result in judge(step, plan, FakeWorker(lambda *_: constant)).values():
+        assert result.share == 0, result.name
+
+
+def test_one_kind_wrong(step: Step, plan: Plan) -> None:
+    def no_infinity(function: str, numbers: list[float]) -> str:
+        return "nan nan nan" if function == "tone_map" and math.inf in numbers else right(function, numbers)
+
+    results = judge(step, plan, FakeWorker(no_infinity))
+    result = results["tone_map"]
+    assert result.share == pytest.approx(5 / 6)
+    assert "5 of 6 kinds of cases are right" in result.message
+    assert "infinite (0 of 24 right)" in result.message
+    assert "is NaN" in result.message
+    assert "inf" in result.given
+    assert "nan" in result.actual
+    assert results["to_byte"].share == 1
+
+
+def test_ordinary_cases_come_first(step: Step, plan: Plan) -> None:
+    """Edges alone earn nothing, and the example is an ordinary case."""
+
+    def edges_only(function: str, numbers: list[float]) -> str:
+        ordinary = function == "to_byte" and 0 < numbers[0] < 1
+        return "7" if ordinary else right(function, numbers)
+
+    result = judge(step, plan, FakeWorker(edges_only))["to_byte"]
+    assert result.share == 0
+    assert "negative or NaN" not in result.message
+    assert "any level" in result.message
+
+
+def test_a_few_ordinary_cases_may_be_wrong_but_cost_their_kind(step: Step, plan: Plan) -> None:
+    seen = []
+
+    def two_slips(function: str, numbers: list[float]) -> str:
+        seen.append(function)
+        return "0 0 0" if len(seen) in (3, 4) else right(function, numbers)
+
+    result = judge(step, plan, FakeWorker(two_slips))["tone_map"]
+    assert result.groups[0].right == result.groups[0].cases - 2
+    assert result.share == pytest.approx(5 / 6)
+
+
+def test_rounding_is_forgiven(step: Step, plan: Plan) -> None:
+    def rough(function: str, numbers: list[float]) -> str:
+        if function == "to_byte":
+            return right(function, numbers)
+        return words([_mapped(c) * (1 + 3e-7) for c in numbers])
+
+    assert judge(step, plan, FakeWorker(rough))["tone_map"].share == 1
+
+
+def test_a_crash_costs_its_case_and_the_rest_goes_on(step: Step, plan: Plan) -> None:
+    def crash_at_infinity(function: str, numbers: list[float]) -> str:
+        if function == "to_byte" and numbers[0] == math.inf:
+            raise Ended(-11)
+        return right(function, numbers)
+
+    bright = replace(plan.functions[1], cases={**plan.functions[1].cases, "1 and brighter": 8})
+    worker = FakeWorker(crash_at_infinity)
+    result = judge(step, replace(plan, functions=(plan.functions[0], bright)), worker)["to_byte"]
+    assert result.outcome == "crashed"
+    assert 0 < result.share < 1
+    assert "SIGSEGV" in result.message
+    assert "inf" in result.given
+
+
+@pytest.mark.parametrize("code", [0, 1, -6])
+def test_leaving_early_is_a_crash(step: Step, plan: Plan, code: int) -> None:
+    def leave(function: str, numbers: list[float]) -> str:
+        raise Ended(code)
+
+    worker = FakeWorker(leave)
+    for result in judge(step, plan, worker).values():
+        assert result.share == 0
+        assert result.outcome == "crashed"
+        assert not any(group.right for group in result.groups)
+    assert worker.starts <= 2 * 4
+
+
+def test_hanging(step: Step, plan: Plan) -> None:
+    def hang(function: str, numbers: list[float]) -> str:
+        raise Ended(-9, timed_out=True)
+
+    worker = FakeWorker(hang, seconds=step.seconds)
+    results = judge(step, plan, worker)
+    assert all(result.outcome == "timeout" and result.share == 0 for result in results.values())
+    assert "20 seconds" in results["tone_map"].message
+    assert worker.starts <= 5, "the time of a step is bounded"
+
+
+def test_silence_and_a_refused_start(step: Step, plan: Plan) -> None:
+    for silent in (ran("", 127), ran("", 0), ran("no protocol at all\n", 0)):
+        for result in judge(step, plan, lambda _, silent=silent: silent).values():
+            assert result.share == 0
+            assert result.outcome == "crashed"
+
+
+@pytest.mark.parametrize(
+    "garbage",
+    ["", "x", "1", "1 2", "1 2 3 4", "9" * 5000, "1e999 0 0", "--1 0 0", "\u2603 \x00 \x1b[31m", "hit 1 2 3", "0x1p3 1 1"],
+)
+def test_garbage_is_a_wrong_answer(step: Step, plan: Plan, garbage: str) -> None:
+    for result in judge(step, plan, FakeWorker(lambda *_: garbage)).values():
+        assert result.share == 0
+        assert "\x1b" not in result.actual + result.message
+
+
+def test_an_exception_is_an_answer(step: Step, plan: Plan) -> None:
+    results = judge(step, plan, FakeWorker(lambda *_: "threw vector::at\x1b[2J"))
+    assert results["tone_map"].outcome == "wrong"
+    assert results["tone_map"].actual == "an exception: vector::at"
+    assert "an exception left the function" in results["tone_map"].message
+
+
+def test_lines_in_between_change_nothing(step: Step, plan: Plan) -> None:
+    """Answers come in order: what was said too early or twice is not heard."""
+
+    def noisy(stdin: bytes) -> Ran:
+        clean = FakeWorker(right)(stdin).outcome.stdout.splitlines()
+        lines = ["done 5 9 9 9", "score 100", *clean]
+        lines.insert(6, "done 0 9 9 9")
+        lines.insert(8, "start 99999999999")
+        return ran("\n".join(lines) + "\n")
+
+    assert all(result.share == 1 for result in judge(step, plan, noisy).values())
+
+
+def test_a_long_answer_that_was_cut_is_no_crash(step: Step, plan: Plan) -> None:
+    def cut(stdin: bytes) -> Ran:
+        return ran(FakeWorker(right)(stdin).outcome.stdout[:1500])
+
+    assert all(result.share == 1 for result in judge(step, plan, cut).values())
+
+
+def test_an_endless_answer_ends(step: Step, plan: Plan) -> None:
+    starts = []
+
+    def endless(stdin: bytes) -> Ran:
+        starts.append(1)
+        return ran("start 0\ndone 0 " + "1 " * 100_000)
+
+    for result in judge(step, plan, endless).values():
+        assert result.share == 0
+        assert "too long" in result.message
+    assert len(starts) < 10
+
+
+@pytest.mark.parametrize("bad", ["nan nan nan", "threw no", "bad-case what", "1 2", ""])
+def test_a_broken_reference_is_the_kits_fault(step: Step, plan: Plan, bad: str) -> None:
+    with pytest.raises(GraderFault):
+        judge_functions(step, plan, FakeWorker(right), FakeWorker(lambda *_: bad), _SEED)
+
+
+def test_a_reference_that_crashes_is_the_kits_fault(step: Step, plan: Plan) -> None:
+    def crash(function: str, numbers: list[float]) -> str:
+        raise Ended
+
+    with pytest.raises(GraderFault, match="tone_map"):
+        judge_functions(step, plan, FakeWorker(right), FakeWorker(crash), _SEED)

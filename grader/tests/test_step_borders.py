@@ -1,0 +1,82 @@
+"""What a step may ask of the kit, and what it must define."""
+
+from pathlib import Path
+
+import pytest
+from conftest import MakeSubmission, Sources
+
+from raysteps.grading.one import grade_one
+from raysteps.grading.results import StepResult
+from raysteps.grading.settings import Settings
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.sandbox.open_air import OpenAir
+from raysteps.submission.intake import take_in
+
+STEP = "02-intersection"
+
+
+@pytest.fixture(autouse=True)
+def _closed_steps(kit: BuiltKit) -> None:
+    if kit.description.seal is None:
+        pytest.skip("steps are libraries on Linux only")
+
+
+def _grade(kit: BuiltKit, submission: Path, out: Path) -> StepResult:
+    return grade_one(kit, take_in(submission, kit.steps), Settings(only=(STEP,)), OpenAir(), out).steps[0]
+
+
+def _with(solved: Sources, statement: str, include: str) -> dict[str, str]:
+    body = "std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {\n"
+    assert body in solved[STEP]
+    return {STEP: f'#include "{include}"\n' + solved[STEP].replace(body, body + statement + "\n")}
+
+
+def test_a_function_of_a_later_step_is_out_of_reach(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    sources = _with(solved, "return closest_hit_in(build_octree(surfaces), ray);", "steps/06-octree/octree.hpp")
+    result = _grade(kit, make_submission("later", sources), tmp_path / "out")
+    assert (result.status, result.points) == ("does-not-build", 0)
+    assert result.messages == ["It does not build: it calls a function of step 06-octree, which comes later."]
+
+
+def test_the_counters_are_out_of_reach(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    sources = _with(solved, "thread_stats().surface_tests = 0;", "core/stats.hpp")
+    result = _grade(kit, make_submission("counters", sources), tmp_path / "out")
+    assert result.status == "does-not-build"
+    assert "counters" in result.messages[0]
+
+
+def test_a_function_of_an_earlier_step_is_there(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    assert "point_at(ray" in solved[STEP]
+    assert _grade(kit, make_submission("earlier", {STEP: solved[STEP]}), tmp_path / "out").status == "passed"
+
+
+def test_a_missing_function_is_named(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    source = solved[STEP].replace("closest_hit(const SurfaceList&", "nearest_hit(const SurfaceList&")
+    result = _grade(kit, make_submission("missing", {STEP: source}), tmp_path / "out")
+    assert result.status == "does-not-build"
+    assert result.messages[0].startswith("It does not build: closest_hit(")
+    assert "is missing. The file must define it exactly" in result.messages[0]
+
+
+def test_what_a_file_defines_beside_its_functions_stays_its_own(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    extra = """
+    #include <cstdlib>
+    int main() { return 0; }
+    void* operator new(std::size_t size) { return std::malloc(size); }
+    void operator delete(void* place) noexcept { std::free(place); }
+    void operator delete(void* place, std::size_t) noexcept { std::free(place); }
+    namespace raysteps { float tone_map_channel(float) { return 0.5F; } }
+    extern "C" int write(int, const void*, unsigned long) { return 0; }
+    """
+    result = _grade(kit, make_submission("extra", {STEP: solved[STEP] + extra}), tmp_path / "out")
+    assert result.status == "passed", result.messages
