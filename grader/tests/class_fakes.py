@@ -113,7 +113,7 @@ def write_entry(folder: Path, name: str, text: str) -> Path:
     return folder / name
 
 
-def grade_class(*words: str | Path, console: Console | None = None) -> int:
+def grade_class(*words: str | Path | int, console: Console | None = None) -> int:
     """As the command line, but with the fake grader."""
     parser = argparse.ArgumentParser()
     add_arguments(parser)

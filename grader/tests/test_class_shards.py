@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from class_fakes import grade_class, write_entry
 
+from raysteps.classroom.entries import Shard
 from raysteps.classroom.keys import without_times
 from raysteps.common.errors import UsageError
 
@@ -98,6 +99,14 @@ def test_the_later_run_counts(tmp_path: Path, handed_in: Path) -> None:
     found = {one["name"]: one["points"] for one in _document(merged)["submissions"]}
     assert found[name] == 9.5
     assert [change["name"] for change in _document(merged)["changed"]] == [name]
+
+
+def test_a_shard_may_be_empty(tmp_path: Path, handed_in: Path) -> None:
+    empty = next(
+        index for index in range(1, 900) if not any(Shard(index, 900).holds(path.name) for path in handed_in.iterdir())
+    )
+    assert grade_class(handed_in, "--out", tmp_path / "out", "--shard", f"{empty}/900") == 0
+    assert _document(tmp_path / "out")["statistics"] == {"graded": 0, "mean": None, "median": None}
 
 
 def test_usage(tmp_path: Path, handed_in: Path) -> None:

@@ -7,6 +7,7 @@ import pytest
 from judge_fakes import Ended, FakeWorker, ran, words
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.text import number
 from raysteps.grading.results import HiddenResult
 from raysteps.judge.judging import judge_functions
 from raysteps.judge.numbers import f32
@@ -159,20 +160,36 @@ def test_hanging(step: Step, plan: Plan) -> None:
     worker = FakeWorker(hang, seconds=step.seconds)
     results = judge(step, plan, worker)
     assert all(result.outcome == "timeout" and result.share == 0 for result in results.values())
-    assert "20 seconds" in results["tone_map"].message
+    assert f"{number(step.seconds)} seconds" in results["tone_map"].message
     assert worker.starts <= 5, "the time of a step is bounded"
 
 
 def test_silence_and_a_refused_start(step: Step, plan: Plan) -> None:
     for silent in (ran("", 127), ran("", 0), ran("no protocol at all\n", 0)):
-        for result in judge(step, plan, lambda _, silent=silent: silent).values():
+
+        def say_nothing(stdin: bytes, silent: Ran = silent) -> Ran:
+            return silent
+
+        for result in judge(step, plan, say_nothing).values():
             assert result.share == 0
             assert result.outcome == "crashed"
 
 
 @pytest.mark.parametrize(
     "garbage",
-    ["", "x", "1", "1 2", "1 2 3 4", "9" * 5000, "1e999 0 0", "--1 0 0", "\u2603 \x00 \x1b[31m", "hit 1 2 3", "0x1p3 1 1"],
+    [
+        "",
+        "x",
+        "1",
+        "1 2",
+        "1 2 3 4",
+        "9" * 5000,
+        "1e999 0 0",
+        "--1 0 0",
+        "\u2603 \x00 \x1b[31m",
+        "hit 1 2 3",
+        "0x1p3 1 1",
+    ],
 )
 def test_garbage_is_a_wrong_answer(step: Step, plan: Plan, garbage: str) -> None:
     for result in judge(step, plan, FakeWorker(lambda *_: garbage)).values():

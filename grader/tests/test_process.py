@@ -43,9 +43,3 @@ def test_a_child_that_holds_the_pipe_does_not_hold_the_grader() -> None:
     outcome = _python(code)
     assert outcome.stdout == "done\n"
     assert time.monotonic() - start < 6
-
-
-def test_memory_is_limited() -> None:
-    code = "data = bytearray(600 << 20); print(len(data))"
-    assert run([sys.executable, "-c", code], seconds=20, memory_mb=256).code == 1
-    assert run([sys.executable, "-c", code], seconds=20, memory_mb=4096).code == 0

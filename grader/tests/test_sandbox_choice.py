@@ -16,7 +16,7 @@ from sandboxes import Misbehave, any_sandbox, hostile, misbehave, processes_runn
 
 from raysteps.common.errors import UsageError
 from raysteps.kit.project import here
-from raysteps.sandbox import choice
+from raysteps.sandbox import choice, workplace
 from raysteps.sandbox.bubblewrap import Bubblewrap
 from raysteps.sandbox.choice import VARIABLE, find_sandbox
 from raysteps.sandbox.mounts import hidden_folders, visible_folders
@@ -72,6 +72,27 @@ def test_a_bubblewrap_that_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path:
     assert find_sandbox().isolation.name != "bubblewrap"
     with pytest.raises(UsageError, match=r"(?i)permission"):
         find_sandbox(require=True)
+
+
+def test_folders_of_killed_graders_are_swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    old = time.time() - 3600
+    with workplace.fresh_workplace(None):
+        living = next(tmp_path.iterdir())
+        abandoned = tmp_path / "raysteps-run-abandoned"
+        young = tmp_path / "raysteps-run-young"
+        for folder in (abandoned, young):
+            (folder / "out").mkdir(parents=True)
+        link = tmp_path / "raysteps-run-link"
+        link.symlink_to(living)
+        os.utime(link, (old, old), follow_symlinks=False)
+        for folder in (living, abandoned):
+            os.utime(folder, (old, old))
+        workplace.sweep()
+        assert living.exists()
+        assert young.exists()
+        assert not abandoned.exists()
+    assert not living.exists()
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 import argparse
 import os
-import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,6 +22,7 @@ from raysteps.upkeep import bench, maintenance
 from raysteps.upkeep.bench_grading import grading
 from raysteps.upkeep.selftest import selftest
 
+_NO_TERMINAL = 10_000  # columns
 _EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault"""
 
 
@@ -106,11 +106,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
 
 
 def _console() -> Console:
-    """As wide as the terminal; 120 columns or more where there is none."""
-    if sys.stdout.isatty():
-        return Console()
-    columns = os.environ.get("COLUMNS", "")
-    return Console(width=max(120, int(columns)) if re.fullmatch(r"[0-9]{1,4}", columns) else 120)
+    """As wide as the terminal; where there is none, lines are not broken."""
+    return Console() if sys.stdout.isatty() else Console(width=_NO_TERMINAL)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

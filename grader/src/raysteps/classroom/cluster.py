@@ -1,5 +1,6 @@
 """Grades on many machines, by dask.distributed."""
 
+import logging
 import re
 from collections.abc import Iterator
 from typing import Any
@@ -24,6 +25,7 @@ def _connect(address: str) -> Any:
         raise UsageError(
             "--scheduler needs dask.distributed; install it with: .venv/bin/pip install -e 'grader[cluster]'"
         ) from error
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is said here, without tracebacks
     try:
         return distributed.Client(address, timeout=_CONNECT_SECONDS)
     except (OSError, TimeoutError) as error:

@@ -25,6 +25,8 @@ from raysteps.classroom.session import Runner, Session
 from raysteps.classroom.summary import print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
+from raysteps.common.text import number
+from raysteps.grading.limits import parse_limits
 from raysteps.kit.project import Project
 
 
@@ -40,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--late-policy", type=Path, metavar="TOML", help="deadline, grace, percent per day, extensions")
     add("--seed", type=int, default=1, help="of the hidden cases (1)")
     add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
+    add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
     add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
     add("--scheduler", default="", metavar="ADDRESS", help="grade on a Dask cluster, such as tcp://head:8786")
     add("--shard", default="1/1", metavar="i/n", help="grade only the i-th of n parts of the class")
@@ -68,6 +71,7 @@ def _order(arguments: argparse.Namespace, grader: str) -> Order:
         arguments.late_policy,
         arguments.seed,
         arguments.feedback,
+        parse_limits(arguments.limit),
         arguments.require_sandbox,
         arguments.scheduler,
         read_shard(arguments.shard),
@@ -88,6 +92,8 @@ def _again(order: Order) -> str:
         words += ["--seed", str(order.seed)]
     if order.feedback != "full":
         words += ["--feedback", order.feedback]
+    for name, value in order.limits.items():
+        words += ["--limit", f"{name}={number(value)}"]
     words += ["--require-sandbox"] if order.require_sandbox else []
     words += ["--shard", str(order.shard)] if order.shard != Shard() else []
     words += ["--only", *order.only] if order.only else []

@@ -42,15 +42,15 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
         (folder / "results.json").unlink(missing_ok=True)
 
 
-_HEAD = ("submission", "entry", "student id", "student name", "email", "status", "points", "max", "final points")
-_TAIL = ("submitted at", "days late", "percent off", "lateness", "inconsistent", "points before", "fault", "note")
+_HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")
+_TAIL = ("submitted_at", "days_late", "percent_off", "lateness", "inconsistent", "points_before", "fault", "note")
 
 
 def _row(one: dict[str, Any], student: dict[str, str], steps: list[str]) -> list[Cell]:
-    late = one["late"] or {"days": None, "percent": None, "words": ""}
+    late = one["late"] or {"days": None, "percent": None, "points": None, "words": ""}
     return [
         *(one["name"], one["entry"], student["id"], student["name"], student["email"]),
-        *(one["status"], one["points"], one["max"], one["final"]),
+        *(one["status"], one["points"], one["max"], late["points"]),
         *(one["steps"][step]["points"] if step in one["steps"] else None for step in steps),
         *(one["submitted_at"], late["days"], late["percent"], late["words"]),
         "yes" if one["inconsistent"] else "",

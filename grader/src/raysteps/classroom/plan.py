@@ -3,6 +3,7 @@
 import os
 import uuid
 from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,7 @@ class Order:
     late_policy: Path | None = None
     seed: int = 1
     feedback: Feedback = "full"
+    limits: Mapping[str, float] = field(default_factory=dict)
     require_sandbox: bool = False
     scheduler: str = ""
     shard: Shard = field(default_factory=Shard)
@@ -56,7 +58,7 @@ class Plan:
     def settings(self) -> dict[str, Any]:
         """Beside the kit and the submission, all that a grade depends on."""
         only = [step.id for step in self.chosen] if self.order.only else []
-        return {"seed": self.order.seed, "only": only, "feedback": self.order.feedback, "limits": {}}
+        return {"seed": self.order.seed, "only": only, "feedback": self.order.feedback, "limits": self.order.limits}
 
     def facts(self, kit: str) -> RunFacts:
         columns = [

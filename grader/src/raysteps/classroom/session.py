@@ -121,7 +121,9 @@ class Session:
             write_submission(self.database, self.plan.order.out, answer.name)
             total = answer.document["total"] if answer.document is not None else None
             points = (
-                f"{number(total['points'])} of {number(total['max'])} points" if total else f"FAULT: {first_line(answer.fault)}"
+                f"{number(total['points'])} of {number(total['max'])} points"
+                if total
+                else f"FAULT: {first_line(answer.fault)}"
             )
             self.meter.count(answer.name, points)
 

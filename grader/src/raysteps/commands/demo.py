@@ -37,7 +37,7 @@ def complain_about(sample: str, results: Results) -> None:
 def _render(program: Path, scene: Path, step: Step, folder: Path) -> Path:
     picture, path = folder / f"{step.id}.ppm", folder / f"{step.id}.png"
     words: list[str | Path] = [program, scene, "--step", str(step.index), "--size", _SIZE, "-o", picture, "--quiet"]
-    outcome = run(words + (["--accel", "boxes"] if step.index < 6 else []), seconds=_SECONDS, limited=False)
+    outcome = run(words + (["--accel", "boxes"] if step.index < 6 else []), seconds=_SECONDS)
     if outcome.code != 0 or outcome.timed_out:
         raise GraderFault(f"the reference cannot render step {step.id}: {outcome.stderr.strip()}")
     write_png(read_ppm(picture), path)

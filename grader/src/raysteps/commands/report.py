@@ -82,7 +82,7 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
                 _print_hidden(console, item)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
-        if result.cumulative.message and result.status != "not-started":
+        if result.cumulative.message and result.status == "passed":
             console.print(f"  together with your earlier steps: {escape(result.cumulative.message)}")
 
 
@@ -103,6 +103,7 @@ def print_table(console: Console, results: Results) -> None:
             "yes" if result.cumulative.passed else "no",
         )
     console.print(table)
+    console.print("together: all your steps up to this one, without the reference's", style="dim")
     total = results.to_json()["total"]
     bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
     console.print(f"{number(total['points'])} points of {number(total['max'])}{bonus}")

@@ -1,19 +1,15 @@
-"""Runs a program with a time limit and a cap on what it may say."""
+"""Runs a program that is trusted, with a time limit and a cap on what it may say. Others run in a sandbox."""
 
 import os
-import resource
 import selectors
 import signal
 import subprocess
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 _MEGABYTE = 1 << 20
-_FILE_LIMIT = 256 * _MEGABYTE
 
 
 @dataclass(frozen=True)
@@ -35,18 +31,6 @@ class Outcome:
             return signal.Signals(-self.code).name
         except ValueError:
             return f"signal {-self.code}"
-
-
-def _limit(files: bool, memory_mb: int | None) -> None:
-    if files:
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (_FILE_LIMIT, _FILE_LIMIT))
-    if memory_mb is not None:
-        _, most = resource.getrlimit(resource.RLIMIT_AS)
-        limit = memory_mb * _MEGABYTE
-        if most == resource.RLIM_INFINITY or limit < most:
-            with suppress(OSError, ValueError):  # a system that knows no such limit
-                resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 
 
 def _kill_group(pid: int) -> None:
@@ -95,8 +79,6 @@ def run(
     *,
     seconds: float,
     cwd: Path | None = None,
-    limited: bool = True,
-    memory_mb: int | None = None,
     cap: int = _MEGABYTE,
 ) -> Outcome:
     """Runs the words of a command, never a shell; kills its whole process group in the end."""
@@ -108,7 +90,6 @@ def run(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        preexec_fn=partial(_limit, limited, memory_mb),
     )
     with process:
         try:

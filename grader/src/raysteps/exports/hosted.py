@@ -85,7 +85,7 @@ def grade_here(project: Project, submission: Path, steps: list[Step], options: O
     words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade", found.resolve(), "--out", work]
     # One step at a time: a container has less than one processor, and says it has all of its machine's.
     words += ["--jobs", "1", *options.words]
-    outcome = run(words, seconds=options.seconds, cwd=project.root, limited=False)
+    outcome = run(words, seconds=options.seconds, cwd=project.root)
     if options.echo:
         print(clean(outcome.stdout + outcome.stderr, 200_000), file=sys.stderr, flush=True)
     if outcome.timed_out:

@@ -45,7 +45,7 @@ def _from_git(root: Path) -> list[PurePosixPath] | None:
         return None
     command: list[str | Path] = ["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     try:
-        outcome = run(command, seconds=_GIT_SECONDS, limited=False, cap=_GIT_OUTPUT)
+        outcome = run(command, seconds=_GIT_SECONDS, cap=_GIT_OUTPUT)
     except OSError:
         return None
     if outcome.code != 0:

@@ -95,7 +95,7 @@ def submitted_at(repository: Path) -> datetime:
         "HEAD",
     ]
     try:
-        outcome = run(command, seconds=_GIT_SECONDS, limited=False)
+        outcome = run(command, seconds=_GIT_SECONDS)
         return datetime.fromtimestamp(int(outcome.stdout), UTC)
     except (OSError, ValueError, OverflowError):
         return datetime.now(UTC)

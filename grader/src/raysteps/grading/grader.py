@@ -140,7 +140,8 @@ class StepGrader:
             result.inconsistent = contradictions(step, self._plan, result, tags)
         result.status, result.points = status_and_points(result, step)
         result.messages += sum_up(result)
-        result.cumulative = self._together()
+        wrong = Cumulative(False, "This step itself is not right yet.")
+        result.cumulative = self._together() if result.status == "passed" else wrong
 
     def _together(self) -> Cumulative:
         step, work = self._step, self._work

@@ -1,6 +1,7 @@
 """The hidden part of a step: the judge's cases, and scenes that nobody has seen."""
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
@@ -19,6 +20,7 @@ from raysteps.kit.manifest import Step
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Input, Limits, Ran, Task
 
+_ANSWERS_KB = 8192  # a tree of many boxes is a long answer
 _REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300)
 
 
@@ -38,7 +40,8 @@ def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, see
     """The student's functions, asked in a process that knows no answer."""
 
     def student(cases: bytes) -> Ran:
-        return gallery.sandbox.run(Task(worker.words, gallery.limits.of_program(), stdin=cases))
+        limits = replace(gallery.limits.of_program(), output_kb=_ANSWERS_KB)
+        return gallery.sandbox.run(Task(worker.words, limits, stdin=cases))
 
     def reference(cases: bytes) -> Ran:
         return _reference_answers(gallery.kit, cases)

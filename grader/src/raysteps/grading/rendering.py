@@ -64,7 +64,7 @@ def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixe
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         picture = Path(folder) / "picture.ppm"
         command: list[str | Path] = [kit.reference("raytrace"), scene, *args, "-o", picture, "--quiet"]
-        outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder), limited=False)
+        outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder))
         try:
             pixels = read_ppm(picture)
         except PictureError as error:

@@ -15,7 +15,7 @@ Make = Callable[[Draw], Inputs]
 
 @dataclass(frozen=True)
 class Group:
-    """One kind of cases. `telling`: a function that always answers the same gets none of them right."""
+    """One kind of cases. `telling`: a stub, or a function that always answers the same, gets none of them right."""
 
     name: str
     make: Make

@@ -16,7 +16,6 @@ from raysteps.kit.project import Project
 
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
-_COMPILER_MEMORY_MB = 8192
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ class BuildTree:
         command += [f"-DRAYSTEPS_MINE_DIR={self.mine}", *self.options]
         generator = self.cached("CMAKE_GENERATOR") or ("Ninja" if shutil.which("ninja") else "")
         command += ["-G", generator] if generator else []
-        outcome = run(command, seconds=_CONFIGURE_SECONDS, cwd=self.project.root, limited=False)
+        outcome = run(command, seconds=_CONFIGURE_SECONDS, cwd=self.project.root)
         if outcome.code != 0:
             raise GraderFault("CMake cannot configure the kit:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
 
@@ -83,9 +82,7 @@ class BuildTree:
             command += ["--target", *targets]
         if keep_going:
             command += ["--", *(["-k", "0"] if self.cached("CMAKE_GENERATOR") == "Ninja" else ["-k"])]
-        # A program with sanitizers, which a build may run, reserves more addresses than any limit allows.
-        memory = None if self.preset == "asan" else _COMPILER_MEMORY_MB
-        return run(command, seconds=seconds, cwd=self.project.root, limited=False, memory_mb=memory)
+        return run(command, seconds=seconds, cwd=self.project.root)
 
     @contextmanager
     def locked(self) -> Iterator[None]:

@@ -14,7 +14,7 @@ KNOWN_TO_COMPILER = ("/usr/include", "/usr/local/include")
 
 
 def _run(words: Sequence[str | Path]) -> str:
-    outcome = run(words, seconds=_SECONDS, limited=False)
+    outcome = run(words, seconds=_SECONDS)
     if outcome.code != 0:
         raise GraderFault(f"a part of the kit cannot be linked: {outcome.stderr or outcome.stdout}")
     return outcome.stdout

@@ -42,14 +42,14 @@ def readable_names(nm: str, path: Path) -> dict[str, str]:
     lists = []
     for option in ((), ("--demangle",)):
         words = [nm, *nm_arguments(), "--defined-only", "--no-sort", *option, path]
-        outcome = run(words, seconds=_SECONDS, limited=False, cap=64 << 20)
+        outcome = run(words, seconds=_SECONDS, cap=64 << 20)
         lists.append([re.sub(r" [A-Za-z]( [0-9a-f]*)*\s*$", "", line) for line in outcome.stdout.splitlines()])
     return dict(zip(*lists, strict=True))
 
 
 def symbols_of(nm: str, path: Path) -> Symbols:
     """Of one of the kit's own files."""
-    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, limited=False, cap=64 << 20)
+    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, cap=64 << 20)
     if outcome.code != 0:
         raise GraderFault(f"{path}: its symbols cannot be read: {outcome.stderr}")
     return parse_symbols(outcome.stdout)

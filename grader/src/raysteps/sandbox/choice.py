@@ -15,6 +15,7 @@ from raysteps.sandbox.mode import AsRoot
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Input, Sandbox, Task
 from raysteps.sandbox.users import can_lend_users
+from raysteps.sandbox.workplace import sweep
 
 VARIABLE = "RAYSTEPS_SANDBOX"
 _CHOICES = ("bubblewrap", "fallback", "none")
@@ -39,6 +40,11 @@ def _try(make: Callable[[], Sandbox]) -> tuple[Sandbox | None, str]:
         return None, str(error)
     reason = _works(sandbox)
     return (None, reason) if reason else (sandbox, "")
+
+
+@cache
+def _sweep_once() -> None:
+    sweep()
 
 
 @cache
@@ -69,9 +75,9 @@ def _asked_for() -> str:
 def find_sandbox(*, require: bool = False) -> Sandbox:
     """The strongest there is; with `require`, an error if it is not strong."""
     choice = _asked_for()
-    candidates = {"bubblewrap": [_bubblewrap], "fallback": [_fallback], "none": []}.get(
-        choice, [_bubblewrap, _fallback]
-    )
+    _sweep_once()
+    by_name = {"bubblewrap": [_bubblewrap], "fallback": [_fallback], "none": []}
+    candidates = by_name.get(choice, [_bubblewrap, _fallback])
     reasons = []
     sandbox: Sandbox | None = None
     for candidate in candidates:

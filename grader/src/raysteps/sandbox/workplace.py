@@ -1,16 +1,21 @@
 """A fresh folder on the host for one task: copies of what another user could not read, and outputs of tools."""
 
+import fcntl
 import os
 import shutil
 import stat
 import tempfile
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 
 _MEGABYTE = 1 << 20
+_PREFIX = "raysteps-run-"
+_GROUNDS = (Path("/tmp"), Path("/var/tmp"))  # noqa: S108  (for fresh names only)
+_ABANDONED_SECONDS = 600.0  # longer than it takes from making a folder to locking it
 
 
 def _mode(path: Path) -> int:
@@ -52,7 +57,7 @@ def _copy_for_all(source: Path, target: Path) -> None:
 
 def _common_ground() -> Path:
     """A folder for temporary files that other users can walk through."""
-    for folder in (Path(tempfile.gettempdir()), Path("/tmp"), Path("/var/tmp")):  # noqa: S108  (fresh names only)
+    for folder in (Path(tempfile.gettempdir()), *_GROUNDS):
         if folder.is_dir() and os.access(folder, os.W_OK) and _others_may_pass(folder.resolve()):
             return folder
     raise GraderFault("No folder for temporary files that other users can reach: set TMPDIR to one, such as /tmp.")
@@ -104,13 +109,48 @@ class Workplace:
 def fresh_workplace(user: int | None) -> Iterator[Workplace]:
     """Goes with all that is in it, whatever modes its contents have."""
     parent = None if user is None else _common_ground()
-    folder = Path(tempfile.mkdtemp(prefix="raysteps-run-", dir=parent))
+    folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=parent))
     try:
         if user is not None:
             folder.chmod(0o711)
-        yield Workplace(folder, user)
+        with _locked(folder):
+            yield Workplace(folder, user)
     finally:
         remove_tree(folder)
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[bool]:
+    """Tells other graders that this one lives; false when another had told so before."""
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+    try:
+        yield _lock(handle)
+    finally:
+        os.close(handle)
+
+
+def _lock(handle: int) -> bool:
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def sweep() -> None:
+    """Removes the folders of graders that were killed, and could not do it themselves."""
+    for parent in {Path(tempfile.gettempdir()), *_GROUNDS}:
+        for folder in parent.glob(f"{_PREFIX}*"):
+            with suppress(OSError):
+                found = folder.lstat()
+                if found.st_uid == os.geteuid() and time.time() - found.st_mtime > _ABANDONED_SECONDS:
+                    _sweep_one(folder)
+
+
+def _sweep_one(folder: Path) -> None:
+    with _locked(folder) as is_abandoned:
+        if is_abandoned:
+            remove_tree(folder)
 
 
 def remove_tree(folder: Path) -> None:

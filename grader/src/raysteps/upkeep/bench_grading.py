@@ -51,7 +51,7 @@ def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) 
 
 
 def _must(words: list[str | Path], cwd: Path) -> None:
-    outcome = run(words, seconds=_SECONDS, cwd=cwd, limited=False)
+    outcome = run(words, seconds=_SECONDS, cwd=cwd)
     if outcome.code != 0 or outcome.timed_out:
         raise GraderFault(f"{words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
 

@@ -24,7 +24,7 @@ _FUZZ_SECONDS = 60
 
 def _command(words: list[str | Path], cwd: Path, seconds: float = _TEST_SECONDS) -> Report:
     """Passes when the program exits with 0."""
-    outcome = run(words, seconds=seconds, cwd=cwd, limited=False)
+    outcome = run(words, seconds=seconds, cwd=cwd)
     if outcome.code == 0 and not outcome.timed_out:
         return Report("passed")
     output = (outcome.stdout + outcome.stderr)[-6000:]

@@ -39,6 +39,9 @@ def _ray_problem(_inputs: Inputs, expected: Ray, actual: Ray) -> str:
     )
 
 
+_FRESH = ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0))  # view and up of a ViewFrame that nobody filled in
+
+
 def _simple_ray(draw: Draw) -> Ray:
     return Ray(draw.simple_point(5), draw.axis())
 
@@ -65,10 +68,10 @@ def _upright(draw: Draw, camera: Camera) -> Camera:
 
 
 def _simple_camera(draw: Draw) -> Camera:
-    """Looks along an axis, another axis is up, and the picture is square."""
+    """Looks along an axis, another axis is up, and the picture is square; never as a fresh ViewFrame does."""
     origin, view, up = draw.simple_point(5), draw.axis(), draw.axis()
-    while length(cross(view, up)) == 0:
-        up = draw.axis()
+    while length(cross(view, up)) == 0 or (view, up) == _FRESH:
+        view, up = draw.axis(), draw.axis()
     size = 2 * draw.whole(2, 100)
     at = add(origin, view, float(draw.whole(1, 8)))
     angle = (45.0, 60.0, 90.0)[draw.whole(0, 2)]
@@ -166,7 +169,7 @@ FUNCTIONS = (
         Answer(read_ray, words_of_ray, _ray_problem),
         (
             Group("any pixel", lambda d: _any_pixel(d, _any_camera(d))),
-            Group("few pixels", _few_pixels),
+            Group("few pixels", _few_pixels, telling=False),
             Group("corners of the picture", _corner),
             Group("wide and tall pictures", lambda d: _any_pixel(d, _long_camera(d))),
             Group("the middle pixel", _middle, telling=False),

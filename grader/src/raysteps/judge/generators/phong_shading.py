@@ -183,7 +183,7 @@ FUNCTIONS = (
             Group("near the highlight", _highlight),
             Group("simple numbers", _simple_specular),
             Group("shine 1", lambda d: _highlight(d, shine=1.0)),
-            Group("high shine", lambda d: _highlight(d, shine=d.real(20, 40))),
+            Group("high shine", lambda d: _highlight(d, shine=d.real(20, 40)), telling=False),
             Group("far from the highlight", _no_highlight, telling=False),
             Group("light behind", _light_behind, telling=False),
         ),

@@ -158,7 +158,7 @@ FUNCTIONS = (
         "refract",
         Answer(_read_refracted, _refracted_words, _refracted_problem),
         (
-            Group("any direction", _any_refract),
+            Group("any direction", _any_refract, telling=False),
             Group("straight on", _straight),
             Group("into glass", lambda d: _refract(d, _into(d))),
             Group("out of glass", lambda d: _refract(d, _out_of(d))),
@@ -175,8 +175,8 @@ FUNCTIONS = (
             Group("into glass", lambda d: {"hit": _hit(d, _index(d), outside=True)}),
             Group("out of glass", lambda d: {"hit": _hit(d, _index(d), outside=False)}),
             Group("total internal reflection", lambda d: {"hit": _hit(d, _index(d), outside=False, total=True)}),
-            Group("index 1", lambda d: _unbent(d, 1.0)),
-            Group("index 0 counts as 1", lambda d: _unbent(d, 0.0)),
+            Group("index 1", lambda d: _unbent(d, 1.0), telling=False),
+            Group("index 0 counts as 1", lambda d: _unbent(d, 0.0), telling=False),
         ),
     ),
     Function(

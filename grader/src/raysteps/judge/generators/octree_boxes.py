@@ -1,0 +1,231 @@
+"""Cases of step 06: single boxes."""
+
+import math
+from dataclasses import dataclass
+
+from raysteps.judge.answers import Answer, first
+from raysteps.judge.comparing import LENGTHS, SMALL, real, vector
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.generators.octree_scenes import small_scene
+from raysteps.judge.numbers import Vector, add, rounded
+from raysteps.judge.surfaces import Surface, Surfaces, Triangle
+from raysteps.judge.tokens import Garbled, Tokens
+from raysteps.judge.values import Box, Inputs, Ray
+
+_NEAR = 0.03  # how clearly a ray passes a box by
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Where a ray enters and leaves a box; nothing where it misses."""
+
+    interval: tuple[float, float] | None
+
+
+def _read_part(tokens: Tokens) -> _Part:
+    word = tokens.word()
+    if word not in ("none", "part"):
+        raise Garbled("the answer is neither an interval nor nothing")
+    return _Part((tokens.real(), tokens.real()) if word == "part" else None)
+
+
+def _part_words(part: _Part) -> str:
+    if part.interval is None:
+        return "nothing, the ray misses the box"
+    return f"enter {part.interval[0]:.9g}, leave {part.interval[1]:.9g}"
+
+
+def _part_problem(_inputs: Inputs, expected: _Part, actual: _Part) -> str:
+    if expected.interval is None:
+        return "" if actual.interval is None else "the ray misses the box, and an interval came"
+    if actual.interval is None:
+        return "the ray hits the box, and nothing came"
+    enter, leave = actual.interval
+    return first(
+        "enter is below 0" if enter < 0 else "",
+        real("enter", expected.interval[0], enter, LENGTHS),
+        real("leave", expected.interval[1], leave, LENGTHS),
+        "" if enter <= leave else "enter is above leave",
+    )
+
+
+def _read_box(tokens: Tokens) -> Box:
+    return Box(tokens.vector(), tokens.vector())
+
+
+def _is_empty(box: Box) -> bool:
+    return any(low > high for low, high in zip(box.low, box.high, strict=True))
+
+
+def _bounds_problem(_inputs: Inputs, expected: Box, actual: Box) -> str:
+    if _is_empty(expected):
+        return "" if _is_empty(actual) else "without surfaces the box is empty, its min above its max"
+    return first(vector("min", expected.low, actual.low, SMALL), vector("max", expected.high, actual.high, SMALL))
+
+
+def _parts_problem(_inputs: Inputs, expected: tuple[Box, ...], actual: tuple[Box, ...]) -> str:
+    for i, (mine, theirs) in enumerate(zip(expected, actual, strict=True)):
+        if vector("", mine.low, theirs.low) or vector("", mine.high, theirs.high):
+            return f"part {i} is wrong"
+    return ""
+
+
+_PART = Answer(_read_part, _part_words, _part_problem)
+_BOUNDS = Answer(_read_box, lambda box: box.words(), _bounds_problem)
+_PARTS = Answer(
+    lambda tokens: tuple(_read_box(tokens) for _ in range(8)),
+    lambda parts: "; ".join(f"{i}: {box.words()}" for i, box in enumerate(parts)),
+    _parts_problem,
+)
+
+
+def _box(draw: Draw) -> Box:
+    low = draw.point(3)
+    return Box(low, rounded(add(low, (draw.real(0.5, 4), draw.real(0.5, 4), draw.real(0.5, 4)))))
+
+
+def _simple_box(draw: Draw) -> Box:
+    low = draw.simple_point(3)
+    return Box(low, add(low, (float(draw.whole(1, 4)), float(draw.whole(1, 4)), float(draw.whole(1, 4)))))
+
+
+def _within(draw: Draw, box: Box) -> Vector:
+    x, y, z = (low + (high - low) * draw.real(0.1, 0.9) for low, high in zip(box.low, box.high, strict=True))
+    return x, y, z
+
+
+def _misses(box: Box, ray: Ray, margin: float) -> bool:
+    """Whether the ray misses the box even when that is grown."""
+    enter, leave = 0.0, math.inf
+    for low, high, origin, way in zip(box.low, box.high, ray.origin, ray.direction, strict=True):
+        ends = sorted(((low - margin - origin) / way, (high + margin - origin) / way))
+        enter, leave = max(enter, ends[0]), min(leave, ends[1])
+    return enter > leave
+
+
+def _clip(box: Box, origin: Vector, direction: Vector) -> Inputs:
+    return {"box": box, "ray": Ray(rounded(origin), direction)}
+
+
+def _through(draw: Draw) -> Inputs:
+    box, direction = _box(draw), draw.slanted()
+    return _clip(box, add(_within(draw, box), direction, -draw.real(8, 15)), direction)
+
+
+def _past(draw: Draw) -> Inputs:
+    box = _box(draw)
+    while True:
+        ray = Ray(draw.point(9), draw.slanted())
+        if _misses(box, ray, _NEAR):
+            return {"box": box, "ray": ray}
+
+
+def _through_or_past(draw: Draw) -> Inputs:
+    return _through(draw) if draw.chance(0.7) else _past(draw)
+
+
+def _from_inside(draw: Draw) -> Inputs:
+    box = _box(draw)
+    return _clip(box, _within(draw, box), draw.slanted())
+
+
+def _box_behind(draw: Draw) -> Inputs:
+    box, direction = _box(draw), draw.slanted()
+    return _clip(box, add(_within(draw, box), direction, draw.real(8, 15)), direction)
+
+
+def _on_grid(draw: Draw, box: Box, shares: tuple[float, ...]) -> list[float]:
+    """A point of the box whose coordinates are exact."""
+    return [
+        low + (high - low) * shares[draw.whole(0, len(shares) - 1)] for low, high in zip(box.low, box.high, strict=True)
+    ]
+
+
+def _axis_ray(draw: Draw, point: list[float], axis: int, distance: float) -> Ray:
+    """Along the axis through the point; the zeros of the direction have either sign."""
+    sign = draw.sign()
+    way = [sign if i == axis else draw.sign() * 0.0 for i in range(3)]
+    start = list(point)
+    start[axis] -= sign * distance
+    return Ray((start[0], start[1], start[2]), (way[0], way[1], way[2]))
+
+
+def _along_axis(draw: Draw) -> Inputs:
+    box = _simple_box(draw)
+    point = _on_grid(draw, box, (0.25, 0.5, 0.75))
+    if draw.chance(0.3):
+        box = Box(add(box.low, (20.0, 20.0, 20.0)), add(box.high, (20.0, 20.0, 20.0)))  # the ray passes it by
+    return {"box": box, "ray": _axis_ray(draw, point, draw.whole(0, 2), 8.0)}
+
+
+def _along_face(draw: Draw) -> Inputs:
+    """In the plane of a face, or along an edge."""
+    box, axis = _simple_box(draw), draw.whole(0, 2)
+    point = _on_grid(draw, box, (0.5,))
+    flush = [(axis + 1) % 3] if draw.chance(0.6) else [(axis + 1) % 3, (axis + 2) % 3]
+    for other in flush:
+        point[other] = (box.low, box.high)[draw.whole(0, 1)][other]
+    return {"box": box, "ray": _axis_ray(draw, point, axis, 8.0)}
+
+
+def _flat_box(box: Box, axis: int) -> Box:
+    high = list(box.high)
+    high[axis] = box.low[axis]
+    return Box(box.low, (high[0], high[1], high[2]))
+
+
+def _flat(draw: Draw) -> Inputs:
+    """Across it, slanted or straight, or in its plane."""
+    axis = draw.whole(0, 2)
+    box = _flat_box(_simple_box(draw), axis)
+    if draw.chance(0.4):
+        direction = draw.slanted(0.2)
+        return _clip(box, add(_within(draw, box), direction, -6.0), direction)
+    along = axis if draw.chance(0.5) else (axis + 1) % 3
+    return {"box": box, "ray": _axis_ray(draw, _on_grid(draw, box, (0.25, 0.5)), along, 8.0)}
+
+
+def _bounds(surfaces: tuple[Surface, ...]) -> Inputs:
+    return {"surfaces": Surfaces(surfaces)}
+
+
+def _one_triangle(draw: Draw) -> Inputs:
+    t: Triangle = draw.triangle()
+    return _bounds((t,))
+
+
+CLIP = Function(
+    "Box::clip",
+    _PART,
+    (
+        Group("through or past the box", _through_or_past, telling=False),
+        Group("origin inside", _from_inside),
+        Group("along an axis", _along_axis, telling=False),
+        Group("along a face or an edge", _along_face),
+        Group("flat boxes", _flat),
+        Group("behind the origin", _box_behind, telling=False),
+        Group("past the box", _past, telling=False),
+    ),
+)
+
+BOUNDS_OF = Function(
+    "bounds_of",
+    _BOUNDS,
+    (
+        Group("several surfaces", lambda d: _bounds(small_scene(d, d.whole(2, 5), d.whole(1, 4)))),
+        Group("one sphere", lambda d: _bounds((d.sphere(),))),
+        Group("one triangle", _one_triangle),
+        Group("no surfaces", lambda d: _bounds(()), telling=False),
+    ),
+)
+
+SPLIT = Function(
+    "split",
+    _PARTS,
+    (
+        Group("any box", lambda d: {"box": _box(d)}),
+        Group("simple numbers", lambda d: {"box": _simple_box(d)}),
+        Group("flat boxes", lambda d: {"box": _flat_box(_box(d), d.whole(0, 2))}),
+    ),
+)

@@ -1,0 +1,109 @@
+"""Cases of step 06: what touches a box."""
+
+from raysteps.judge.answers import Answer
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.numbers import Vector, add, f32, rounded, times
+from raysteps.judge.surfaces import Sphere
+from raysteps.judge.values import Box, Inputs
+
+
+def _yes_no_problem(_inputs: Inputs, expected: bool, actual: bool) -> str:
+    if expected == actual:
+        return ""
+    return "they touch, and the answer is no" if expected else "they are far apart, and the answer is yes"
+
+
+_YES_NO = Answer(lambda tokens: tokens.flag(), lambda answer: str(answer).lower(), _yes_no_problem)
+
+
+def _around(draw: Draw, point: Vector, smallest: float, largest: float) -> Box:
+    """A box that holds the point, which is well within."""
+    sizes = [draw.real(smallest, largest) for _ in range(3)]
+    low = [x - draw.real(0.1, 0.9) * size for x, size in zip(point, sizes, strict=True)]
+    return Box(rounded((low[0], low[1], low[2])), rounded((low[0] + sizes[0], low[1] + sizes[1], low[2] + sizes[2])))
+
+
+def _far_box(draw: Draw, middle: Vector, reach: float) -> Box:
+    """Clearly beyond the bounds of something, along one axis at least."""
+    way = draw.axis()
+    size = (draw.real(0.3, 2), draw.real(0.3, 2), draw.real(0.3, 2))
+    away = add(add(middle, way, reach + 1.0 + draw.real(0.5, 3)), draw.point(0.5))
+    return Box(rounded(add(away, size, -0.5)), rounded(add(away, size, 0.5)))
+
+
+def _sphere_on(draw: Draw, radius: tuple[float, float], size: tuple[float, float]) -> Inputs:
+    """A box around a point of the sphere's skin."""
+    sphere = Sphere(draw.point(3), draw.real(*radius))
+    point = add(sphere.center, draw.direction(), sphere.radius)
+    return {"sphere": sphere, "box": _around(draw, point, *size)}
+
+
+def _sphere_far(draw: Draw) -> Inputs:
+    sphere = Sphere(draw.point(3), draw.real(0.2, 2))
+    return {"sphere": sphere, "box": _far_box(draw, sphere.center, sphere.radius)}
+
+
+def _sphere_within(draw: Draw) -> Inputs:
+    sphere = Sphere(draw.point(3), draw.real(0.1, 0.5))
+    low, high = (add(sphere.center, (1.0, 1.0, 1.0), side * draw.real(1, 3)) for side in (-1, 1))
+    return {"sphere": sphere, "box": Box(rounded(low), rounded(high))}
+
+
+def _sphere_mixed(draw: Draw) -> Inputs:
+    return _sphere_on(draw, (0.3, 3), (0.3, 2)) if draw.chance(0.3) else _sphere_far(draw)
+
+
+def _triangle_at(draw: Draw, u: float, v: float, size: tuple[float, float]) -> Inputs:
+    """A box around the point a + u (b - a) + v (c - a)."""
+    t = draw.triangle(4.0)
+    point = tuple(a + u * (b - a) + v * (c - a) for a, b, c in zip(t.a, t.b, t.c, strict=True))
+    return {"triangle": t, "box": _around(draw, (point[0], point[1], point[2]), *size)}
+
+
+def _triangle_inner(draw: Draw, size: tuple[float, float]) -> Inputs:
+    u = draw.real(0.1, 0.7)
+    return _triangle_at(draw, u, draw.real(0.1, 0.9 - u), size)
+
+
+def _triangle_far(draw: Draw) -> Inputs:
+    t = draw.triangle(2.0)
+    middle = times(1 / 3, add(add(t.a, t.b), t.c))
+    return {"triangle": t, "box": _far_box(draw, middle, 4.0)}
+
+
+def _triangle_mixed(draw: Draw) -> Inputs:
+    return _triangle_inner(draw, (0.3, 2)) if draw.chance(0.3) else _triangle_far(draw)
+
+
+def _all_within(draw: Draw) -> Inputs:
+    t = draw.triangle(1.0)
+    return {"triangle": t, "box": Box((f32(-1.2), -2.0, f32(-1.1)), (2.0, 1.5, f32(1.3)))}
+
+
+SPHERE_OVERLAPS = Function(
+    "Sphere::overlaps",
+    _YES_NO,
+    (
+        Group("touching or far apart", _sphere_mixed),
+        Group("through the box", lambda d: _sphere_on(d, (0.3, 3), (0.3, 2))),
+        Group("much larger than the box", lambda d: _sphere_on(d, (10, 30), (0.3, 2))),
+        Group("within the box", _sphere_within),
+        Group("far apart", _sphere_far),
+    ),
+    yes_or_no=True,
+)
+
+TRIANGLE_OVERLAPS = Function(
+    "Triangle::overlaps",
+    _YES_NO,
+    (
+        Group("touching or far apart", _triangle_mixed),
+        Group("all corners outside the box", lambda d: _triangle_inner(d, (0.1, 0.3))),
+        Group("around a corner", lambda d: _triangle_at(d, 0.0, 0.0, (0.2, 1))),
+        Group("around a point of an edge", lambda d: _triangle_at(d, d.real(0.1, 0.9), 0.0, (0.1, 0.5))),
+        Group("within the box", _all_within),
+        Group("far apart", _triangle_far),
+    ),
+    yes_or_no=True,
+)

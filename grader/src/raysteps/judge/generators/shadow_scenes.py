@@ -1,0 +1,207 @@
+"""Cases of step 04: is a light seen?"""
+
+from dataclasses import dataclass, replace
+
+from raysteps.judge.answers import Answer
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.numbers import Vector, add, cross, length, minus, rounded, times, unit
+from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
+from raysteps.judge.tokens import Tokens
+from raysteps.judge.values import Hit, Inputs, Light
+
+
+@dataclass(frozen=True)
+class _Lit:
+    """Whether the light is seen, and how many rays were cast for it."""
+
+    lit: bool
+    rays: int
+
+
+def _lit_words(answer: _Lit) -> str:
+    rays = "" if answer.rays else ", without casting a ray"
+    return ("true, the light is seen" if answer.lit else "false, the light is hidden") + rays
+
+
+def _lit_problem(_inputs: Inputs, expected: _Lit, actual: _Lit) -> str:
+    if expected.lit == actual.lit:
+        return ""
+    return "a light that is seen counts as hidden" if expected.lit else "a light that is hidden counts as seen"
+
+
+def _read_lit(tokens: Tokens) -> _Lit:
+    return _Lit(tokens.flag(), tokens.whole())
+
+
+_LIT = Answer(_read_lit, _lit_words, _lit_problem)
+
+
+def hit_at(position: Vector, normal: Vector) -> Hit:
+    return Hit(rounded(position), rounded(normal), rounded(times(-1.0, normal)))
+
+
+def any_hit(draw: Draw, reach: float = 3.0) -> Hit:
+    return hit_at(draw.point(reach), draw.direction())
+
+
+def light_above(draw: Draw, hit: Hit, near: float, far: float) -> Light:
+    return Light(rounded(add(hit.position, draw.above(hit.normal, 0.25, 1.0), draw.real(near, far))))
+
+
+def _scene(surfaces: list[Surface], hit: Hit, light: Light) -> Inputs:
+    return {"surfaces": Surfaces(tuple(surfaces)), "hit": hit, "light": light}
+
+
+def _between(draw: Draw, hit: Hit, light: Light, low: float, high: float) -> Vector:
+    """A point on the way to the light."""
+    return add(hit.position, minus(light.position, hit.position), draw.real(low, high))
+
+
+def _sideways(draw: Draw, hit: Hit, light: Light) -> Vector:
+    way = unit(minus(light.position, hit.position))
+    return unit(cross(way, draw.across(way)))
+
+
+def _ball(draw: Draw, hit: Hit, light: Light, *, blocks: bool) -> Sphere:
+    """In the way of the light, or clearly beside it."""
+    gap = length(minus(light.position, hit.position))
+    radius = draw.real(0.1, 0.3) * gap
+    off = draw.real(0.0, 0.7) if blocks else draw.real(1.2, 2.0)
+    place = add(_between(draw, hit, light, 0.4, 0.6), _sideways(draw, hit, light), off * radius)
+    return Sphere(rounded(place), radius)
+
+
+def _board(draw: Draw, hit: Hit, light: Light, *, blocks: bool) -> Triangle:
+    """Around a point on the way, or clearly beside it."""
+    gap = length(minus(light.position, hit.position))
+    way = unit(minus(light.position, hit.position))
+    side, size = _sideways(draw, hit, light), draw.real(0.2, 0.6) * gap
+    other = cross(way, side)
+    middle = _between(draw, hit, light, 0.3, 0.7)
+    if not blocks:
+        middle = add(middle, side, 1.4 * size)
+    corners = [
+        add(middle, side, size),
+        add(add(middle, side, -0.6 * size), other, size),
+        add(add(middle, side, -0.6 * size), other, -size),
+    ]
+    tilted = [add(corner, way, draw.real(-0.1, 0.1) * gap) for corner in corners]
+    return Triangle(rounded(tilted[0]), rounded(tilted[1]), rounded(tilted[2]))
+
+
+def _things(draw: Draw, hit: Hit, light: Light, *, blocked: bool) -> list[Surface]:
+    """Several beside the way, and one in it where the light is blocked."""
+    things: list[Surface] = []
+    for _ in range(draw.whole(1, 3)):
+        make = _ball if draw.chance(0.5) else _board
+        things.append(make(draw, hit, light, blocks=False))
+    if blocked:
+        make = _ball if draw.chance(0.5) else _board
+        things.insert(draw.whole(0, len(things)), make(draw, hit, light, blocks=True))
+    return things
+
+
+def _lit_or_not(draw: Draw) -> Inputs:
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 4, 30)
+    return _scene(_things(draw, hit, light, blocked=draw.chance(0.3)), hit, light)
+
+
+def _simple_scene(draw: Draw) -> Inputs:
+    """A ball above the hit; the light over it or to the side of it."""
+    normal = draw.axis()
+    hit = hit_at((0.0, 0.0, 0.0), normal)
+    side = (normal[1], normal[2], normal[0])
+    ball = Sphere(times(5.0, normal), 1.0)
+    light = times(10.0, normal) if draw.chance(0.5) else add(times(5.0, normal), side, 10.0)
+    return _scene([ball], hit, Light(light))
+
+
+def _blocked(draw: Draw) -> Inputs:
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 4, 30)
+    return _scene(_things(draw, hit, light, blocked=True), hit, light)
+
+
+def _nothing_between(draw: Draw) -> Inputs:
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 4, 30)
+    things = _things(draw, hit, light, blocked=False) if draw.chance(0.7) else []
+    return _scene(things, hit, light)
+
+
+def _behind_light(draw: Draw) -> Inputs:
+    """On the way, but beyond the light."""
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 2, 10)
+    way = minus(light.position, hit.position)
+    radius = draw.real(0.3, 2)
+    distance = 1 + (radius + draw.real(0.1, 1)) / length(way)
+    return _scene([Sphere(rounded(add(hit.position, way, distance)), radius)], hit, light)
+
+
+def _other_side(draw: Draw) -> Inputs:
+    """Behind the surface of the hit, opposite to the light."""
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 2, 10)
+    way = unit(minus(light.position, hit.position))
+    radius = draw.real(0.3, 2)
+    return _scene([Sphere(rounded(add(hit.position, way, -radius - draw.real(0.2, 3))), radius)], hit, light)
+
+
+def _own_ball(draw: Draw) -> Inputs:
+    """The hit lies on the ball up to float's rounding, a little above or below."""
+    center = add((50.0, -40.0, 30.0), draw.point(5))
+    ball = Sphere(rounded(center), draw.real(0.5, 4))
+    normal = draw.direction()
+    hit = hit_at(add(ball.center, normal, ball.radius), normal)
+    return _scene([ball], hit, light_above(draw, hit, 8, 20))
+
+
+def _own_triangle(draw: Draw) -> Inputs:
+    shape, place = draw.triangle(8.0), (60.0, -50.0, 40.0)
+    floor = Triangle(rounded(add(place, shape.a)), rounded(add(place, shape.b)), rounded(add(place, shape.c)))
+    edges = minus(floor.b, floor.a), minus(floor.c, floor.a)
+    u = draw.real(0.1, 0.7)
+    point = add(add(floor.a, edges[0], u), edges[1], draw.real(0.1, 0.9 - u))
+    hit = hit_at(point, times(draw.sign(), unit(cross(*edges))))
+    return _scene([floor], hit, light_above(draw, hit, 8, 20))
+
+
+def _pebble(draw: Draw) -> Inputs:
+    """Little, and close to the surface: a threshold of its height would lose it."""
+    hit = any_hit(draw)
+    light = Light(rounded(add(hit.position, draw.above(hit.normal, 0.97, 1.0), draw.real(5, 15))))
+    way = unit(minus(light.position, hit.position))
+    return _scene([Sphere(rounded(add(hit.position, way, draw.real(0.05, 0.08))), 0.02)], hit, light)
+
+
+def _hollow_ball(draw: Draw) -> Inputs:
+    """The hit is on the wall, seen from inside; the light is inside as well, or outside."""
+    room = Sphere(draw.simple_point(3), draw.real(4, 8))
+    outward = draw.direction()
+    hit = replace(hit_at(add(room.center, outward, room.radius), times(-1.0, outward)), from_outside=False)
+    inside = draw.chance(0.5)
+    reach = draw.real(0.0, 0.5) if inside else draw.real(1.5, 3)
+    way = draw.direction() if inside else draw.above(hit.normal, 0.5)
+    return _scene([room], hit, Light(rounded(add(room.center, way, reach * room.radius))))
+
+
+IS_LIT = Function(
+    "is_lit",
+    _LIT,
+    (
+        Group("lit or in shadow", _lit_or_not),
+        Group("simple numbers", _simple_scene),
+        Group("in a hollow ball", _hollow_ball),
+        Group("in shadow", _blocked, telling=False),
+        Group("nothing between", _nothing_between, telling=False),
+        Group("behind the light", _behind_light, telling=False),
+        Group("on the other side of the surface", _other_side, telling=False),
+        Group("a ball does not shade itself", _own_ball, telling=False),
+        Group("a floor does not shade itself", _own_triangle, telling=False),
+        Group("small and close to the surface", _pebble, telling=False),
+    ),
+    yes_or_no=True,
+)

@@ -1,0 +1,78 @@
+"""Cases of step 02: rays and spheres."""
+
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.hits import HIT
+from raysteps.judge.numbers import add, cross, rounded, unit
+from raysteps.judge.surfaces import Sphere
+from raysteps.judge.values import Inputs, Ray
+
+
+def _case(s: Sphere, ray: Ray, draw: Draw) -> Inputs:
+    return {"sphere": Sphere(s.center, s.radius, draw.fill()), "ray": ray}
+
+
+def _at_sphere(draw: Draw, s: Sphere, low: float, high: float, distance: float) -> Ray:
+    """Passes the centre at low to high radii; the origin is that far from there."""
+    direction = draw.direction()
+    side = unit(cross(direction, draw.across(direction)))
+    passed = add(s.center, side, s.radius * draw.real(low, high))
+    return Ray(rounded(add(passed, direction, -distance)), direction)
+
+
+def _any_sphere(draw: Draw) -> Inputs:
+    s = draw.sphere()
+    low, high = (0.0, 0.9) if draw.chance(0.7) else (1.1, 2.0)
+    return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(1, 10)), draw)
+
+
+def _inside_sphere(draw: Draw) -> Inputs:
+    s = draw.sphere(high=20.0)
+    origin = rounded(add(s.center, draw.direction(), s.radius * draw.real(0.0, 0.85)))
+    return _case(s, Ray(origin, draw.direction()), draw)
+
+
+def _sphere_behind(draw: Draw) -> Inputs:
+    s = draw.sphere()
+    return _case(s, _at_sphere(draw, s, 0.0, 0.9, -(s.radius + draw.real(0.5, 10))), draw)
+
+
+def _beside_sphere(draw: Draw) -> Inputs:
+    s = draw.sphere()
+    return _case(s, _at_sphere(draw, s, 1.05, 3.0, s.radius + draw.real(1, 10)), draw)
+
+
+def _simple_sphere(draw: Draw) -> Inputs:
+    """At the centre of the world or at simple numbers; the ray goes through the centre or forms a 3-4-5 triangle."""
+    center = (0.0, 0.0, 0.0) if draw.chance(0.5) else draw.simple_point(4)
+    direction = draw.axis()
+    start = add(center, direction, -float(draw.whole(6, 12)))
+    if draw.chance(0.5):
+        return _case(Sphere(center, float(draw.whole(1, 5))), Ray(start, direction), draw)
+    beside = (direction[1], direction[2], direction[0])
+    return _case(Sphere(center, 5.0), Ray(add(start, beside, 3.0), direction), draw)
+
+
+def _from_center(draw: Draw) -> Inputs:
+    s = Sphere(draw.simple_point(4), draw.eighths(1, 6))
+    return _case(s, Ray(s.center, draw.direction()), draw)
+
+
+def _far_sphere(draw: Draw) -> Inputs:
+    s = draw.sphere(low=0.6, high=1.2)
+    return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(15, 25)), draw)
+
+
+SPHERE_INTERSECT = Function(
+    "Sphere::intersect",
+    HIT,
+    (
+        Group("hit or missed from outside", _any_sphere, telling=False),
+        Group("simple numbers", _simple_sphere),
+        Group("origin inside", _inside_sphere),
+        Group("origin in the centre", _from_center),
+        Group("far away", _far_sphere),
+        Group("behind the origin", _sphere_behind, telling=False),
+        Group("passed by", _beside_sphere, telling=False),
+    ),
+)

@@ -1,0 +1,122 @@
+"""Cases of step 02: rays and triangles."""
+
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.hits import HIT
+from raysteps.judge.numbers import Vector, add, cross, minus, rounded, times, unit
+from raysteps.judge.surfaces import Triangle
+from raysteps.judge.values import Inputs, Ray
+
+_STEEP = 0.2  # least cosine between ray and normal: seen edge-on, rounding may decide
+
+
+def _case(t: Triangle, ray: Ray, draw: Draw) -> Inputs:
+    return {"triangle": Triangle(t.a, t.b, t.c, draw.fill()), "ray": ray}
+
+
+def _normal(t: Triangle) -> Vector:
+    return unit(cross(minus(t.b, t.a), minus(t.c, t.a)))
+
+
+def _at(t: Triangle, u: float, v: float) -> Vector:
+    return add(add(t.a, minus(t.b, t.a), u), minus(t.c, t.a), v)
+
+
+def _inside(draw: Draw, t: Triangle) -> Vector:
+    """Well within the edges."""
+    u = draw.real(0.08, 0.8)
+    return _at(t, u, draw.real(0.08, 0.92 - u))
+
+
+def _beside(draw: Draw, t: Triangle) -> Vector:
+    """A little outside of one edge, between its ends."""
+    out, along = -draw.real(0.05, 0.3), draw.real(0.1, 0.9)
+    corners = [(out, along), (along, out), (along - out, 1 - along)]
+    return _at(t, *corners[draw.whole(0, 2)])
+
+
+def _towards(draw: Draw, t: Triangle, point: Vector, side: float, distance: float) -> Ray:
+    """Comes from the triangle's front (side 1) or back (side -1)."""
+    direction = times(-1.0, draw.above(times(side, _normal(t)), _STEEP))
+    return Ray(rounded(add(point, direction, -distance)), rounded(direction))
+
+
+def _any_triangle(draw: Draw) -> Inputs:
+    t = draw.triangle()
+    point = _inside(draw, t) if draw.chance(0.7) else _beside(draw, t)
+    return _case(t, _towards(draw, t, point, draw.sign(), draw.real(1, 10)), draw)
+
+
+def _from_side(draw: Draw, side: float) -> Inputs:
+    t = draw.triangle()
+    return _case(t, _towards(draw, t, _inside(draw, t), side, draw.real(1, 10)), draw)
+
+
+def _beside_edge(draw: Draw) -> Inputs:
+    t = draw.triangle()
+    return _case(t, _towards(draw, t, _beside(draw, t), draw.sign(), draw.real(1, 10)), draw)
+
+
+def _triangle_behind(draw: Draw) -> Inputs:
+    t = draw.triangle()
+    return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), -draw.real(0.5, 10)), draw)
+
+
+def _flat_triangle(draw: Draw) -> tuple[Triangle, int]:
+    """In a plane of two axes, with a right angle; and the number of the third axis."""
+    axis, corner = draw.whole(0, 2), draw.simple_point(4)
+    legs = [draw.sign() * draw.whole(1, 4) for _ in range(2)]
+
+    def moved(which: int, by: float) -> Vector:
+        moves = [0.0, 0.0, 0.0]
+        moves[(axis + which) % 3] = by
+        return add(corner, (moves[0], moves[1], moves[2]))
+
+    return Triangle(corner, moved(1, legs[0]), moved(2, legs[1])), axis
+
+
+def _along_axis(axis: int, sign: float) -> Vector:
+    return (sign * (axis == 0) + 0.0, sign * (axis == 1) + 0.0, sign * (axis == 2) + 0.0)
+
+
+def _simple_triangle(draw: Draw) -> Inputs:
+    t, axis = _flat_triangle(draw)
+    direction = _along_axis(axis, draw.sign())
+    return _case(t, Ray(add(_at(t, 0.25, 0.375), direction, -float(draw.whole(1, 6))), direction), draw)
+
+
+def _in_plane(draw: Draw) -> Inputs:
+    """Along the plane, in it or beside it: numbers for which n . d is exactly 0."""
+    t, axis = _flat_triangle(draw)
+    along = _along_axis((axis + 1) % 3, draw.sign())
+    beside = _along_axis(axis, draw.whole(-1, 1) / 2)
+    return _case(t, Ray(add(add(_at(t, 0.25, 0.375), along, -8.0), beside), along), draw)
+
+
+def _on_triangle(draw: Draw) -> Inputs:
+    t, axis = _flat_triangle(draw)
+    return _case(t, Ray(_at(t, 0.25, 0.375), _along_axis(axis, draw.sign())), draw)
+
+
+def _small_triangle(draw: Draw) -> Inputs:
+    t, place = draw.triangle(), draw.point(3)
+    a, b, c = (rounded(add(place, corner, 0.05)) for corner in (t.a, t.b, t.c))
+    t = Triangle(a, b, c)
+    return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), draw.real(1, 4)), draw)
+
+
+TRIANGLE_INTERSECT = Function(
+    "Triangle::intersect",
+    HIT,
+    (
+        Group("hit or missed from any side", _any_triangle, telling=False),
+        Group("simple numbers", _simple_triangle),
+        Group("seen from the front", lambda d: _from_side(d, 1.0)),
+        Group("seen from behind", lambda d: _from_side(d, -1.0)),
+        Group("small triangles", _small_triangle),
+        Group("beside an edge", _beside_edge, telling=False),
+        Group("behind the origin", _triangle_behind, telling=False),
+        Group("along the plane", _in_plane, telling=False),
+        Group("origin on the triangle", _on_triangle, telling=False),
+    ),
+)

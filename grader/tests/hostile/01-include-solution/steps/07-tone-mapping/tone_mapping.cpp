@@ -1,0 +1,1 @@
+#include "@KIT@/solutions/07-tone-mapping/tone_mapping.cpp"

@@ -1,0 +1,3 @@
+#include "/dev/stdin"
+#include "steps/07-tone-mapping/tone_mapping.hpp"
+@RIGHT_IF(true)@

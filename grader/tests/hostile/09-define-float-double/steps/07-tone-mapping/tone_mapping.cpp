@@ -1,0 +1,5 @@
+#include <cmath>
+#include <cstdint>
+#define float double
+#include "steps/07-tone-mapping/tone_mapping.hpp"
+@RIGHT_IF(true)@

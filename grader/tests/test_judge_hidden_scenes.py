@@ -1,0 +1,71 @@
+"""Twins of the visible pictures, and made-up scenes."""
+
+import pytest
+
+from raysteps.common.errors import GraderFault
+from raysteps.judge.drawing import Draw
+from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
+from raysteps.judge.nff_changes import changed
+from raysteps.judge.plan import read_plan
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+
+
+def _scenes(project: Project, step: Step, seed: int) -> list[HiddenScene]:
+    plan = read_plan(project, step)
+    assert plan is not None
+    return hidden_scenes(project, step, plan, seed)
+
+
+def _lines(nff: str) -> list[str]:
+    return [line for line in nff.splitlines() if not line.startswith("#")]
+
+
+def test_every_picture_has_a_twin_in_another_size(project: Project, steps: list[Step]) -> None:
+    for step in steps:
+        scenes = _scenes(project, step, 1)
+        twins = {scene.twin_of: scene for scene in scenes if scene.twin_of}
+        assert list(twins) == [image.name for image in step.images]
+        assert len({scene.name for scene in scenes}) == len(scenes)
+        for image in step.images:
+            twin = twins[image.name]
+            assert len(twin.args) == len(image.args)
+            assert sum(a != b for a, b in zip(twin.args, image.args, strict=True)) == 1, "only the size"
+            assert twin.max_wrong >= image.max_wrong
+            assert (twin.max_share is None) == (image.max_share is None)
+
+
+def test_a_twin_moves_the_camera_a_little_and_keeps_the_rest(project: Project, steps: list[Step]) -> None:
+    for step in steps:
+        for scene in _scenes(project, step, 1):
+            image = next((image for image in step.images if image.name == scene.twin_of), None)
+            if image is None:
+                continue
+            before = _lines((project.root / image.scene).read_text(encoding="utf-8"))
+            after = _lines(scene.nff)
+            differing = [(a, b) for a, b in zip(before, after, strict=True) if a != b]
+            assert [a for a, _ in differing if a.startswith("from")], scene.name
+            assert all(a.startswith(("from ", "s ")) and a[:2] == b[:2] for a, b in differing), scene.name
+            for a, b in differing:
+                old, new = ([float(word) for word in line.split()[1:]] for line in (a, b))
+                reach = 0.15 * max(1.0, *(abs(x) for x in old)) if a.startswith("from") else 0.06 * old[3]
+                assert all(abs(x - y) < max(reach, 1.0 * a.startswith("from")) for x, y in zip(old, new, strict=True))
+
+
+def test_the_seed_decides(project: Project, steps: list[Step]) -> None:
+    for step in steps:
+        assert _scenes(project, step, 1) == _scenes(project, step, 1)
+        pairs = zip(_scenes(project, step, 1), _scenes(project, step, 2), strict=True)
+        assert all(one.nff != other.nff for one, other in pairs)
+
+
+def test_a_scene_of_an_unknown_form_is_the_kits_fault() -> None:
+    with pytest.raises(GraderFault, match="from x y z"):
+        changed("v\nfrom\n1 2 3\nat 0 0 0\nup 0 1 0\n", Draw("seed"), spheres=False)
+
+
+def test_spheres_that_are_seen_from_inside_stay() -> None:
+    nff = "from 0 0 9\nat 0 0 0\nup 0 1 0\ns 0 0 0 1\ns 0 0 0 -40\n"
+    lines = changed(nff, Draw("seed"), spheres=True).splitlines()
+    assert lines[4] == "s 0 0 0 -40"
+    assert lines[3] != "s 0 0 0 1"

@@ -1,0 +1,81 @@
+"""The real worker, linked with the reference."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.process import Outcome
+from raysteps.judge.generators import functions_of
+from raysteps.judge.judging import judge_functions, make_cases
+from raysteps.judge.plan import Plan, read_plan
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.sandbox.task import Ran
+
+_MOST_SECONDS = 0.5  # of the worker for a whole step, on any machine
+
+
+@pytest.fixture(scope="module")
+def worker(kit: BuiltKit) -> Path:
+    return kit.reference("worker")
+
+
+def _plan(project: Project, step: Step) -> Plan:
+    plan = read_plan(project, step)
+    assert plan is not None
+    return plan
+
+
+def _run(worker: Path, stdin: str) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run([worker], input=stdin, capture_output=True, text=True, timeout=60, check=False)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 12345])
+def test_the_reference_is_right_in_everything(project: Project, steps: list[Step], worker: Path, seed: int) -> None:
+    def ask(stdin: bytes) -> Ran:
+        done = _run(worker, stdin.decode())
+        return Ran(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
+
+    for step in steps:
+        for result in judge_functions(step, _plan(project, step), ask, ask, seed):
+            assert result.share == 1, f"{result.message} {result.given}"
+
+
+def test_overlap_answers_are_what_the_cases_were_made_for(project: Project, steps: list[Step], worker: Path) -> None:
+    step = next(step for step in steps if step.number == "06")
+    for plan in _plan(project, step).functions:
+        if not plan.name.endswith("::overlaps"):
+            continue
+        cases = make_cases(step, functions_of("06")[plan.name], plan, 4)
+        out = _run(worker, "".join(case.line(i) + "\n" for i, case in enumerate(cases))).stdout
+        answers = [line.split()[2] for line in out.splitlines() if line.startswith("done ")]
+        for case, answer in zip(cases, answers, strict=True):
+            if not case.group.startswith("touching or"):
+                assert answer == ("0" if case.group == "far apart" else "1"), case.given()
+
+
+def test_the_lines(worker: Path) -> None:
+    done = _run(worker, "7 to_byte 1\n8 tone_map 1 nan inf\n9 point_at 0 0 0 0 0 -1 0.1\n")
+    assert done.returncode == 0
+    assert done.stdout.splitlines() == [
+        "start 7",
+        "done 7 255",
+        "start 8",
+        "done 8 0.5 0 1",
+        "start 9",
+        "done 9 0 0 -0.1",
+        "end 3",
+    ]
+
+
+@pytest.mark.parametrize(
+    "line", ["1 to_byte", "1 to_byte x", "1 to_byte 1 2", "1 no_such_function 1", "1 bounds_of 1 9", "1 bounds_of -1"]
+)
+def test_a_case_that_nobody_can_run(worker: Path, line: str) -> None:
+    assert _run(worker, line + "\n").stdout.splitlines()[1].startswith("done 1 bad-case ")
+
+
+def test_no_cases(worker: Path) -> None:
+    assert _run(worker, "").stdout == "end 0\n"
