@@ -4,7 +4,8 @@ import pytest
 
 from raysteps.common.catch_report import parse_report
 
-CASES = """<TestCase name="good" tags="[04-shadows][is_lit]" filename="/k/a_test.cpp" line="3"><OverallResult success="true"/></TestCase>
+CASES = """<TestCase name="good" tags="[04-shadows][is_lit]" filename="/k/a_test.cpp" line="3">
+<OverallResult success="true"/></TestCase>
 <TestCase name="bad" filename="/k/a_test.cpp" line="7"><Section name="inner">
 <Info>the ray goes up</Info>
 <Expression success="false" type="REQUIRE" filename="/k/a_test.cpp" line="9">

@@ -7,7 +7,7 @@ import pytest
 
 from raysteps.commands.check_and_grade import exit_code
 from raysteps.common.errors import GraderFault
-from raysteps.grading.results import ImageResult, Results, StepResult, TestResult, validate, write_results
+from raysteps.grading.results import ImageResult, Results, StepResult, TestResult, validate, write_document
 
 
 def _step(**changes: object) -> StepResult:
@@ -21,7 +21,7 @@ def test_the_bonus_is_on_top(tmp_path: Path) -> None:
     bonus = _step(id="08-refraction", bonus=True)
     bonus.tests = [TestResult("t", True)]
     bonus.images = [ImageResult("i", "scenes/a.nff", True, 0.01)]
-    path = write_results(Results("anna", [_step(), bonus]), tmp_path / "out")
+    path = write_document(Results("anna", [_step(), bonus]).to_json(), tmp_path / "out")
     document = json.loads(path.read_text())
     assert document["schema"] == "raysteps/results/v1"
     assert document["total"] == {"points": 20.0, "max": 10.0, "bonus": {"points": 10.0, "max": 10.0}}
@@ -30,7 +30,7 @@ def test_the_bonus_is_on_top(tmp_path: Path) -> None:
 
 def test_a_document_that_breaks_the_schema_is_never_written(tmp_path: Path) -> None:
     with pytest.raises(GraderFault, match="status"):
-        write_results(Results("anna", [_step(status="great")]), tmp_path)
+        write_document(Results("anna", [_step(status="great")]).to_json(), tmp_path)
     assert not list(tmp_path.iterdir())
     with pytest.raises(GraderFault):
         validate({"schema": "raysteps/results/v1"})
