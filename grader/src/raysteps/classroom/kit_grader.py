@@ -1,6 +1,8 @@
 """The grader of a class: the kit of this machine, with its strongest sandbox."""
 
+import os
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +31,8 @@ class KitGrader:
             feedback=settings["feedback"],
             limits=settings["limits"],
         )
+        with suppress(OSError):
+            os.utime(self._kit.folder)  # kits that were not used for long are deleted when another one is built
         grade_one(self._kit, submission, wanted, self._sandbox, out, say)
 
 

@@ -31,11 +31,14 @@ def read_ppm(path: Path) -> Pixels:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError as error:
         raise PictureError("no picture was written") from error
-    with os.fdopen(handle, "rb") as file:
+    try:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode) or status.st_size > _MAX_BYTES:
             raise PictureError("the picture is not a regular file of a sensible size")
-        return parse_ppm(file.read(_MAX_BYTES))
+        with os.fdopen(handle, "rb", closefd=False) as file:
+            return parse_ppm(file.read(_MAX_BYTES))
+    finally:
+        os.close(handle)
 
 
 def parse_ppm(data: bytes) -> Pixels:
