@@ -3,9 +3,9 @@
 get_target_property(options raysteps-flags INTERFACE_COMPILE_OPTIONS)
 set(compile_flags ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION} ${options})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    list(APPEND compile_flags -fno-gnu-unique -fmax-errors=20)
+    list(APPEND compile_flags -fno-gnu-unique -fmax-errors=20 -fno-diagnostics-show-caret)
 elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    list(APPEND compile_flags -ferror-limit=20)
+    list(APPEND compile_flags -ferror-limit=20 -fno-caret-diagnostics)
 endif()
 if(RAYSTEPS_SEAL)
     list(APPEND compile_flags -fPIC -fno-semantic-interposition)  # a step becomes a library that programs load

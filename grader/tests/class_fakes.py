@@ -113,6 +113,18 @@ def write_entry(folder: Path, name: str, text: str) -> Path:
     return folder / name
 
 
+def start_class(*words: str | Path) -> "subprocess.Popen[str]":
+    """As a process of its own, which hears SIGINT even where the tests run in the background and do not."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "class_fakes", *map(str, words)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+
+
 def grade_class(*words: str | Path | int, console: Console | None = None) -> int:
     """As the command line, but with the fake grader."""
     parser = argparse.ArgumentParser()

@@ -13,7 +13,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
-from class_fakes import grade_class, write_entry
+from class_fakes import grade_class, start_class, write_entry
 
 import raysteps.classroom.cluster
 from raysteps.classroom.keys import without_times
@@ -32,7 +32,7 @@ class _Cluster:
         self._processes: list[subprocess.Popen[bytes]] = []
         file = folder / "scheduler.json"
         self._start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(file))
-        wait_for(file.exists)
+        wait_for(lambda: file.exists() and file.read_text().rstrip().endswith("}"))
         self.address = str(json.loads(file.read_text())["address"])
 
     def _start(self, program: str, *words: str, **changes: str) -> "subprocess.Popen[bytes]":
@@ -90,8 +90,7 @@ def test_a_worker_is_lost(tmp_path: Path, cluster: _Cluster) -> None:
     out, here = tmp_path / "out", tmp_path / "here"
     victim = cluster.worker("one")
     cluster.worker("two")
-    words = [str(folder), "--out", str(out), "--scheduler", cluster.address]
-    head = subprocess.Popen([sys.executable, "-m", "class_fakes", *words], stderr=subprocess.PIPE, text=True)
+    head = start_class(folder, "--out", out, "--scheduler", cluster.address)
     wait_for(lambda: {"one", "two"} <= set(_log(tmp_path, "at")) and len(_log(tmp_path, "end")) >= 4)
     wait_for(lambda: len(_log(tmp_path, "begin")) > len(_log(tmp_path, "end")))
     victim.send_signal(signal.SIGKILL)
@@ -140,9 +139,7 @@ def test_interrupted(tmp_path: Path, cluster: _Cluster) -> None:
     cluster.worker("one")
     write_entry(tmp_path / "in", "a", "// points 1\n")
     write_entry(tmp_path / "in", "b", "// program\n")
-    words = [str(tmp_path / "in"), "--out", str(tmp_path / "out"), "--scheduler", cluster.address]
-    command = [sys.executable, "-m", "class_fakes", *words]
-    head = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    head = start_class(tmp_path / "in", "--out", tmp_path / "out", "--scheduler", cluster.address)
     wait_for(lambda: bool(_log(tmp_path, "program")) and "a" in _results(tmp_path / "out"))
     (program,) = _log(tmp_path, "program")
     head.send_signal(signal.SIGINT)

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.classroom.database import ClassDatabase, Registered, Registration, RunFacts
+from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.keys import submission_key, without_times
 from raysteps.classroom.messages import Answer, Job
+from raysteps.classroom.records import Registered, Registration, RunFacts
 from raysteps.classroom.spreadsheet import csv_bytes, safe_cell
 from raysteps.classroom.tables import VERSION, open_database, transaction
 from raysteps.common.errors import GraderFault, UsageError

@@ -4,15 +4,13 @@ import json
 import os
 import signal
 import sqlite3
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
 import pytest
-from class_fakes import write_entry
+from class_fakes import start_class, write_entry
 
 from raysteps.classroom.keys import without_times
 
@@ -26,11 +24,6 @@ def _fakes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     scratch = tmp_path / "scratch"
     scratch.mkdir()
     monkeypatch.setenv("TMPDIR", str(scratch))
-
-
-def _start(*words: str | Path) -> "subprocess.Popen[str]":
-    command = [sys.executable, "-m", "class_fakes", *map(str, words)]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
 def _wait_for(what: Callable[[], bool]) -> None:
@@ -72,7 +65,7 @@ def test_interrupted(tmp_path: Path, number: signal.Signals) -> None:
     for name in ("s02", "s03"):
         write_entry(folder, name, "// points 5\n// program\n")
     out = tmp_path / "out with spaces"
-    process = _start(folder, "--out", out, "--jobs", "2", "--seed", "7")
+    process = start_class(folder, "--out", out, "--jobs", "2", "--seed", "7")
     _wait_for(lambda: len(_log(tmp_path, "program")) == 2 and len(_results(out)) == 2)
     programs = [int(pid) for pid in _log(tmp_path, "program")]
     assert all(map(_runs, programs))
@@ -92,7 +85,7 @@ def test_interrupted(tmp_path: Path, number: signal.Signals) -> None:
 def test_killed(tmp_path: Path) -> None:
     folder = _class(tmp_path, 12, 0.3)
     out, other = tmp_path / "out", tmp_path / "undisturbed"
-    process = _start(folder, "--out", out, "--jobs", "3")
+    process = start_class(folder, "--out", out, "--jobs", "3")
     _wait_for(lambda: len(_log(tmp_path, "end")) >= 5)
     process.kill()
     process.communicate(timeout=_PATIENCE)
@@ -104,12 +97,12 @@ def test_killed(tmp_path: Path) -> None:
     assert all(json.loads(document)["total"]["points"] == points for document, points in rows)
     _wait_for(lambda: not list((tmp_path / "scratch").iterdir()))  # its workers end by themselves
     (tmp_path / "log.txt").unlink()
-    process = _start(folder, "--out", out, "--jobs", "3", "--resume")
+    process = start_class(folder, "--out", out, "--jobs", "3", "--resume")
     printed, errors = process.communicate(timeout=_PATIENCE)
     assert process.returncode == 0, errors
     assert len(_log(tmp_path, "begin")) == 12 - len(rows)
     assert f"{len(rows)} result" in printed
-    process = _start(folder, "--out", other, "--jobs", "3")
+    process = start_class(folder, "--out", other, "--jobs", "3")
     process.communicate(timeout=_PATIENCE)
     assert _results(out) == _results(other)
     assert len(_results(out)) == 12
@@ -122,9 +115,9 @@ def test_killed(tmp_path: Path) -> None:
 def test_two_at_once(tmp_path: Path) -> None:
     folder = _class(tmp_path, 2, 2)
     out = tmp_path / "out"
-    first = _start(folder, "--out", out)
+    first = start_class(folder, "--out", out)
     _wait_for(lambda: bool(_log(tmp_path, "begin")))
-    second = _start(folder, "--out", out)
+    second = start_class(folder, "--out", out)
     _, errors = second.communicate(timeout=_PATIENCE)
     assert second.returncode == 2
     assert "another grade-class is writing there" in errors

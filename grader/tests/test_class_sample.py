@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.classroom.sample_class import FORMS, KINDS, MISTAKES, make_class
+from raysteps.classroom.sample_class import KINDS, MISTAKES, make_class
+from raysteps.classroom.sample_forms import FORMS
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import same_code

@@ -157,6 +157,7 @@ def test_moodle_changes_grades_and_feedback_only(
     assert feedback.startswith("87.5 points, 70 after lateness.<br>")
     assert "&lt;script&gt;alert(1)&lt;/script&gt;" in feedback
     assert "<script" not in feedback
+    assert "<br>  - hidden function 0: " in feedback
     assert "secret" not in feedback
     assert not any(ord(letter) < 32 for letter in feedback)
     assert filled.endswith('Yes,-,-,""\n' + '"Participant 103"' + MOODLE.split('"Participant 103"')[1])
@@ -196,9 +197,11 @@ def test_another_maximum_needs_a_word(case: Case) -> None:
 
 
 def test_who_has_no_points_keeps_the_cell(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
-    case.results("x,102,,,,100,,\ny,101,,,5,100,,\n")
+    case.results("x,102,,,,100,,\ny,101,,,5,100,,\n,104,Bob,,,,,\n")
     assert 'jose,"A, B",,55,' in case.run("canvas", CANVAS, "--assignment", "12")
-    assert "José 102 (line 5) has no points in results.csv" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "José 102 (line 5) has no points in results.csv" in said
+    assert "Bob 104 (line 7) handed nothing in" in said
 
 
 @pytest.mark.parametrize("points", ["nan", "-1", "inf", "many"])

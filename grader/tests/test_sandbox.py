@@ -105,6 +105,18 @@ def test_a_program_cannot_read_secrets(sandbox: Sandbox, misbehave: Misbehave, s
         assert (ran.outcome.code, ran.outcome.stdout) == (1, "refused\n")
 
 
+def test_no_other_process_tells_of_the_grader(
+    sandbox: Sandbox, hostile: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first process inside is bubblewrap's own, and it is as readable as any."""
+    monkeypatch.setenv("TOKEN", "trap-for-cheats")
+    scene = tmp_path / "trap-for-cheats.nff"
+    scene.write_text("sphere\n", encoding="ascii")
+    for file in ("/proc/1/environ", "/proc/1/cmdline", "/proc/1/maps"):
+        said = sandbox.run(Task((Input(hostile, "program"), "read", file, Input(scene, "1.nff"))))
+        assert "trap" not in said.outcome.stdout + said.outcome.stderr
+
+
 def test_a_neutral_name_is_all_that_is_told(sandbox: Sandbox, hostile: Path, tmp_path: Path) -> None:
     scene = tmp_path / "trap-for-cheats.nff"
     scene.write_text("sphere\n", encoding="ascii")

@@ -18,10 +18,10 @@ def _honest(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.cpp")}
 
 
-def _zip(folder: Path, files: Mapping[str, bytes] = {}, method: int = zipfile.ZIP_DEFLATED) -> Path:
+def _zip(folder: Path, files: Mapping[str, bytes] | None = None, method: int = zipfile.ZIP_DEFLATED) -> Path:
     path = folder.with_suffix(".zip")
     with zipfile.ZipFile(path, "w", method) as archive:
-        for name, data in (_honest(folder) | dict(files)).items():
+        for name, data in (_honest(folder) | dict(files or {})).items():
             archive.writestr(name, data)
     return path
 

@@ -11,14 +11,13 @@ _FILE = "tone_mapping.cpp"
 
 
 def odd_names(folder: Path, facts: Mapping[str, str]) -> Path:
-    touch = f"touch {facts['TRACE']}".replace("/", "${HOME%%[a-z]*}")
+    touch = "touch${IFS}trace"
     names = ["-fplugin=x.so", "@file", "-o", "--specs=x", "-x", ";", f"$({touch})", f"`{touch}`", "a\nb", "a b", "*", "~"]
     for name in names:
         for place in (folder, folder / _STEP):
             (place / name).write_text("-fplugin=x.so")
             (place / f"{name}.cpp").write_text("-fplugin=x.so")
-    raw = Path(os.fsdecode(os.fsencode(folder / _STEP) + b"/\xff\xfe\x1b[31m.cpp"))
-    raw.write_text("x")
+    Path(os.fsdecode(os.fsencode(folder / _STEP) + b"/\xff\xfe\x1b[31m.cpp")).write_text("x")
     return folder
 
 

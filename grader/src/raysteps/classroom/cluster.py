@@ -3,12 +3,15 @@
 import logging
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.cluster_task import kit_of, run_job, stop_run
+from raysteps.classroom.cluster_check import check_kits
+from raysteps.classroom.cluster_task import run_job, stop_run
 from raysteps.classroom.graders import Say
 from raysteps.classroom.messages import Answer, Job
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.text import count
 
 _CONNECT_SECONDS = 15
 _LOOK_SECONDS = 2
@@ -52,45 +55,15 @@ class Cluster:
         except Exception as error:
             raise GraderFault(_GONE.format(self._address)) from error
 
-    def _check_kits(self) -> None:
-        """Another kit would give other grades: better to learn that before anything is graded."""
-        import distributed
-
+    def _wait_for_workers(self) -> None:
         if not self._workers():
             self._say("waiting for the first worker of the cluster")
-            while not self._workers():
-                try:
-                    self._client.wait_for_workers(1, timeout=_LOOK_SECONDS)
-                except TimeoutError:
-                    continue
+        while not self._workers():
+            with suppress(TimeoutError):
+                self._client.wait_for_workers(1, timeout=_LOOK_SECONDS)
         workers = self._workers()
-        self._say(f"{len(workers)} workers, {sum(workers.values())} submissions at a time")
-        asked = {
-            worker: self._client.submit(
-                kit_of, self._grader, self._require_sandbox, workers=[worker], allow_other_workers=False, pure=False
-            )
-            for worker in workers
-        }
-        problems = []
-        while asked:
-            for worker, future in list(asked.items()):
-                try:
-                    kit = future.result(timeout=_LOOK_SECONDS)
-                except (TimeoutError, distributed.TimeoutError):
-                    if worker in self._workers():
-                        continue
-                    kit = self._kit  # it is gone, and checks nothing any more
-                except Exception as error:
-                    kit = f"cannot grade: {error}"
-                del asked[worker]
-                if kit != self._kit:
-                    problems.append(f"{worker}: {kit}")
-        if problems:
-            lines = "\n  ".join(problems)
-            raise GraderFault(
-                f"these workers do not have the kit of this machine ({self._kit}):\n  {lines}\n"
-                "Install the same version of the kit, and the same compiler, on every machine."
-            )
+        room = count(sum(workers.values()), "submission")
+        self._say(f"{count(len(workers), 'worker')}, {room} at a time; asking for their kits")
 
     def _submit(self, job: Job, attempt: int) -> None:
         key = f"raysteps-{self._run}-{job.submission.name}-{attempt}"
@@ -129,7 +102,8 @@ class Cluster:
         """Not all jobs are handed over at once: a class need not fit into the scheduler's memory."""
         import distributed
 
-        self._check_kits()
+        self._wait_for_workers()
+        check_kits(self._client, self._kit, self._grader, require_sandbox=self._require_sandbox)
         left = True
         while left or self._jobs:
             room = 2 * sum(self._workers().values()) + 1

@@ -2,8 +2,6 @@
 
 import argparse
 import fcntl
-import os
-import shlex
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -11,9 +9,9 @@ from typing import Any
 
 from rich.console import Console
 
+from raysteps.classroom.arguments import add_arguments, line_to_go_on, read_order
 from raysteps.classroom.cluster import Cluster
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.files import write_class
 from raysteps.classroom.graders import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.merge import merge
@@ -25,79 +23,9 @@ from raysteps.classroom.session import Runner, Session
 from raysteps.classroom.summary import print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
-from raysteps.common.text import number
-from raysteps.grading.limits import parse_limits
 from raysteps.kit.project import Project
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What may follow `grade-class`."""
-    add = parser.add_argument
-    add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per submission")
-    add("--out", type=Path, required=True, metavar="OUT", help="where class.sqlite, results.csv and the rest go")
-    add("--roster", type=Path, metavar="CSV", help="the students: id, name, email, submission, submitted_at")
-    add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
-    add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
-    add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
-    add("--late-policy", type=Path, metavar="TOML", help="deadline, grace, percent per day, extensions")
-    add("--seed", type=int, default=1, help="of the hidden cases (1)")
-    add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
-    add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
-    add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
-    add("--scheduler", default="", metavar="ADDRESS", help="grade on a Dask cluster, such as tcp://head:8786")
-    add("--shard", default="1/1", metavar="i/n", help="grade only the i-th of n parts of the class")
-    add(
-        "--merge", nargs="+", type=Path, default=[], metavar="OUT", help="bring the results of shards together in --out"
-    )
-
-
-def _order(arguments: argparse.Namespace, grader: str) -> Order:
-    if arguments.folder is None:
-        raise UsageError("grade-class: expected a folder of submissions (or --merge)")
-    if arguments.jobs is not None and arguments.scheduler:
-        raise UsageError("--jobs is for this machine; with --scheduler the workers say how much they do at a time")
-    jobs = arguments.jobs
-    if jobs is None:
-        jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    if not 1 <= jobs <= 1024:
-        raise UsageError(f"--jobs {jobs}: expected a number from 1 to 1024")
-    return Order(
-        arguments.folder,
-        arguments.out,
-        arguments.roster,
-        jobs,
-        arguments.resume,
-        tuple(arguments.only),
-        arguments.late_policy,
-        arguments.seed,
-        arguments.feedback,
-        parse_limits(arguments.limit),
-        arguments.require_sandbox,
-        arguments.scheduler,
-        read_shard(arguments.shard),
-        grader,
-    )
-
-
-def _again(order: Order) -> str:
-    """The line that goes on with the same run."""
-    words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
-    for option, value in (("--roster", order.roster), ("--late-policy", order.late_policy)):
-        words += [option, str(value)] if value is not None else []
-    if order.scheduler:
-        words += ["--scheduler", order.scheduler]
-    else:
-        words += ["--jobs", str(order.jobs)]
-    if order.seed != 1:
-        words += ["--seed", str(order.seed)]
-    if order.feedback != "full":
-        words += ["--feedback", order.feedback]
-    for name, value in order.limits.items():
-        words += ["--limit", f"{name}={number(value)}"]
-    words += ["--require-sandbox"] if order.require_sandbox else []
-    words += ["--shard", str(order.shard)] if order.shard != Shard() else []
-    words += ["--only", *order.only] if order.only else []
-    return shlex.join([*words, "--resume"])
+__all__ = ["add_arguments", "run"]
 
 
 @contextmanager
@@ -142,7 +70,7 @@ def _prepare(order: Order, meter: Meter) -> Grader:
 
 def _grade(console: Console, plan: Plan, grader: Grader, meter: Meter) -> int:
     order = plan.order
-    again = f"To go on:\n  {_again(order)}"
+    again = f"To go on:\n  {line_to_go_on(order)}"
     runner = _runner(plan, grader.fingerprint, meter)
     with closing(ClassDatabase(order.out)) as database:
         registered = plan.registered(database.names())
@@ -178,7 +106,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
         if arguments.folder is not None:
             raise UsageError("--merge brings together what is graded already; leave DIR out")
         return _merge(console, arguments.merge, arguments.out)
-    plan = make_plan(project, _order(arguments, grader))
+    plan = make_plan(project, read_order(arguments, grader))
     with _only_one(plan.order.out):
         meter = Meter(console, len(plan.mine()))
         return _grade(console, plan, _prepare(plan.order, meter), meter)

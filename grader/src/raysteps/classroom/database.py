@@ -4,58 +4,20 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.classroom.messages import Answer
+from raysteps.classroom.records import Registered, Registration, RunFacts
 from raysteps.classroom.tables import open_database, transaction
 
 FILE = "class.sqlite"
-Scope = Literal["here", "elsewhere", "gone"]
 _CURRENT = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
 
 
 def now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
-
-
-@dataclass(frozen=True)
-class Registered:
-    """An entry of the folder as the database keeps it."""
-
-    entry: str
-    name: str
-    scope: Scope
-    submitted_at: str = ""
-    submitted_from: str = ""
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class Registration:
-    """A student, and the entries that are this student's."""
-
-    id: str
-    name: str
-    email: str
-    entries: tuple[str, ...]
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class RunFacts:
-    """How a run grades. `uid` tells it from the runs of all other databases."""
-
-    uid: str
-    kit: str
-    folder: str
-    shard: str
-    settings: Mapping[str, Any]
-    steps: list[dict[str, Any]]
-    late_policy: str
-    ignored: list[str]
 
 
 def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, Any], conflict: str = "") -> int:

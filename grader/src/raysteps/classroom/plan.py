@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.database import FILE, Registered, Registration, RunFacts, Scope
+from raysteps.classroom.database import FILE
 from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
 from raysteps.classroom.graders import KIT_GRADER
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.matching import Matches, match
 from raysteps.classroom.names import name_entries
+from raysteps.classroom.records import Registered, Registration, RunFacts, Scope
 from raysteps.classroom.roster import Student, read_roster
 from raysteps.common.errors import UsageError
 from raysteps.judge.feedback import Feedback

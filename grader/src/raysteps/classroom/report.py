@@ -10,9 +10,9 @@ from typing import Any
 import jsonschema
 
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.late_policy import LatePolicy, fold, parse_late_policy
-from raysteps.classroom.lateness import apply_policy
+from raysteps.classroom.late_policy import fold, parse_late_policy
 from raysteps.classroom.names import stem
+from raysteps.classroom.standing import Standings
 from raysteps.common.errors import GraderFault
 
 Document = dict[str, Any]
@@ -21,26 +21,6 @@ Document = dict[str, Any]
 @cache
 def _schema() -> Any:
     return json.loads(files("raysteps.classroom").joinpath("class.schema.json").read_text(encoding="utf-8"))
-
-
-def _step(step: Document) -> Document:
-    return {"points": step["points"], "max": step["max"], "status": step["status"]}
-
-
-def _result(row: sqlite3.Row | None) -> Document:
-    """What a submission got."""
-    if row is None:
-        return {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}, "inconsistent": {}}
-    nothing: Document = {"total": {"max": None}, "steps": []}
-    document = json.loads(row["document"]) if row["document"] else nothing
-    return {
-        "status": row["status"],
-        "points": row["points"],
-        "max": document["total"]["max"],
-        "run": row["run"],
-        "steps": {step["id"]: _step(step) for step in document["steps"]},
-        "inconsistent": {step["id"]: step["inconsistent"] for step in document["steps"] if step["inconsistent"]},
-    }
 
 
 class _Report:
@@ -52,52 +32,7 @@ class _Report:
             raise GraderFault(f"{database.path}: holds no run")
         self._last = self._runs[-1]
         text = self._last["late_policy"]
-        self._policy: LatePolicy | None = parse_late_policy(text, "the late policy of the run") if text else None
-
-    def _students(self, submission: int) -> list[Document]:
-        rows = self._query(
-            "SELECT id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
-            "WHERE submission = ? ORDER BY id, name, email",
-            (submission,),
-        )
-        return [dict(row) for row in rows]
-
-    def _before(self, submission: int, run: int | None) -> Document | None:
-        """The result that counted until the last run gave another one."""
-        if run != self._last["number"]:
-            return None
-        row = self._query(
-            "SELECT run, status, points FROM results WHERE submission = ? AND run < ? ORDER BY run DESC LIMIT 1",
-            (submission, run),
-        ).fetchone()
-        return dict(row) if row is not None else None
-
-    def _submission(self, row: sqlite3.Row) -> Document:
-        current = self._database.current(row["name"])
-        students = self._students(row["id"])
-        result = _result(current)
-        late = None
-        if self._policy is not None and result["points"] is not None:
-            ids = [word for student in students for word in (student["id"], student["email"]) if word]
-            ids = ids or [row["name"], stem(row["entry"]), row["entry"]]
-            late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"]))
-        return {
-            "name": row["name"],
-            "entry": row["entry"],
-            "students": students,
-            **result,
-            "final": late["points"] if late is not None else result["points"],
-            "late": late,
-            "submitted_at": row["submitted_at"],
-            "submitted_from": row["submitted_from"],
-            "before": self._before(row["id"], result["run"]),
-            "isolation": json.loads(current["document"])["isolation"]["name"]
-            if current and current["document"]
-            else "",
-            "fault": current["fault"] if current is not None else "",
-            "note": row["note"],
-            "results": f"submissions/{row['name']}/results.json" if current and current["document"] else None,
-        }
+        self._policy = parse_late_policy(text, "the late policy of the run") if text else None
 
     def _run(self, row: sqlite3.Row) -> Document:
         counts = {"graded": 0, "unreadable": 0, "fault": 0}
@@ -119,7 +54,8 @@ class _Report:
 
     def document(self) -> Document:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
-        submissions = [self._submission(row) for row in rows]
+        standings = Standings(self._database, self._policy, self._last["number"])
+        submissions = [standings.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
             "ORDER BY id, name, email"

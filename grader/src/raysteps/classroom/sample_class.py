@@ -1,16 +1,12 @@
 """Makes a class of submissions from the solutions: for tests and measurements, never for grading anybody."""
 
-import gzip
-import io
 import random
-import tarfile
-import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.classroom.sample_forms import FORMS, write_sample
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import write_bytes
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import stub_for, without_markers
@@ -48,7 +44,6 @@ _HOSTILE = {
     ),
 }
 KINDS = ("complete", "mistakes", "stubs", "half", "does not compile", "missing files", *_HOSTILE)
-FORMS = ("folder", "flat folder", "zip", "zip with a folder", "tar.gz", "tar")
 _NAMES = ("ada", "barbara", "donald", "edsger", "frances", "grace", "john", "katherine", "niklaus", "radia")
 
 
@@ -106,41 +101,6 @@ def _sources(kind: str, solved: Sources, stubs: Sources, steps: list[Step], dice
     return makers[kind]() if kind in makers else _with_statement(solved, steps, kind, dice)
 
 
-def _zip(files: dict[str, bytes]) -> bytes:
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in files.items():
-            archive.writestr(zipfile.ZipInfo(name), data)  # always of 1980, so that the bytes are always the same
-    return out.getvalue()
-
-
-def _tar(files: dict[str, bytes]) -> bytes:
-    out = io.BytesIO()
-    with tarfile.open(fileobj=out, mode="w") as archive:
-        for name, data in files.items():
-            info = tarfile.TarInfo(name)
-            info.size = len(data)
-            archive.addfile(info, io.BytesIO(data))
-    return out.getvalue()
-
-
-def _write(base: Path, form: str, sources: Sources, steps: list[Step]) -> Path:
-    paths = {step.id: step.file if form == "flat folder" else f"steps/{step.path.as_posix()}" for step in steps}
-    top = "work/" if form == "zip with a folder" else ""
-    files = {top + paths[step]: text.encode() for step, text in sources.items()}
-    if form in ("folder", "flat folder"):
-        for name, data in files.items():
-            write_bytes(base / name, data)
-        return base
-    ending, data = {
-        "tar": (".tar", _tar(files)),
-        "tar.gz": (".tar.gz", gzip.compress(_tar(files), mtime=0)),
-    }.get(form, (".zip", _zip(files)))
-    path = base.with_name(base.name + ending)
-    write_bytes(path, data)
-    return path
-
-
 def make_class(project: Project, folder: Path, count: int, seed: int) -> list[Made]:
     """Writes that many submissions, the same for the same seed. Every kind is there before one comes again."""
     steps = read_steps(project)
@@ -154,5 +114,5 @@ def make_class(project: Project, folder: Path, count: int, seed: int) -> list[Ma
         kind, form = kinds.pop(), FORMS[(at + at // len(FORMS)) % len(FORMS)]
         base = folder / f"{_NAMES[at % len(_NAMES)]}-{at + 1:03d}"
         sources = _sources(kind, solved, stubs, steps, dice)
-        made.append(Made(_write(base, form, sources, steps), kind, form))
+        made.append(Made(write_sample(base, form, sources, steps), kind, form))
     return made

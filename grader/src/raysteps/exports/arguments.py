@@ -33,7 +33,15 @@ def _add_grading(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--require-sandbox", action="store_true", help="grade only where student code can be shut in")
     group.add_argument("--seed", type=_seed, metavar="N", help="of the hidden cases")
     group.add_argument("--feedback", choices=["full", "diagnosis", "score"], help="how much the results tell")
-    group.add_argument("--steps", nargs="+", default=[], metavar="STEP", help="only these; all when none is given")
+    group.add_argument(
+        "--steps",
+        "--only",
+        dest="steps",
+        nargs="+",
+        default=[],
+        metavar="STEP",
+        help="only these; all when none is given",
+    )
     group.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as memory_mb=512")
     group.add_argument("--minutes", type=_minutes, default=9.0, metavar="N", help="give up after that long (9)")
 

@@ -19,7 +19,7 @@ _NEEDED = ("submission", "id", "name", "email", "points", "max")
 
 @dataclass(frozen=True)
 class Graded:
-    """One row of results.csv; no points where there is no grade."""
+    """One row of results.csv; no points where there is no grade, no submission where nothing was handed in."""
 
     submission: str
     id: str
@@ -40,7 +40,7 @@ class Graded:
     @property
     def label(self) -> str:
         who = ", ".join(dict.fromkeys(filter(None, [self.name, self.id, self.email])))
-        return f"{self.submission} ({who})" if who else self.submission
+        return f"{self.submission} ({who})" if who and self.submission else self.submission or who
 
 
 def _number(path: Path, line: int, column: str, text: str) -> float | None:

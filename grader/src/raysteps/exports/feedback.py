@@ -15,7 +15,7 @@ _LIMIT = 8000
 def moodle_cell(folder: Path, graded: Graded, steps: Mapping[str, Step]) -> str:
     """What the results say, as HTML on one line: Moodle shows comments as HTML."""
     document = results_of(folder, graded)
-    lines = [summary(document, steps)] if document is not None else []
+    lines = [summary(document, steps, checks=True)] if document is not None else []
     if graded.points is not None and graded.in_time is not None and graded.points != graded.in_time:
         lines.insert(0, f"{number(graded.in_time)} points, {number(graded.points)} after lateness.")
     return harmless_cell(as_html("\n".join(lines), _LIMIT))

@@ -81,7 +81,7 @@ def fill(
             continue
         student = book.students[found[at]]
         if one.points is None or student.kept:
-            why = student.kept or "has no points in results.csv"
+            why = student.kept or ("has no points in results.csv" if one.submission else "handed nothing in")
             filled.notes.append(f"left as it is: {student.person.label} {why}")
             continue
         last = max(book.grade, book.feedback or 0)

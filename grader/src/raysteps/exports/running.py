@@ -75,7 +75,7 @@ def autolab(project: Project, handin: Path, options: Options) -> int:
     def deliver(document: Mapping[str, Any], steps: Mapping[str, Step], work: Path) -> None:
         lines = to_autolab(document, steps)
         validate(lines, "autolab")
-        print(summary(document, steps))
+        print(summary(document, steps, checks=True))
         print(as_lines(lines), end="", flush=True)
 
     return _FAULT if _grade(project, handin, options, deliver) else 0

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from raysteps.common.text import count, number
-from raysteps.exports.items import step_text
+from raysteps.exports.items import items_of, step_text
 from raysteps.exports.wording import one_line
 from raysteps.kit.manifest import Step
 
@@ -35,8 +35,15 @@ def _visible(result: Document) -> str:
     return ", ".join(parts) or str(result["status"])
 
 
-def summary(document: Document, steps: Mapping[str, Step], *, points: bool = True) -> str:
-    """One line per step with what there is to say about it; without points, nothing that hidden checks decide."""
+def _failed_checks(result: Document, step: Step | None) -> list[str]:
+    """What failed, with the first line of why."""
+    failed = [(item, item.text.partition("\n")[0]) for item in items_of(result, step) if not item.passed]
+    return [f"  - {item.kind} {item.name}: {one_line(why, 300)}" for item, why in failed]
+
+
+def summary(document: Document, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
+    """One line per step with what there is to say about it, on request with the checks that failed; without points,
+    nothing that hidden checks decide."""
     lines = [f"{total_line(document)}."] if points else []
     for result in document["steps"]:
         name = one_line(title(result, steps))
@@ -46,6 +53,8 @@ def summary(document: Document, steps: Mapping[str, Step], *, points: bool = Tru
             lines.append(f"{name}: {_visible(result)}")
         if points or result["status"] in ("not-started", "does-not-build"):
             lines += [f"  {line}" for line in step_text(result).splitlines()]
+        if checks:
+            lines += _failed_checks(result, steps.get(result["id"]))
     return "\n".join(lines)
 
 

@@ -41,7 +41,8 @@ def compile_message(step: Step, source: str, ran: Ran) -> str:
         name = error["path"].rpartition("/")[2]
         text = f"It does not build: {name}:{line}:{column}: {shorten(error['text'], 300)}"
         return f"{text}\n{_context(source, line, column)}" if own else text
-    said = shorten(output.strip().rpartition("\n")[2], 300)
+    telling = [line for line in output.splitlines() if re.search("error:|terminated|Error", line)]
+    said = shorten(telling[-1] if telling else output.strip().rpartition("\n")[2], 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
 
 

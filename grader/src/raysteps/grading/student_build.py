@@ -46,7 +46,7 @@ class StudentBuild:
         path = self._folder / step.path
         write_bytes(path, source)
         description = self._kit.description
-        include: list[Word] = ["-I", Input(self._kit.include, "kit")]
+        include: list[Word] = ["-I", Input(self._kit.include)]
         for folder in description.system_includes:
             if str(folder) not in KNOWN_TO_COMPILER:
                 include += ["-isystem", Input(folder)]

@@ -83,13 +83,16 @@ class Bubblewrap:
             inside.write_to_memory(stack)
         return inside, mounts
 
-    def _words(self, task: Task, inside: Inside, words_inside: list[str], user: int | None) -> list[str]:
+    def _words(
+        self, task: Task, inside: Inside, words_inside: list[str], user: int | None
+    ) -> tuple[list[str], list[str], list[str]]:
+        """What sets the limits, bubblewrap's options, and the command inside."""
         limits = task.limits
         first = task.command[0]
         compiler = compiler_command(first if isinstance(first, str) else "c++") if task.tools else None
         mounts, before = self._mode.before_command(limits, user)
-        words = limit_words(limits, memory=self._parents is None) + self._mode.limits(limits, user)
-        words += [self._program, *self._mode.namespaces(self._options), "--die-with-parent", "--new-session"]
+        start = limit_words(limits, memory=self._parents is None) + self._mode.limits(limits, user)
+        words = [*self._mode.namespaces(self._options), "--die-with-parent", "--new-session"]
         words += ["--hostname", "sandbox", "--clearenv", "--setenv", "LC_ALL", "C", "--setenv", "HOME", _HOME]
         if compiler is not None:
             words += ["--setenv", "PATH", os.pathsep.join(dict.fromkeys((str(compiler.parent), "/usr/bin")))]
@@ -97,7 +100,7 @@ class Bubblewrap:
         words += [*self._mode.folders([*root, *mounts, *words_inside]), *root]
         words += self._scratch(task)
         words += [*mounts, *words_inside, "--remount-ro", "/", "--chdir", _HOME]
-        return [*words, "--", *before, *inside.command()]
+        return start, words, [*before, *inside.command()]
 
     def _scratch(self, task: Task) -> list[str]:
         words = self._mode.around_tmp()
@@ -127,14 +130,18 @@ class Bubblewrap:
             fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
             words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
             changed = user if self._mode.starts_as_user else None
+            limits, options, command = self._words(task, inside, words, user)
+            # As a file, since the first process inside shows its words to the task.
+            options_fd = nameless_file("".join(f"{word}\0" for word in options).encode(), stack)
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    self._words(task, inside, words, user),
+                    [*limits, self._program, "--args", str(options_fd), "--", *command],
+                    env={},  # of the first process inside, whatever --clearenv does for the command
                     stdin=stdin,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.PIPE,
-                    pass_fds=(control.status_fd, control.gate_fd, *inside.fds, *fences),
+                    pass_fds=(control.status_fd, control.gate_fd, options_fd, *inside.fds, *fences),
                     cwd="/",
                     user=changed,
                     group=changed,

@@ -1,0 +1,82 @@
+"""The words after `grade-class`."""
+
+import argparse
+import os
+import shlex
+from pathlib import Path
+
+from raysteps.classroom.entries import Shard, read_shard
+from raysteps.classroom.plan import Order
+from raysteps.common.errors import UsageError
+from raysteps.common.text import number
+from raysteps.grading.limits import parse_limits
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What may follow `grade-class`."""
+    add = parser.add_argument
+    add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per submission")
+    add("--out", type=Path, required=True, metavar="OUT", help="where class.sqlite, results.csv and the rest go")
+    add("--roster", type=Path, metavar="CSV", help="the students: id, name, email, submission, submitted_at")
+    add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
+    add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
+    add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
+    add("--late-policy", type=Path, metavar="TOML", help="deadline, grace, percent per day, extensions")
+    add("--seed", type=int, default=1, help="of the hidden cases (1)")
+    add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
+    add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
+    add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
+    add("--scheduler", default="", metavar="ADDRESS", help="grade on a Dask cluster, such as tcp://head:8786")
+    add("--shard", default="1/1", metavar="i/n", help="grade only the i-th of n parts of the class")
+    add(
+        "--merge", nargs="+", type=Path, default=[], metavar="OUT", help="bring the results of shards together in --out"
+    )
+
+
+def read_order(arguments: argparse.Namespace, grader: str) -> Order:
+    if arguments.folder is None:
+        raise UsageError("grade-class: expected a folder of submissions (or --merge)")
+    if arguments.jobs is not None and arguments.scheduler:
+        raise UsageError("--jobs is for this machine; with --scheduler the workers say how much they do at a time")
+    jobs = arguments.jobs
+    if jobs is None:
+        jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if not 1 <= jobs <= 1024:
+        raise UsageError(f"--jobs {jobs}: expected a number from 1 to 1024")
+    return Order(
+        arguments.folder,
+        arguments.out,
+        arguments.roster,
+        jobs,
+        arguments.resume,
+        tuple(arguments.only),
+        arguments.late_policy,
+        arguments.seed,
+        arguments.feedback,
+        parse_limits(arguments.limit),
+        arguments.require_sandbox,
+        arguments.scheduler,
+        read_shard(arguments.shard),
+        grader,
+    )
+
+
+def line_to_go_on(order: Order) -> str:
+    """The line that goes on with the same run."""
+    words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
+    for option, path in (("--roster", order.roster), ("--late-policy", order.late_policy)):
+        words += [option, str(path)] if path is not None else []
+    if order.scheduler:
+        words += ["--scheduler", order.scheduler]
+    else:
+        words += ["--jobs", str(order.jobs)]
+    if order.seed != 1:
+        words += ["--seed", str(order.seed)]
+    if order.feedback != "full":
+        words += ["--feedback", order.feedback]
+    for name, value in order.limits.items():
+        words += ["--limit", f"{name}={number(value)}"]
+    words += ["--require-sandbox"] if order.require_sandbox else []
+    words += ["--shard", str(order.shard)] if order.shard != Shard() else []
+    words += ["--only", *order.only] if order.only else []
+    return shlex.join([*words, "--resume"])

@@ -1,0 +1,87 @@
+"""How one submission stands."""
+
+import json
+import sqlite3
+from typing import Any
+
+from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.late_policy import LatePolicy
+from raysteps.classroom.lateness import apply_policy
+from raysteps.classroom.names import stem
+
+Document = dict[str, Any]
+
+
+def _step(step: Document) -> Document:
+    return {"points": step["points"], "max": step["max"], "status": step["status"]}
+
+
+def _result(row: sqlite3.Row | None) -> Document:
+    """What a submission got."""
+    if row is None:
+        return {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}, "inconsistent": {}}
+    nothing: Document = {"total": {"max": None}, "steps": []}
+    document = json.loads(row["document"]) if row["document"] else nothing
+    return {
+        "status": row["status"],
+        "points": row["points"],
+        "max": document["total"]["max"],
+        "run": row["run"],
+        "steps": {step["id"]: _step(step) for step in document["steps"]},
+        "inconsistent": {step["id"]: step["inconsistent"] for step in document["steps"] if step["inconsistent"]},
+    }
+
+
+class Standings:
+    """Of the submissions of a class, when `run` was the last run."""
+
+    def __init__(self, database: ClassDatabase, policy: LatePolicy | None, run: int) -> None:
+        self._database = database
+        self._query = database.connection.execute
+        self._policy = policy
+        self._run = run
+
+    def _students(self, submission: int) -> list[Document]:
+        rows = self._query(
+            "SELECT id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
+            "WHERE submission = ? ORDER BY id, name, email",
+            (submission,),
+        )
+        return [dict(row) for row in rows]
+
+    def _before(self, submission: int, run: int | None) -> Document | None:
+        """The result that counted until the last run gave another one."""
+        if run != self._run:
+            return None
+        row = self._query(
+            "SELECT run, status, points FROM results WHERE submission = ? AND run < ? ORDER BY run DESC LIMIT 1",
+            (submission, run),
+        ).fetchone()
+        return dict(row) if row is not None else None
+
+    def of(self, row: sqlite3.Row) -> Document:
+        current = self._database.current(row["name"])
+        students = self._students(row["id"])
+        result = _result(current)
+        late = None
+        if self._policy is not None and result["points"] is not None:
+            ids = [word for student in students for word in (student["id"], student["email"]) if word]
+            ids = ids or [row["name"], stem(row["entry"]), row["entry"]]
+            late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"]))
+        return {
+            "name": row["name"],
+            "entry": row["entry"],
+            "students": students,
+            **result,
+            "final": late["points"] if late is not None else result["points"],
+            "late": late,
+            "submitted_at": row["submitted_at"],
+            "submitted_from": row["submitted_from"],
+            "before": self._before(row["id"], result["run"]),
+            "isolation": json.loads(current["document"])["isolation"]["name"]
+            if current and current["document"]
+            else "",
+            "fault": current["fault"] if current is not None else "",
+            "note": row["note"],
+            "results": f"submissions/{row['name']}/results.json" if current and current["document"] else None,
+        }

@@ -1,0 +1,267 @@
+"""Grades every attack of the corpus: none of them pays, none of them hurts. Once more as an ordinary user."""
+
+import json
+import os
+import pwd
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Sources
+from hostile import as_user
+from hostile.build import Attack, read_corpus
+from hostile.running import Graded, Listener, Range, Run, planted
+from hostile.traces import Traces
+from PIL import Image
+
+from raysteps.kit import kit_building
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.sandbox import users
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.sandbox.task import Sandbox
+
+KIT_VARIABLE = "RAYSTEPS_TEST_KIT"  # a built kit that an ordinary user can read
+CORPUS = read_corpus()
+_AT_ONCE = 3
+_NUMBERS_WITHOUT_ENTRY = {33}  # docs/hostile.md says why
+_USUAL = ["failed", "crashed", "timeout", "partial"]
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
+
+# Where it all happens
+
+
+@pytest.fixture(scope="module")
+def sandbox() -> Sandbox:
+    found = find_sandbox()
+    if not found.isolation.strong:
+        pytest.skip("the corpus is for a strong sandbox; without one it would do harm")
+    return found
+
+
+@pytest.fixture(scope="module")
+def temporary() -> Iterator[Path]:
+    """All temporary files of the grader go here, so that what is left can be seen."""
+    with tempfile.TemporaryDirectory(prefix="hostile-", dir=tempfile.gettempdir()) as name, pytest.MonkeyPatch.context() as patch:
+        Path(name).chmod(0o755)
+        inner = Path(name, "temporary")
+        inner.mkdir(mode=0o755)
+        patch.setattr(tempfile, "tempdir", str(inner))
+        yield Path(name)
+
+
+@pytest.fixture(scope="module")
+def own_kit(request: pytest.FixtureRequest, project: Project, steps: list[Step], temporary: Path) -> BuiltKit:
+    """A copy, in which a secret can be planted. Root builds it; an ordinary user gets it."""
+    given = os.environ.get(KIT_VARIABLE)
+    if given is None:
+        given = str(request.getfixturevalue("kit").folder)
+    folder = temporary / "kit" / Path(given).name
+    shutil.copytree(given, folder)
+    return kit_building._load(project, steps, folder)
+
+
+@pytest.fixture(scope="module")
+def ordinary_user(own_kit: BuiltKit, sandbox: Sandbox) -> Iterator[subprocess.Popen[str] | None]:
+    """The same tests as another user, started first because it takes as long as everything else together."""
+    if os.geteuid() != 0 or os.environ.get(KIT_VARIABLE) is not None:
+        yield None
+        return
+    user = _free_user()
+    with tempfile.TemporaryDirectory(prefix="hostile-user-", dir="/tmp") as name:
+        shutil.copytree(own_kit.folder, Path(name, own_kit.folder.name))
+        os.chown(name, user, user)
+        subprocess.run(["chown", "-R", f"{user}:{user}", name], check=True)
+        root = own_kit.project.root
+        needed = [Path(sys.base_prefix), Path(sys.prefix), root]
+        command: list[str | Path] = ["unshare", "--mount", "--propagation", "private", sys.executable, as_user.__file__]
+        command += [str(user), *needed, "--", sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", __file__]
+        command += ["-o", f"cache_dir={name}/cache", f"--basetemp={name}/pytest"]
+        environment = os.environ | {
+            KIT_VARIABLE: f"{name}/{own_kit.folder.name}",
+            "HOME": name,
+            "TMPDIR": name,
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
+        process = subprocess.Popen(
+            command,
+            cwd=root / "grader",
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        try:
+            yield process
+        finally:
+            process.kill()
+            process.wait()
+
+
+def _free_user() -> int:
+    """A number that nobody has and nobody uses, beside those that the sandbox lends."""
+    used = {path.stat().st_uid for path in Path("/proc").iterdir() if path.name.isdigit()}
+    known = {entry.pw_uid for entry in pwd.getpwall()}
+    return next(user for user in range(61200, 61300) if user not in used | known)
+
+
+@pytest.fixture(scope="module")
+def traces(temporary: Path, ordinary_user: subprocess.Popen[str] | None) -> Traces:
+    lent = range(users._FIRST, users._FIRST + users._COUNT)
+    own = range(os.geteuid(), os.geteuid() + 1)
+    spared = set() if ordinary_user is None else {ordinary_user.pid}
+    return Traces(temporary / "temporary", lent if os.geteuid() == 0 else own, lambda: spared)
+
+
+@pytest.fixture(scope="module")
+def place(own_kit: BuiltKit, temporary: Path, solved: Sources) -> Iterator[Range]:
+    folder = temporary / "attacks"
+    folder.mkdir()
+    listener = Listener(temporary)
+    try:
+        with planted(own_kit, temporary) as secret:
+            yield Range(own_kit, secret, listener, solved, folder)
+    finally:
+        listener.close()
+
+
+@pytest.fixture(scope="module")
+def before(traces: Traces, place: Range) -> set[str]:
+    return traces.now()
+
+
+@pytest.fixture(scope="module")
+def graded(
+    request: pytest.FixtureRequest, place: Range, sandbox: Sandbox, before: set[str]
+) -> Iterator[Callable[[Attack], Graded]]:
+    """All attacks that were chosen, some at a time: they mostly wait."""
+    chosen = {
+        item.callspec.params["attack"].name: item.callspec.params["attack"]
+        for item in request.session.items
+        if isinstance(item, pytest.Function) and item.originalname == test_attack.__name__
+    }
+    with ThreadPoolExecutor(max_workers=_AT_ONCE) as pool:
+        futures: dict[str, Future[Graded]] = {
+            name: pool.submit(place.grade, attack, sandbox) for name, attack in chosen.items()
+        }
+        yield lambda attack: futures[attack.name].result()
+        pool.shutdown(cancel_futures=True)
+
+
+# What must be true of every attack
+
+
+def _strings(value: Any) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for key, inner in value.items():
+            yield key
+            yield from _strings(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _strings(inner)
+
+
+def _check_words(out: Path) -> None:
+    document = json.loads((out / "results.json").read_text(encoding="utf-8"))
+    for text in _strings(document):
+        assert _CONTROL.search(text) is None, repr(text[:300])
+        assert len(text) <= 70_000
+    assert (out / "results.json").stat().st_size < 1 << 20
+
+
+def _check_secret(graded: Graded, secret: str) -> None:
+    hidden = secret.encode()
+    for path in graded.out.rglob("*"):
+        if path.is_file():
+            data = path.read_bytes()
+            if path.suffix == ".png":
+                data += np.asarray(Image.open(path)).tobytes()
+            assert hidden not in data, path
+    assert secret not in graded.refused
+    for run in graded.runs:
+        seen = [run.ran.outcome.stdout.encode(), run.ran.outcome.stderr.encode(), *run.ran.outputs.values()]
+        assert not any(hidden in data for data in seen), f"{run.task.command} got hold of the secret"
+
+
+def _check_time(run: Run) -> None:
+    limits = run.task.limits
+    assert run.seconds < limits.wall_seconds + 2, f"{run.task.command} ran {run.seconds:.1f} s"
+
+
+@pytest.mark.parametrize("attack", CORPUS, ids=lambda attack: attack.name)
+def test_attack(attack: Attack, graded: Callable[[Attack], Graded], place: Range) -> None:
+    seen = graded(attack)
+    assert not seen.trace.exists()
+    for run in seen.runs:
+        _check_time(run)
+    _check_secret(seen, place.planted.text)
+    if attack.refused:
+        assert attack.refused in seen.refused
+        return
+    assert not seen.refused
+    _check_words(seen.out)
+    for results in seen.results:
+        result = next(step for step in results.steps if step.id == attack.step)
+        report = json.dumps(results.to_json(), indent=1)
+        assert attack.least <= result.points <= attack.most, report
+        assert result.status in (attack.status or _USUAL), report
+        assert attack.note in " ".join(result.messages), report
+        for step in results.steps:
+            if step.id in attack.honest:
+                assert (step.status, step.points) == ("passed", step.max), report
+        if attack.submission:
+            assert results.submission == attack.submission
+        assert results.isolation.strong
+
+
+def test_nothing_is_heard(graded: Callable[[Attack], Graded], place: Range) -> None:
+    for attack in CORPUS:
+        graded(attack)
+    assert not place.listener.heard
+
+
+def test_nothing_is_left_behind(
+    graded: Callable[[Attack], Graded], traces: Traces, before: set[str]
+) -> None:
+    for attack in CORPUS:
+        graded(attack)
+    assert not traces.left_since(before)
+
+
+# What must be true of the corpus
+
+
+def test_every_kind_of_attack_has_an_entry() -> None:
+    numbers = {number for attack in CORPUS for number in attack.numbers}
+    assert numbers | _NUMBERS_WITHOUT_ENTRY == set(range(1, 38))
+    for attack in CORPUS:
+        assert int(attack.name[:2]) in attack.numbers, attack.name
+
+
+def test_the_page_names_every_attack(project: Project) -> None:
+    page = (project.root / "docs" / "hostile.md").read_text(encoding="utf-8")
+    missing = [attack.name for attack in CORPUS if f"`{attack.name}`" not in page]
+    assert not missing
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or KIT_VARIABLE in os.environ, reason="for root, who can become somebody else")
+def test_the_same_as_an_ordinary_user(ordinary_user: subprocess.Popen[str] | None) -> None:
+    assert ordinary_user is not None
+    output, _ = ordinary_user.communicate(timeout=600)
+    assert ordinary_user.returncode == 0, output[-8000:]
+    assert re.search(r"\d+ passed", output), output[-2000:]
