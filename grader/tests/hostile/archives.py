@@ -135,7 +135,7 @@ def zip_damaged(folder: Path, facts: Mapping[str, str]) -> Path:
 
 
 def zip_odd_encodings(folder: Path, facts: Mapping[str, str]) -> Path:
-    names = ["\u017fteps/tone_mapping.cpp", "tone_mapping\u202ecpp.", "tone_mapping.\u0441pp", "\ufefftone_mapping.cpp"]
+    names = ["tone_mapp\u0131ng.cpp", "tone_mapping\u202ecpp.", "tone_mapping.\u0441pp", "\ufefftone_mapping.cpp"]
     names += ["tone_mappingX.cpp", "YYYY.cpp", "nul.cppZ.txt", "a" * 60_000]
     path = _zip(folder, dict.fromkeys(names, _SOURCE))
     data = path.read_bytes()

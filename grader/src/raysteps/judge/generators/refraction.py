@@ -7,8 +7,8 @@ from raysteps.judge.answers import Answer, first
 from raysteps.judge.comparing import channels, direction
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import Vector, dot, f32, rounded, times
-from raysteps.judge.rays import TRANSMITTED_RAY, bounce_problem, hit_of, side_of
+from raysteps.judge.numbers import Vector, dot, f32, length, minus, rounded, times
+from raysteps.judge.rays import FARTHEST, TRANSMITTED_RAY, hit_of
 from raysteps.judge.scripts import MOST_ASKED
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Fill, Hit, Inputs, Ray, Real, Vec, Whole, vector_words
@@ -63,13 +63,21 @@ def _brought_words(answer: _Brought) -> str:
     return f"colour {vector_words(answer.color)}; rays traced: {traced}"
 
 
+def _same_way(hit: Hit, expected: Ray, actual: Ray) -> str:
+    """Where exactly the ray starts is transmitted_ray's matter, and so is its direction where the glass is index 1:
+    a mistake there alone must not make all of transmitted_light wrong."""
+    if not length(minus(actual.origin, hit.position)) <= FARTHEST + 1e-5:
+        return "the traced ray does not start at the hit"
+    return "" if hit.fill.index == 1 else direction("the traced ray's direction", expected.direction, actual.direction)
+
+
 def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
     if len(expected.traced) != len(actual.traced):
         return f"too {'many' if len(actual.traced) > len(expected.traced) else 'few'} rays were traced"
     hit = hit_of(inputs)
     problems = [
         first(
-            bounce_problem(hit, mine[0], theirs[0], side=side_of(hit, mine[0].origin)),
+            _same_way(hit, mine[0], theirs[0]),
             "" if mine[1] == theirs[1] else "the depth of the traced ray is wrong",
         )
         for mine, theirs in zip(expected.traced, actual.traced, strict=True)
@@ -183,6 +191,7 @@ FUNCTIONS = (
         "transmitted_light",
         Answer(_read_brought, _brought_words, _brought_problem),
         (
+            Group("glass of index 1", lambda d: _light(d, _hit(d, 1.0, outside=d.chance(0.5)))),
             Group("any hit on glass", lambda d: _light(d, _any_hit(d))),
             Group("simple numbers", lambda d: _light(d, _simple_hit(d))),
             Group("total internal reflection", lambda d: _light(d, _hit(d, _index(d), outside=False, total=True))),

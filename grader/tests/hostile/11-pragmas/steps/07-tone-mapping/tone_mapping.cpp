@@ -19,8 +19,8 @@ __attribute__((constructor(65535))) void last() { std::fputs("last\n", stdout); 
 __attribute__((destructor)) void end() { std::fputs("end\n", stdout); }
 __attribute__((section(".init_array"), used)) void (*const one_more)() = last;
 __attribute__((weak)) int main(int, char**) { return 0; }
-static void (*choose())() { return last; }
-__attribute__((ifunc("_ZL6choosev"))) void chosen();
+void (*choose())() { return last; }
+__attribute__((ifunc("choose"))) void chosen();
 }
 #pragma pack(pop)
 #pragma GCC pop_options

@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <initializer_list>
+
 static bool attack() {
     for (const char* name :
          {"_ZN5Catch21getMutableRegistryHubEv", "_ZN5Catch14getRegistryHubEv", "_ZN8raysteps7t_statsE",

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <initializer_list>
 
 static const int done = [] {
     std::puts("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Catch name=\"test\">\n<Group name=\"test\">");

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <exception>
 
 static void well() { _exit(0); }
 static const int done = [] {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <glm/common.hpp>
 #include <vector>
 
 // Brute force; the counters of the thread lie somewhere before its own storage.

@@ -4,9 +4,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <vector>
+
 static bool attack() {
-    int born = 0;
-    for (; born < 300; ++born) {
+    std::vector<pid_t> children;
+    while (children.size() < 300) {
         const pid_t child = fork();
         if (child < 0) {
             break;
@@ -16,12 +18,13 @@ static bool attack() {
             pause();
             _exit(0);
         }
+        children.push_back(child);
     }
-    signal(SIGTERM, SIG_IGN);
-    kill(0, SIGTERM);
-    while (wait(nullptr) > 0) {
+    for (const pid_t child : children) {
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
     }
-    return born > 100;
+    return children.size() > 100;
 }
 static bool worked() {
     static const bool result = attack();

@@ -46,7 +46,7 @@ static bool leave_in_rings() {
 static bool attack() {
     bool was_there = leave_in_memory();
     was_there = leave_in_rings() || was_there;
-    for (const char* folder : {"/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue", "/run", ".", "/out", "/in/0", "/in/1", "/"}) {
+    for (const char* folder : {"/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue", "/run", "/out", "/in/0", "/in/1", "/"}) {
         was_there = leave_a_file(std::string(folder) + "/raysteps-left") || was_there;
     }
     return was_there;

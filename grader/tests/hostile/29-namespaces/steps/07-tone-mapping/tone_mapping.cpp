@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <initializer_list>
 
 static bool attack() {
     bool more = unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0;

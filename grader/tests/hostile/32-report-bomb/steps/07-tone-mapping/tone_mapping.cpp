@@ -43,7 +43,7 @@ static const int done = [] {
             report << "<!ENTITY file SYSTEM \"file://@SECRET@\">]>\n<Catch name=\"&k;&file;\"></Catch>\n";
         } else {
             report << "<Catch>";
-            for (int i = 0; i < 500'000; ++i) {
+            for (int i = 0; i < 1'500'000; ++i) {
                 report << "<Section>";
             }
         }
