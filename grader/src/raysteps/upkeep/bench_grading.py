@@ -86,7 +86,7 @@ def _class_of(project: Project, folder: Path, size: int) -> Path:
 
 def _class_way(project: Project, submissions: Path, out: Path) -> None:
     jobs = str(os.cpu_count() or 1)
-    words: list[str | Path] = [sys.executable, "-m", "raysteps", "grade-class", submissions, "--out", out]
+    words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade-class", submissions, "--out", out]
     _must([*words, "--jobs", jobs], project.root)
 
 
