@@ -12,7 +12,20 @@ _FILE = "tone_mapping.cpp"
 
 def odd_names(folder: Path, facts: Mapping[str, str]) -> Path:
     touch = "touch${IFS}trace"
-    names = ["-fplugin=x.so", "@file", "-o", "--specs=x", "-x", ";", f"$({touch})", f"`{touch}`", "a\nb", "a b", "*", "~"]
+    names = [
+        "-fplugin=x.so",
+        "@file",
+        "-o",
+        "--specs=x",
+        "-x",
+        ";",
+        f"$({touch})",
+        f"`{touch}`",
+        "a\nb",
+        "a b",
+        "*",
+        "~",
+    ]
     for name in names:
         for place in (folder, folder / _STEP):
             (place / name).write_text("-fplugin=x.so")
@@ -59,5 +72,6 @@ def somebody_else(folder: Path, facts: Mapping[str, str]) -> Path:
 
 
 FOLDERS: dict[str, Maker] = {
-    make.__name__: make for make in (odd_names, odd_source_name, links, link_to_a_folder, pipe, name_with_code, somebody_else)
+    make.__name__: make
+    for make in (odd_names, odd_source_name, links, link_to_a_folder, pipe, name_with_code, somebody_else)
 }

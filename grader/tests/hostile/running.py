@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from hostile.build import Attack, Facts, lay_out
-
 from raysteps.common.errors import UsageError
 from raysteps.grading.one import grade_one
 from raysteps.grading.rendering import reference_picture
@@ -49,7 +48,9 @@ class Listener:
         for listening in (named, nameless):
             listening.listen()
         self._sockets = {"tcp": self._tcp, "udp": udp, "named": named, "abstract": nameless}
-        self._threads = [threading.Thread(target=self._listen, args=item, daemon=True) for item in self._sockets.items()]
+        self._threads = [
+            threading.Thread(target=self._listen, args=item, daemon=True) for item in self._sockets.items()
+        ]
         for thread in self._threads:
             thread.start()
 

@@ -78,7 +78,9 @@ class Traces:
         found |= set().union(*(_names(folder) for folder in (*_SHARED, self.temporary)))
         found |= set().union(*(_rows(table) for table in _TABLES))
         groups = Path("/sys/fs/cgroup")
-        return found | {str(path) for depth in ("*", "*/*", "*/*/*") for path in groups.glob(depth) if "raysteps" in path.name}
+        return found | {
+            str(path) for depth in ("*", "*/*", "*/*/*") for path in groups.glob(depth) if "raysteps" in path.name
+        }
 
     def left_since(self, before: set[str], seconds: float = 5.0) -> set[str]:
         """What is new and stays: the kernel takes a moment to clear up behind a namespace."""

@@ -17,7 +17,7 @@ void __gmon_start__() {}
 __attribute__((constructor(101))) void first() { std::fputs("first\n", stderr); }
 __attribute__((constructor(65535))) void last() { std::fputs("last\n", stdout); }
 __attribute__((destructor)) void end() { std::fputs("end\n", stdout); }
-__attribute__((section(".init_array"), used)) void (*const one_more)() = last;
+__attribute__((section(".init_array"), used)) static void (*one_more)() = last;
 __attribute__((weak)) int main(int, char**) { return 0; }
 void (*choose())() { return last; }
 __attribute__((ifunc("choose"))) void chosen();
