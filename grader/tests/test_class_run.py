@@ -178,12 +178,13 @@ def test_resume_grades_what_changed(tmp_path: Path, handed_in: Path, monkeypatch
     for words in (
         ["--seed", "2"],
         ["--seed", "2", "--only", "1", "02"],
-        ["--feedback", "score"],
         ["--limit", "seconds=5"],
         [],
     ):
         assert grade_class(handed_in, "--out", out, "--resume", *words) == 0
         assert len(_graded(tmp_path)) == 5, words
+    assert grade_class(handed_in, "--out", out, "--resume", "--feedback", "score") == 0
+    assert _graded(tmp_path) == []  # only what is told of it changes
     monkeypatch.setenv("FAKE_KIT", "another")
     assert grade_class(handed_in, "--out", out, "--resume") == 0
     assert len(_graded(tmp_path)) == 5

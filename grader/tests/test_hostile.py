@@ -8,8 +8,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ import pytest
 from conftest import Sources
 from hostile import as_user
 from hostile.build import Attack, read_corpus
-from hostile.running import Graded, Listener, Range, Run, planted
+from hostile.running import Graded, Listener, Range, planted
 from hostile.traces import Traces
 from PIL import Image
 
@@ -32,7 +32,9 @@ from raysteps.sandbox.task import Sandbox
 
 KIT_VARIABLE = "RAYSTEPS_TEST_KIT"  # a built kit that an ordinary user can read
 CORPUS = read_corpus()
+_IS_ORDINARY = os.geteuid() != 0
 _AT_ONCE = 3
+_SLACK = 2.0  # seconds, for what the grader and the kernel do around a program
 _NUMBERS_WITHOUT_ENTRY = {33}  # docs/hostile.md says why
 _USUAL = ["failed", "crashed", "timeout", "partial"]
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -75,9 +77,11 @@ def own_kit(request: pytest.FixtureRequest, project: Project, steps: list[Step],
 
 
 @pytest.fixture(scope="module")
-def ordinary_user(own_kit: BuiltKit, sandbox: Sandbox) -> Iterator[subprocess.Popen[str] | None]:
+def ordinary_user(
+    request: pytest.FixtureRequest, own_kit: BuiltKit, sandbox: Sandbox
+) -> Iterator[subprocess.Popen[str] | None]:
     """The same tests as another user, started first because it takes as long as everything else together."""
-    if os.geteuid() != 0 or os.environ.get(KIT_VARIABLE) is not None:
+    if _IS_ORDINARY or not _chosen(request, test_the_same_as_an_ordinary_user.__name__):
         yield None
         return
     user = _free_user()
@@ -145,17 +149,31 @@ def before(traces: Traces, place: Range) -> set[str]:
     return traces.now()
 
 
+class Batch:
+    """Attacks, some at a time: they mostly wait."""
+
+    def __init__(self, pool: ThreadPoolExecutor, place: Range, sandbox: Sandbox, attacks: list[Attack]) -> None:
+        self._futures = {attack.name: pool.submit(place.grade, attack, sandbox) for attack in attacks}
+
+    def graded(self, attack: Attack) -> Graded:
+        return self._futures[attack.name].result()
+
+    def wait(self) -> None:
+        wait(self._futures.values())
+
+
 @pytest.fixture(scope="module")
-def graded(
-    request: pytest.FixtureRequest, place: Range, sandbox: Sandbox, before: set[str]
-) -> Iterator[Callable[[Attack], Graded]]:
-    """All attacks that were chosen, some at a time: they mostly wait."""
-    items = [item for item in request.session.items if isinstance(item, pytest.Function)]
-    attacks = [item.callspec.params["attack"] for item in items if item.originalname == test_attack.__name__]
+def batch(request: pytest.FixtureRequest, place: Range, sandbox: Sandbox, before: set[str]) -> Iterator[Batch]:
+    """The attacks whose tests were chosen."""
+    attacks: list[Attack] = [item.callspec.params["attack"] for item in _chosen(request, test_attack.__name__)]
     with ThreadPoolExecutor(max_workers=_AT_ONCE) as pool:
-        futures = {attack.name: pool.submit(place.grade, attack, sandbox) for attack in attacks}
-        yield lambda attack: futures[attack.name].result()
+        yield Batch(pool, place, sandbox, attacks)
         pool.shutdown(cancel_futures=True)
+
+
+def _chosen(request: pytest.FixtureRequest, test: str) -> list[pytest.Function]:
+    items = [item for item in request.session.items if isinstance(item, pytest.Function)]
+    return [item for item in items if item.originalname == test]
 
 
 # What must be true of every attack
@@ -190,22 +208,20 @@ def _check_secret(graded: Graded, secret: str) -> None:
                 data += np.asarray(Image.open(path)).tobytes()
             assert hidden not in data, path
     assert secret not in graded.refused
-    for run in graded.runs:
-        seen = [run.ran.outcome.stdout.encode(), run.ran.outcome.stderr.encode(), *run.ran.outputs.values()]
-        assert not any(hidden in data for data in seen), f"{run.task.command} got hold of the secret"
+    assert not [run.command for run in graded.runs if run.leaked]
 
 
-def _check_time(run: Run) -> None:
-    limits = run.task.limits
-    assert run.seconds < limits.wall_seconds + 2, f"{run.task.command} ran {run.seconds:.1f} s"
+def _check_time(graded: Graded) -> None:
+    slow = [f"{run.command} ran {run.seconds:.1f} s" for run in graded.runs if run.seconds > run.limit + _SLACK]
+    assert not slow
+    assert graded.seconds < sum(run.limit for run in graded.runs) + _SLACK or graded.refused
 
 
 @pytest.mark.parametrize("attack", CORPUS, ids=lambda attack: attack.name)
-def test_attack(attack: Attack, graded: Callable[[Attack], Graded], place: Range) -> None:
-    seen = graded(attack)
+def test_attack(attack: Attack, batch: Batch, place: Range) -> None:
+    seen = batch.graded(attack)
     assert not seen.trace.exists()
-    for run in seen.runs:
-        _check_time(run)
+    _check_time(seen)
     _check_secret(seen, place.planted.text)
     if attack.refused:
         assert attack.refused in seen.refused
@@ -226,14 +242,13 @@ def test_attack(attack: Attack, graded: Callable[[Attack], Graded], place: Range
         assert results.isolation.strong
 
 
-def test_nothing_is_heard(graded: Graded_, place: Range) -> None:
-    graded.wait()
+def test_nothing_is_heard(batch: Batch, place: Range) -> None:
+    batch.wait()
     assert not place.listener.heard
 
 
-def test_nothing_is_left_behind(graded: Callable[[Attack], Graded], traces: Traces, before: set[str]) -> None:
-    for attack in CORPUS:
-        graded(attack)
+def test_nothing_is_left_behind(batch: Batch, traces: Traces, before: set[str]) -> None:
+    batch.wait()
     assert not traces.left_since(before)
 
 
@@ -253,7 +268,7 @@ def test_the_page_names_every_attack(project: Project) -> None:
     assert not missing
 
 
-@pytest.mark.skipif(os.geteuid() != 0 or KIT_VARIABLE in os.environ, reason="for root, who can become somebody else")
+@pytest.mark.skipif(_IS_ORDINARY, reason="for root, who can become somebody else")
 def test_the_same_as_an_ordinary_user(ordinary_user: subprocess.Popen[str] | None) -> None:
     assert ordinary_user is not None
     output, _ = ordinary_user.communicate(timeout=600)

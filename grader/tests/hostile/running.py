@@ -110,16 +110,18 @@ def planted(kit: BuiltKit, folder: Path) -> Iterator[Planted]:
 class Run:
     """One program that the sandbox ran."""
 
-    task: Task
-    ran: Ran
+    command: str
+    limit: float  # seconds on the clock
     seconds: float
+    leaked: bool  # whether the secret came out, by whatever way
 
 
 @dataclass
 class Watched:
-    """A sandbox that remembers."""
+    """A sandbox that remembers what it ran."""
 
     sandbox: Sandbox
+    secret: bytes
     runs: list[Run] = field(default_factory=list)
 
     @property
@@ -129,7 +131,10 @@ class Watched:
     def run(self, task: Task) -> Ran:
         start = time.monotonic()
         ran = self.sandbox.run(task)
-        self.runs.append(Run(task, ran, time.monotonic() - start))
+        seconds = time.monotonic() - start
+        outputs = [ran.outcome.stdout.encode(), ran.outcome.stderr.encode(), *ran.outputs.values()]
+        leaked = any(self.secret in data for data in outputs)
+        self.runs.append(Run(str(task.command), task.limits.wall_seconds, seconds, leaked))
         return ran
 
 
@@ -143,6 +148,7 @@ class Graded:
     results: list[Results] = field(default_factory=list)
     refused: str = ""
     runs: list[Run] = field(default_factory=list)
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -200,14 +206,15 @@ class Range:
         folder.mkdir()
         graded = Graded(attack, folder / "out", folder / "trace")
         facts = self._facts(attack, graded.trace, graded.out)
-        watched = Watched(sandbox)
+        watched = Watched(sandbox, self.planted.text.encode())
         settings = Settings(only=(attack.step, *attack.honest), limits=_LIMITS | attack.limits)
         path = lay_out(attack, facts, self.solved, folder)
+        start = time.monotonic()
         try:
             for _ in range(attack.rounds):
                 submission = take_in(path, self.kit.steps)
                 graded.results.append(grade_one(self.kit, submission, settings, watched, graded.out))
         except UsageError as error:
             graded.refused = str(error)
-        graded.runs = watched.runs
+        graded.runs, graded.seconds = watched.runs, time.monotonic() - start
         return graded

@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,33 +21,36 @@ def _parents() -> dict[int, int]:
     return parents
 
 
-def _belongs_to(pid: int, roots: set[int], parents: dict[int, int]) -> bool:
+def _way_up(pid: int, parents: dict[int, int]) -> Iterator[int]:
     while pid in parents:
-        if pid in roots:
-            return True
+        yield pid
         pid = parents[pid]
-    return False
 
 
-def _is_ours(pid: int, users: range) -> bool:
+def _looks_like_ours(pid: int, users: range) -> bool:
     try:
         entry = Path("/proc", str(pid))
-        command = (entry / "cmdline").read_bytes()
-        return entry.stat().st_uid in users or b"/in/0/" in command or b"bwrap" in command
+        return entry.stat().st_uid in users or b"bwrap" in (entry / "cmdline").read_bytes()
     except OSError:
         return False
 
 
+def _is_abandoned(pid: int, users: range, parents: dict[int, int]) -> bool:
+    """One of the sandbox's that no living grader stands above; it may be another grader's, if that was killed."""
+    top = next((above for above in _way_up(pid, parents) if not _looks_like_ours(above, users)), 1)
+    return top == 1 and _looks_like_ours(pid, users)
+
+
 def processes(users: range, spared: set[int]) -> set[int]:
-    """Our own children and those whose parents died, the sandbox's, and those of the users that it lends."""
+    """Our own children, those of dead parents among them, and what the sandbox's users left to the first process."""
     parents = _parents()
-    return {
-        pid
-        for pid in parents
-        if pid != os.getpid()
-        and not _belongs_to(pid, spared, parents)
-        and (_belongs_to(pid, {os.getpid()}, parents) or _is_ours(pid, users))
-    }
+    found = set()
+    for pid in parents:
+        above = set(_way_up(pid, parents))
+        ours = os.getpid() in above or _is_abandoned(pid, users, parents)
+        if ours and pid != os.getpid() and not above & spared:
+            found.add(pid)
+    return found
 
 
 def _names(folder: Path) -> set[str]:
@@ -78,9 +81,8 @@ class Traces:
         found |= set().union(*(_names(folder) for folder in (*_SHARED, self.temporary)))
         found |= set().union(*(_rows(table) for table in _TABLES))
         groups = Path("/sys/fs/cgroup")
-        return found | {
-            str(path) for depth in ("*", "*/*", "*/*/*") for path in groups.glob(depth) if "raysteps" in path.name
-        }
+        own = f"raysteps-{os.getpid()}-"
+        return found | {str(path) for depth in ("*", "*/*", "*/*/*") for path in groups.glob(depth) if own in path.name}
 
     def left_since(self, before: set[str], seconds: float = 5.0) -> set[str]:
         """What is new and stays: the kernel takes a moment to clear up behind a namespace."""

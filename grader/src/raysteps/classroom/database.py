@@ -11,6 +11,7 @@ from typing import Any, Literal
 from raysteps.classroom.messages import Answer
 from raysteps.classroom.records import Registered, Registration, RunFacts
 from raysteps.classroom.tables import open_database, transaction
+from raysteps.judge.feedback import Feedback
 
 FILE = "class.sqlite"
 _CURRENT = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
@@ -93,6 +94,12 @@ class ClassDatabase:
             self.connection.execute(
                 "UPDATE runs SET state = ?, ended_at = ?, reused = ? WHERE number = ?", (state, now(), reused, run)
             )
+
+    def feedback(self) -> Feedback:
+        """How much the last run wants students to be told."""
+        row = self.connection.execute("SELECT settings FROM runs ORDER BY number DESC LIMIT 1").fetchone()
+        wanted: Feedback = json.loads(row["settings"])["feedback"]
+        return wanted
 
     def current(self, name: str) -> sqlite3.Row | None:
         """The result that counts for a submission: that of the last run that has one."""

@@ -8,6 +8,7 @@ from typing import Any
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.spreadsheet import Cell, csv_bytes
 from raysteps.common.files import write_bytes, write_if_changed, write_json
+from raysteps.judge.feedback import withhold
 
 SUBMISSIONS = "submissions"
 
@@ -33,7 +34,7 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     for path, data in pictures.items():
         write_if_changed(folder / path, data)
     if row["document"]:
-        document = json.loads(row["document"])
+        document = withhold(json.loads(row["document"]), database.feedback())
         text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
         write_if_changed(folder / "results.json", text.encode())
         (folder / "fault.txt").unlink(missing_ok=True)

@@ -56,10 +56,16 @@ class Plan:
     uid: str = field(default_factory=lambda: uuid.uuid4().hex)
 
     @property
-    def settings(self) -> dict[str, Any]:
-        """Beside the kit and the submission, all that a grade depends on."""
+    def grading(self) -> dict[str, Any]:
+        """Beside the kit and the submission, all that a grade depends on. The database keeps everything that is known;
+        what a student is not to see is left out when results.json is made from it."""
         only = [step.id for step in self.chosen] if self.order.only else []
-        return {"seed": self.order.seed, "only": only, "feedback": self.order.feedback, "limits": self.order.limits}
+        return {"seed": self.order.seed, "only": only, "feedback": "full", "limits": self.order.limits}
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """As the instructor gave them."""
+        return {**self.grading, "feedback": self.order.feedback}
 
     def facts(self, kit: str) -> RunFacts:
         columns = [

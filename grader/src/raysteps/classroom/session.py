@@ -93,16 +93,14 @@ class Session:
             except GraderFault as fault:
                 self._record(Answer(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
                 continue
-            key = submission_key(taken.submission, self.kit, self.plan.settings)
+            key = submission_key(taken.submission, self.kit, self.plan.grading)
             if self.plan.order.resume and self._is_done(name, key):
                 self.reused += 1
                 self.meter.skip()
                 continue
             self._pending[name] = _Pending(key, taken.unreadable)
             order = self.plan.order
-            yield Job(
-                taken.submission, self.plan.settings, order.grader, self.kit, order.require_sandbox, self.plan.uid
-            )
+            yield Job(taken.submission, self.plan.grading, order.grader, self.kit, order.require_sandbox, self.plan.uid)
 
     def _is_done(self, name: str, key: str) -> bool:
         current = self.database.current(name)

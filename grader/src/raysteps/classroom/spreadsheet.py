@@ -2,27 +2,21 @@
 
 import csv
 import io
-import unicodedata
 from collections.abc import Iterable, Sequence
 
+from raysteps.common.cells import harmless_cell
 from raysteps.common.text import number
 
 Cell = str | float | int | None
-_FORMULA = "=+-@"
 
 
 def safe_cell(value: Cell) -> str:
-    """Text that a spreadsheet would take for a formula, or that begins with a control character, gets a `'`.
-
-    Numbers stay numbers."""
+    """Text is made harmless; numbers stay numbers."""
     if value is None:
         return ""
     if isinstance(value, (int, float)):
         return number(value)
-    text = value.replace("\0", "")
-    first = unicodedata.normalize("NFKC", text.lstrip())[:1]  # some take the wide forms of these signs, too
-    controlled = bool(text) and unicodedata.category(text[0]) in ("Cc", "Cf")
-    return f"'{text}" if controlled or (first and first in _FORMULA) else text
+    return harmless_cell(value)
 
 
 def csv_bytes(rows: Iterable[Sequence[Cell]]) -> bytes:

@@ -7,10 +7,10 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.common.cells import harmless_cell
 from raysteps.common.errors import UsageError
 from raysteps.exports.reading import read_results
 from raysteps.exports.summary import Document
-from raysteps.exports.wording import harmless_cell
 
 _CANVAS_FILE = re.compile(r"[^_]+_(?:LATE_)?([0-9]+)_[0-9]+_")  # leeann_4711_815_steps
 _MOODLE_FILE = re.compile(r"_([0-9]+)_assignsubmission_")  # Ann Lee_123_assignsubmission_file

@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from raysteps.common.cells import harmless_cell
 from raysteps.common.text import number
 from raysteps.exports.class_results import Graded, results_of
 from raysteps.exports.summary import summary
-from raysteps.exports.wording import as_html, harmless_cell
+from raysteps.exports.wording import as_html
 from raysteps.kit.manifest import Step
 
 _LIMIT = 8000

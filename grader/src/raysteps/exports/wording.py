@@ -6,7 +6,6 @@ import re
 from raysteps.common.text import printable, shorten
 
 _UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _COMMAND = re.compile(r"^(\s*)::", re.MULTILINE)
 
 
@@ -24,11 +23,6 @@ def one_line(text: str, limit: int = 200) -> str:
 def as_html(text: str, limit: int = 4000) -> str:
     """For places that render HTML."""
     return html.escape(clean(text, limit)).replace("\n", "<br>")
-
-
-def harmless_cell(text: str) -> str:
-    """A spreadsheet takes a cell that begins so for a formula."""
-    return "'" + text if text.lstrip(" ").startswith(_FORMULA) else text
 
 
 def harmless_log(text: str) -> str:

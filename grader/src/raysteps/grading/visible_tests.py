@@ -1,7 +1,6 @@
 """The visible tests of a step, run so that a crash in one of them does not hide the rest."""
 
 import re
-import time
 from collections.abc import Iterable
 
 from raysteps.common.catch_report import TestOutcome, parse_report
@@ -12,6 +11,7 @@ from raysteps.grading.results import TestResult
 from raysteps.grading.student_build import Program
 from raysteps.sandbox.task import Output, Ran, Sandbox, Task, Word
 
+_MOST_HANGS = 6  # tests that are waited for; a clock would say something else each time
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
@@ -67,10 +67,9 @@ def run_tests(sandbox: Sandbox, program: Program, names: list[str], limits: Step
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]
     each = limits.after_a_timeout().seconds
-    deadline = time.monotonic() + 2 * limits.seconds
-    results = []
+    results: list[TestResult] = []
     for name in names:
-        if time.monotonic() > deadline:
+        if sum(result.outcome == "timeout" for result in results) >= _MOST_HANGS:
             results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
         else:
             results.append(_result_alone(_run(sandbox, program, limits, each, name), name))

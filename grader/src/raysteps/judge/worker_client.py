@@ -56,7 +56,7 @@ def _trouble(ran: Ran) -> Reply:
     if ran.stopped == "memory":
         return Reply("", "crashed", "stopped for taking too much memory")
     how = outcome.signal_name or f"exit code {outcome.code}"
-    return Reply("", "crashed", f"the program ended ({how}) after {number(outcome.seconds)} seconds")
+    return Reply("", "crashed", f"the program ended ({how})")
 
 
 def ask_worker(ask: Ask, cases: Sequence[Case], most_seconds: float) -> Replies:

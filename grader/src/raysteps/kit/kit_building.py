@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import tempfile
+import time
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
@@ -16,6 +17,7 @@ from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 
 _KEPT = 3
+_IN_USE_SECONDS = 1800  # a class touches its kit for each submission
 _NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
 
 
@@ -44,10 +46,11 @@ def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
 
 
 def _forget_old(kits: Path) -> None:
-    """Keeps the kits that were used last."""
+    """Keeps the kits that were used last, and those that may be in use."""
     built = sorted((kit for kit in kits.iterdir() if (kit / "kit.json").is_file()), key=lambda kit: kit.stat().st_mtime)
     for kit in built[:-_KEPT]:
-        shutil.rmtree(kit, ignore_errors=True)
+        if time.time() - kit.stat().st_mtime > _IN_USE_SECONDS:
+            shutil.rmtree(kit, ignore_errors=True)
 
 
 def _build(project: Project, steps: list[Step], folder: Path) -> None:
