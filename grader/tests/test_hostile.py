@@ -93,7 +93,7 @@ def ordinary_user(
         needed = [Path(sys.base_prefix), Path(sys.prefix), root]
         command: list[str | Path] = ["unshare", "--mount", "--propagation", "private", sys.executable, as_user.__file__]
         command += [str(user), *needed, "--", sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", __file__]
-        command += ["-o", f"cache_dir={name}/cache", f"--basetemp={name}/pytest"]
+        command += [f"--basetemp={name}/pytest"]
         environment = os.environ | {
             KIT_VARIABLE: f"{name}/{own_kit.folder.name}",
             "HOME": name,
@@ -165,7 +165,7 @@ class Batch:
 @pytest.fixture(scope="module")
 def batch(request: pytest.FixtureRequest, place: Range, sandbox: Sandbox, before: set[str]) -> Iterator[Batch]:
     """The attacks whose tests were chosen."""
-    attacks: list[Attack] = [item.callspec.params["attack"] for item in _chosen(request, test_attack.__name__)]
+    attacks = [_attack_of(item) for item in _chosen(request, test_attack.__name__)]
     with ThreadPoolExecutor(max_workers=_AT_ONCE) as pool:
         yield Batch(pool, place, sandbox, attacks)
         pool.shutdown(cancel_futures=True)
@@ -174,6 +174,12 @@ def batch(request: pytest.FixtureRequest, place: Range, sandbox: Sandbox, before
 def _chosen(request: pytest.FixtureRequest, test: str) -> list[pytest.Function]:
     items = [item for item in request.session.items if isinstance(item, pytest.Function)]
     return [item for item in items if item.originalname == test]
+
+
+def _attack_of(item: pytest.Function) -> Attack:
+    attack = item.callspec.params["attack"]
+    assert isinstance(attack, Attack)
+    return attack
 
 
 # What must be true of every attack

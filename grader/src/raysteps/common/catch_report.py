@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import dataclass
-from pathlib import Path
 from xml.etree.ElementTree import Element, ParseError
 
 from defusedxml import DefusedXmlException
@@ -10,7 +9,8 @@ from defusedxml.ElementTree import fromstring
 
 from raysteps.common.text import printable, shorten
 
-_MAX_BYTES = 16 << 20
+_MAX_BYTES = 2 << 20
+_MAX_TAGS = 50_000  # a report of our tests has some hundred
 _TAG = re.compile(r"\[([^\]]*)\]")
 
 
@@ -41,8 +41,9 @@ def _text(element: Element | None) -> str:
 
 
 def _location(element: Element) -> str:
-    name = Path(element.get("filename", "")).name
-    return f"{name}:{element.get('line', '')}" if name else ""
+    name = element.get("filename", "").replace("\\", "/").rpartition("/")[2]
+    place = f"{name}:{element.get('line', '')}" if name else ""
+    return shorten(" ".join(printable(place).split()), 200)
 
 
 def _first_failure(case: Element) -> Failure | None:
@@ -72,7 +73,7 @@ def _outcome(case: Element) -> TestOutcome:
 
 def parse_report(report: bytes) -> list[TestOutcome] | None:
     """The test cases of a complete report; None when the report is missing, cut short or not in order."""
-    if len(report) > _MAX_BYTES:
+    if len(report) > _MAX_BYTES or report.count(b"<") > _MAX_TAGS:
         return None
     try:
         root = fromstring(report)

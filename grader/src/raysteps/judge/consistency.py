@@ -9,7 +9,8 @@ a contradiction only where no honest program makes it, however many mistakes it 
 - a test without a mark passes, but of all cases that take a real answer not one is right. It asks for the whole answer
   to a few inputs, and these may come out right where most others do not;
 - a test tagged [part] proves nothing alone: it asks for a part of the answer, or a function hardly begun passes it;
-- a picture passes, but its twin is grossly wrong.
+- a picture passes, but its twin is grossly wrong;
+- a picture says that few objects were tested, but the tree or the search spares the rays nothing.
 
 Where a test asks for several functions, all of them must speak against it.
 """
@@ -113,6 +114,34 @@ def _images(plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenRe
     return lines
 
 
+def _saves_nothing(result: HiddenResult, function: Function) -> bool:
+    groups = [group for group in result.groups if function.by_name[group.name].saves]
+    return result.outcome == "wrong" and any(group.cases and not group.right for group in groups)
+
+
+def _shares(step: Step, images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> list[str]:
+    """How many objects were tested is counted in the program itself. The judge looks at the tree that the program hands
+    out, and counts by surfaces of its own."""
+    known = functions_of(step.number)
+    wasteful = [item.name for item in hidden if item.kind == "function" and _saves_nothing(item, known[item.name])]
+    limited = {image.name for image in step.images if image.max_share is not None}
+    if not wasteful or not limited:
+        return []
+    lines = []
+    for image in images:
+        if image.passed and image.name in limited:
+            lines.append(
+                f"The picture '{image.name}' claims that {image.share_tested or 0:.1%} of the objects were tested, but "
+                f"the judge found that {listed(wasteful)} spares the rays nothing."
+            )
+            image.passed, image.outcome, image.message = False, "wrong", _MESSAGE
+    for item in hidden:
+        if item.kind == "picture" and item.share > 0:
+            item.share, item.outcome, item.message = 0.0, "wrong", _MESSAGE
+    return lines
+
+
 def contradictions(step: Step, plan: Plan, result: StepResult, tags: Tags) -> list[str]:
     """Takes back the claims that the judge did not see, and says so for the instructor, one line each."""
-    return _tests(step, result, tags) + _images(plan, result.images, result.hidden)
+    lines = _tests(step, result, tags) + _images(plan, result.images, result.hidden)
+    return lines + _shares(step, result.images, result.hidden)

@@ -15,11 +15,13 @@ Make = Callable[[Draw], Inputs]
 
 @dataclass(frozen=True)
 class Group:
-    """One kind of cases. `telling`: a stub, or a function that always answers the same, gets none of them right."""
+    """One kind of cases. `telling`: a stub, or a function that always answers the same, gets none of them right.
+    `saves`: who gets all of them wrong spares the rays nothing."""
 
     name: str
     make: Make
     telling: bool = True
+    saves: bool = False
 
 
 @dataclass(frozen=True)

@@ -111,7 +111,7 @@ BUILD_OCTREE = Function(
     TREE,
     (
         Group("spheres and triangles", lambda d: _scene(small_scene(d, 30, 8))),
-        Group("many small spheres", lambda d: _scene(small_scene(d, 110, 0, largest=0.3))),
+        Group("many small spheres", lambda d: _scene(small_scene(d, 110, 0, largest=0.3)), saves=True),
         Group("large ones among small ones", _large_and_small),
         Group("all in one place", _in_one_place),
         Group("all in one plane", _in_one_plane),
@@ -129,7 +129,7 @@ CLOSEST_HIT_IN = Function(
         Group("from inside", _from_inside),
         Group("along an axis", _along_axis),
         Group("a nearer hit in a later box", _later_box, telling=False),
-        Group("few surfaces are asked", _many_rays),
+        Group("few surfaces are asked", _many_rays, saves=True),
         Group("no surfaces", lambda d: _search((), [d.ray_towards((0.0, 0.0, 0.0), 5)], own=True), telling=False),
     ),
 )
