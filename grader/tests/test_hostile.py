@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.sandbox import users
 from raysteps.sandbox.choice import find_sandbox
+from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Sandbox
 
 KIT_VARIABLE = "RAYSTEPS_TEST_KIT"  # a built kit that an ordinary user can read
@@ -259,6 +261,19 @@ def test_nothing_is_left_behind(batch: Batch, traces: Traces, before: set[str]) 
 
 
 # What must be true of the corpus
+
+
+@pytest.mark.parametrize("attack", [attack for attack in CORPUS if attack.outside], ids=lambda attack: attack.name)
+def test_an_attack_is_real(attack: Attack, place: Range, temporary: Path) -> None:
+    """Without a sandbox it reaches its aim; else its failure in one would prove nothing."""
+    folder = temporary / f"{attack.name}-socket"
+    folder.mkdir()
+    listener = Listener(folder)
+    try:
+        graded = replace(place, listener=listener).grade(attack, OpenAir(), f"{attack.name}-outside")
+    finally:
+        listener.close()
+    assert graded.results[0].steps[0].points > 0, graded.results[0].steps[0].messages
 
 
 def test_every_kind_of_attack_has_an_entry() -> None:

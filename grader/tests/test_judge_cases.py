@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.generators import functions_of
 from raysteps.judge.judging import make_cases
 from raysteps.judge.numbers import f32, text
 from raysteps.judge.plan import Plan, read_plan
@@ -25,7 +24,7 @@ def _plan(project: Project, step: Step) -> Plan:
 def _lines(project: Project, step: Step, seed: int) -> list[str]:
     lines = []
     for plan in _plan(project, step).functions:
-        cases = make_cases(step, functions_of(step.number)[plan.name], plan, seed)
+        cases = make_cases(step, plan, seed)
         lines += [case.line(i) for i, case in enumerate(cases)]
     return lines
 

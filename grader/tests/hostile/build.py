@@ -121,6 +121,7 @@ class Attack:
     note: str = ""  # words that must be among the step's messages
     refused: str = ""  # words of the UsageError with which the submission is not taken in
     submission: str = ""  # the name that the results must have
+    outside: bool = False  # it does no harm without a sandbox either, and earns points there
     rounds: int = 1  # how often it is graded, one after the other
     made_by: str = ""  # a function of folders.py or archives.py
     limits: dict[str, float] = field(default_factory=dict)

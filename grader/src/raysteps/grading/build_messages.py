@@ -6,7 +6,9 @@ from raysteps.common.text import listed, printable, shorten
 from raysteps.kit.manifest import Step
 from raysteps.sandbox.task import Ran
 
-_ERROR = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$", re.M)
+_ERROR = re.compile(
+    r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$", re.M
+)
 _MISSING = re.compile(r"undefined reference to [`'](?P<name>.+?)'|undefined symbol: (?P<other>\S.*)")
 _MOST_LOG = 64_000
 

@@ -47,9 +47,14 @@ class Case:
     group: str
     inputs: Inputs
 
-    def line(self, number: int) -> str:
+    @cached_property
+    def _words(self) -> str:
         numbers = [text(n) for value in self.inputs.values() for n in value.numbers()]
-        return " ".join([str(number), self.function, *numbers])
+        return " ".join([self.function, *numbers])
+
+    def line(self, number: int) -> str:
+        """As the worker reads it."""
+        return f"{number} {self._words}"
 
     @property
     def size(self) -> int:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import count, shorten
@@ -28,14 +29,20 @@ class Judged:
     outcome: Ending
 
 
-def make_cases(step: Step, function: Function, plan: FunctionPlan, seed: int) -> list[Case]:
+@lru_cache(maxsize=256)  # a class is asked the same questions
+def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed: int) -> tuple[Case, ...]:
+    known = functions_of(step[:2])[function]
+    cases: list[Case] = []
+    for name, amount in amounts:
+        draw = Draw(f"{seed}/{step}/{function}/{name}")
+        make = known.by_name[name].make
+        cases += [Case(function, name, make(draw)) for _ in range(amount)]
+    return tuple(cases)
+
+
+def make_cases(step: Step, plan: FunctionPlan, seed: int) -> Sequence[Case]:
     """The same seed makes the same cases on every machine."""
-    cases = []
-    for name, amount in plan.cases.items():
-        draw = Draw(f"{seed}/{step.id}/{function.name}/{name}")
-        make = function.by_name[name].make
-        cases += [Case(function.name, name, make(draw)) for _ in range(amount)]
-    return cases
+    return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
 
 
 def _reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
@@ -112,7 +119,7 @@ def judge_functions(step: Step, plan: Plan, student: Ask, reference: Ask, seed: 
     left = _STEP_FACTOR * step.seconds
     for function_plan in plan.functions:
         function = functions_of(step.number)[function_plan.name]
-        cases = make_cases(step, function, function_plan, seed)
+        cases = make_cases(step, function_plan, seed)
         expected = _reference_lines(reference, cases, function.name)
         replies = ask_worker(student, cases, left)
         left -= replies.seconds

@@ -4,8 +4,9 @@ import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any, Literal
 
 import jsonschema
@@ -101,15 +102,12 @@ def _check_names(plan: Plan, step: Step) -> None:
         raise GraderFault(f"{step.id}: cases.toml must list a twin for each picture of step.toml, in its order")
 
 
-def read_plan(project: Project, step: Step) -> Plan | None:
-    """None in a student's kit, which has no solutions; a bad file is the kit's fault."""
-    path = project.solutions / step.id / "cases.toml"
-    if not path.is_file():
-        return None
+@lru_cache(maxsize=64)
+def _parse(text: str, step: Step, path: Path) -> Plan:
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        table = tomllib.loads(text)
         jsonschema.validate(table, _schema())
-    except (OSError, ValueError, jsonschema.ValidationError) as error:
+    except (ValueError, jsonschema.ValidationError) as error:
         said = f"{error.json_path}: {error.message}" if isinstance(error, jsonschema.ValidationError) else str(error)
         raise GraderFault(f"{path}: not a plan of hidden cases: {said}") from error
     plan = Plan(
@@ -119,3 +117,15 @@ def read_plan(project: Project, step: Step) -> Plan | None:
     )
     _check_names(plan, step)
     return plan
+
+
+def read_plan(project: Project, step: Step) -> Plan | None:
+    """None in a student's kit, which has no solutions; a bad file is the kit's fault."""
+    path = project.solutions / step.id / "cases.toml"
+    if not path.is_file():
+        return None
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraderFault(f"{path}: cannot be read: {error}") from error
+    return _parse(text, step, path)
