@@ -144,6 +144,16 @@ def zip_odd_encodings(folder: Path, facts: Mapping[str, str]) -> Path:
     return path
 
 
+def zip_from_windows(folder: Path, facts: Mapping[str, str]) -> Path:
+    """Honest work by way of editors and programs that are not ours."""
+    path = folder.with_suffix(".zip")
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in _honest(folder).items():
+            text = data.decode().replace("\n", "\r\n")
+            archive.writestr(f"Work\\{name.title()}".replace("/", "\\"), text.encode("utf-16"))
+    return path
+
+
 def tar_that_leads_out(folder: Path, facts: Mapping[str, str]) -> Path:
     trace = facts["TRACE"]
     out = str(Path(trace).parent)
@@ -191,6 +201,7 @@ ARCHIVES: dict[str, Maker] = {
         zip_encrypted,
         zip_damaged,
         zip_odd_encodings,
+        zip_from_windows,
         tar_that_leads_out,
         tar_with_devices,
         tar_bomb,

@@ -60,6 +60,12 @@ def pipe(folder: Path, facts: Mapping[str, str]) -> Path:
     return folder
 
 
+def binary_source(folder: Path, facts: Mapping[str, str]) -> Path:
+    (folder / _STEP).mkdir(parents=True)
+    (folder / _STEP / _FILE).write_bytes(b"int x;\n" + bytes(range(256)) * 20)
+    return folder
+
+
 def name_with_code(folder: Path, facts: Mapping[str, str]) -> Path:
     other = folder.with_name("=cmd|' calc'!A0<img src=x onerror=alert(1)>\x1b[31m\x9b31m\n\u202egpj")
     folder.rename(other)
@@ -73,5 +79,14 @@ def somebody_else(folder: Path, facts: Mapping[str, str]) -> Path:
 
 FOLDERS: dict[str, Maker] = {
     make.__name__: make
-    for make in (odd_names, odd_source_name, links, link_to_a_folder, pipe, name_with_code, somebody_else)
+    for make in (
+        odd_names,
+        odd_source_name,
+        binary_source,
+        links,
+        link_to_a_folder,
+        pipe,
+        name_with_code,
+        somebody_else,
+    )
 }

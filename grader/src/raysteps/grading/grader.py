@@ -76,6 +76,8 @@ class StepGrader:
             result.messages = [self._work.submission.notes.get(step.id) or missing]
             result.cumulative = Cumulative(False, "This step was not started.")
             return result
+        remark = self._work.submission.remarks.get(step.id)
+        result.messages += [remark] if remark else []
         left = unfinished_functions(source, step)
         if left:
             result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
