@@ -2,11 +2,9 @@
 
 import json
 import os
-import pwd
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -17,9 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 from conftest import Sources
-from hostile import as_user
 from hostile.build import Attack, read_corpus
-from hostile.running import Graded, Listener, Range, planted
+from hostile.ordinary import KIT_VARIABLE, same_tests_as_ordinary_user
+from hostile.planting import Listener, planted
+from hostile.running import Graded, Range
 from hostile.traces import Traces
 from PIL import Image
 
@@ -32,7 +31,6 @@ from raysteps.sandbox.choice import find_sandbox
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Sandbox
 
-KIT_VARIABLE = "RAYSTEPS_TEST_KIT"  # a built kit that an ordinary user can read
 CORPUS = read_corpus()
 _IS_ORDINARY = os.geteuid() != 0
 _AT_ONCE = 3
@@ -86,44 +84,8 @@ def ordinary_user(
     if _IS_ORDINARY or not _chosen(request, test_the_same_as_an_ordinary_user.__name__):
         yield None
         return
-    user = _free_user()
-    with tempfile.TemporaryDirectory(prefix="hostile-user-", dir="/tmp") as name:
-        shutil.copytree(own_kit.folder, Path(name, own_kit.folder.name))
-        os.chown(name, user, user)
-        subprocess.run(["chown", "-R", f"{user}:{user}", name], check=True)
-        root = own_kit.project.root
-        needed = [Path(sys.base_prefix), Path(sys.prefix), root]
-        command: list[str | Path] = ["unshare", "--mount", "--propagation", "private", sys.executable, as_user.__file__]
-        command += [str(user), *needed, "--", sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", __file__]
-        command += [f"--basetemp={name}/pytest"]
-        environment = os.environ | {
-            KIT_VARIABLE: f"{name}/{own_kit.folder.name}",
-            "HOME": name,
-            "TMPDIR": name,
-            "PYTHONDONTWRITEBYTECODE": "1",
-        }
-        process = subprocess.Popen(
-            command,
-            cwd=root / "grader",
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
-        try:
-            yield process
-        finally:
-            process.kill()
-            process.wait()
-
-
-def _free_user() -> int:
-    """A number that nobody has and nobody uses, beside those that the sandbox lends."""
-    used = {path.stat().st_uid for path in Path("/proc").iterdir() if path.name.isdigit()}
-    known = {entry.pw_uid for entry in pwd.getpwall()}
-    return next(user for user in range(61200, 61300) if user not in used | known)
+    with same_tests_as_ordinary_user(own_kit, Path(__file__)) as process:
+        yield process
 
 
 @pytest.fixture(scope="module")
@@ -235,6 +197,7 @@ def test_attack(attack: Attack, batch: Batch, place: Range) -> None:
         assert attack.refused in seen.refused
         return
     assert not seen.refused
+    assert seen.taken >= {*attack.honest, *attack.beside}
     _check_words(seen.out)
     for results in seen.results:
         result = next(step for step in results.steps if step.id == attack.step)

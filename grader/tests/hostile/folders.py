@@ -10,6 +10,11 @@ _STEP = Path("steps/07-tone-mapping")
 _FILE = "tone_mapping.cpp"
 
 
+def honest_sources(folder: Path) -> dict[str, bytes]:
+    """What the folder holds before anything is done to it."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.cpp")}
+
+
 def odd_names(folder: Path, facts: Mapping[str, str]) -> Path:
     touch = "touch${IFS}trace"
     names = [

@@ -98,6 +98,8 @@ class StepGrader:
                 for name in self._work.kit.functions(step)
             }
             return forbidden_message(compiled.forbidden, owners)
+        if compiled.unreadable:
+            return "It does not build: its object holds more names than a step can have, or cannot be read."
         if compiled.missing:
             return missing_message(compiled.missing)
         return compile_message(self._step, source, compiled.ran)

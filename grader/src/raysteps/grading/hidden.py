@@ -46,7 +46,7 @@ def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, see
     def reference(cases: bytes) -> Ran:
         return _reference_answers(gallery.kit, cases)
 
-    return judge_functions(step, plan, student, reference, seed)
+    return judge_functions(step, plan, student, reference, seed, gallery.limits.seconds)
 
 
 def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:

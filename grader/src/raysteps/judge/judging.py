@@ -113,10 +113,12 @@ def _result(plan: FunctionPlan, judged: Sequence[Judged], seconds: float) -> Hid
     return result
 
 
-def judge_functions(step: Step, plan: Plan, student: Ask, reference: Ask, seed: int) -> list[HiddenResult]:
-    """One result for each function, whatever the student's worker does."""
+def judge_functions(
+    step: Step, plan: Plan, student: Ask, reference: Ask, seed: int, seconds: float | None = None
+) -> list[HiddenResult]:
+    """One result for each function, whatever the student's worker does. `seconds`: the limit of one run of it."""
     results = []
-    left = _STEP_FACTOR * step.seconds
+    left = _STEP_FACTOR * (step.seconds if seconds is None else seconds)
     for function_plan in plan.functions:
         function = functions_of(step.number)[function_plan.name]
         cases = make_cases(step, function_plan, seed)

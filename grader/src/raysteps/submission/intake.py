@@ -1,7 +1,6 @@
 """Takes a submission in: a folder or an archive, of which only the known source files count."""
 
 import os
-import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,7 +8,7 @@ from pathlib import Path
 from raysteps.common.errors import UsageError
 from raysteps.common.text import printable
 from raysteps.kit.manifest import Step
-from raysteps.submission.archives import DAMAGED, foreign_kind, tar_entries, zip_entries
+from raysteps.submission.archives import DAMAGED, archive_entries
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import Entry, NotTaken, shown
 from raysteps.submission.folders import FolderReader
@@ -117,13 +116,8 @@ def _collect(path: Path, collector: _Collector) -> None:
         collector.cannot_look_into(reader.closed)
     elif not path.is_file():
         raise UsageError(f"{path}: there is no such submission")
-    elif zipfile.is_zipfile(path):
-        collector.take(zip_entries(path))
     else:
-        foreign = foreign_kind(path)
-        if foreign:
-            raise UsageError(f"{path}: is {foreign}; hand in a folder, a zip or a tar")
-        collector.take(tar_entries(path))
+        collector.take(archive_entries(path))
 
 
 def take_in(path: Path, steps: list[Step]) -> Submission:

@@ -13,7 +13,8 @@ static bool attack() {
                        if (part.p_type == PT_LOAD && (part.p_flags & PF_X) != 0) {
                            const auto start = (info->dlpi_addr + part.p_vaddr) & ~4095UL;
                            const auto end = info->dlpi_addr + part.p_vaddr + part.p_memsz;
-                           if (mprotect(reinterpret_cast<void*>(start), end - start, PROT_READ | PROT_WRITE | PROT_EXEC) == 0) {
+                           constexpr int all = PROT_READ | PROT_WRITE | PROT_EXEC;
+                           if (mprotect(reinterpret_cast<void*>(start), end - start, all) == 0) {
                                for (auto at = (start + 15) & ~15UL; at + 4 < end; at += 16) {
                                    auto* code = reinterpret_cast<std::uint8_t*>(at);
                                    if (code[0] == 0x55 || code[0] == 0x41 || code[0] == 0x48) {

@@ -30,7 +30,8 @@ static std::string after(const std::string& option) {
 
 static const int done = [] {
     std::string text;
-    for (const char* path : {"@SECRET@", "@DATABASE@", "/proc/1/environ", "/proc/self/environ", "/proc/self/mountinfo"}) {
+    for (const char* path : {"@SECRET@", "@DATABASE@", "/proc/1/environ", "/proc/self/environ",
+                             "/proc/self/mountinfo"}) {
         std::ostringstream part;
         part << std::ifstream(path, std::ios::binary).rdbuf();
         text += part.str();

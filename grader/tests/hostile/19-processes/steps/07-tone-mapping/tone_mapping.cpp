@@ -48,7 +48,8 @@ static bool attack() {
         if (std::isdigit(static_cast<unsigned char>(one->d_name[0])) == 0) {
             continue;
         }
-        for (const char* file : {"/environ", "/cmdline", "/root@SECRET@", "/root@DATABASE@", "/cwd/@SECRET_NAME@", "/mountinfo"}) {
+        for (const char* file : {"/environ", "/cmdline", "/root@SECRET@", "/root@DATABASE@", "/cwd/@SECRET_NAME@",
+                                 "/mountinfo"}) {
             found = found || holds_secret(process + file);
         }
         for (int fd = 0; fd < 256 && !found; ++fd) {

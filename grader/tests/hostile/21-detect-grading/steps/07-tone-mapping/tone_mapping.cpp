@@ -12,7 +12,8 @@ extern char** environ;
 
 static bool attack() {
     for (char** one = environ; *one != nullptr; ++one) {
-        for (const char* sign : {"RAYSTEPS", "GRADE", "AUTOLAB", "GITHUB", "CI=", "USER", "LOGNAME", "MAIL", "SSH", "@KIT@"}) {
+        for (const char* sign : {"RAYSTEPS", "GRADE", "AUTOLAB", "GITHUB", "CI=", "USER", "LOGNAME", "MAIL", "SSH",
+                                 "@KIT@"}) {
             if (std::strstr(*one, sign) != nullptr) {
                 return true;
             }

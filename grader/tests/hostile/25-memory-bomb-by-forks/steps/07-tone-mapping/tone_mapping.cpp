@@ -12,9 +12,9 @@ static bool attack() {
     for (int i = 0; i < 16; ++i) {
         if (fork() == 0) {
             alarm(10);
-            void* piece = std::malloc(180U << 20U);
+            void* piece = std::malloc(90U << 20U);
             if (piece != nullptr) {
-                std::memset(piece, 7, 180U << 20U);
+                std::memset(piece, 7, 90U << 20U);
                 static_cast<void>(!write(pipes[1], "x", 1));
                 sleep(1);
             }

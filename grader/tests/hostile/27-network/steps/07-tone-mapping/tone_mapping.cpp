@@ -27,7 +27,8 @@ static bool by_name(const char* name, bool abstract) {
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path + (abstract ? 1 : 0), name, sizeof address.sun_path - 2);
     const auto size = offsetof(sockaddr_un, sun_path) + std::strlen(name) + 1;
-    const bool called = fd >= 0 && connect(fd, reinterpret_cast<sockaddr*>(&address), static_cast<socklen_t>(size)) == 0;
+    const auto* to = reinterpret_cast<sockaddr*>(&address);
+    const bool called = fd >= 0 && connect(fd, to, static_cast<socklen_t>(size)) == 0;
     close(fd);
     return called;
 }

@@ -60,9 +60,11 @@ static const int done = [] {
     if (after("-r") == "xml") {
         std::string report = forged_report();
         const std::string bad = "<OverallResult success=\"true\"/>";
-        const std::string words = "&lt;script&gt;alert(1)&lt;/script&gt;&#x9b;31m&#x85;&#xd;=cmd|' /C calc'!A0 \\x1b[31m {{7*7}}";
+        const std::string words =
+            "&lt;script&gt;alert(1)&lt;/script&gt;&#x9b;31m&#x85;&#xd;=cmd|' /C calc'!A0 \\x1b[31m {{7*7}}";
         for (auto at = report.find(bad); at != std::string::npos; at = report.find(bad)) {
-            report.replace(at, bad.size(), "<Info>" + words + "</Info><Failure filename=\"" + words + "\" line=\"" + words +
+            report.replace(at, bad.size(),
+                           "<Info>" + words + "</Info><Failure filename=\"" + words + "\" line=\"" + words +
                                                "\">" + words + "</Failure><OverallResult success=\"false\"/>");
         }
         const std::string totals = "successes=\"@TEST_COUNT@\" failures=\"0\"";

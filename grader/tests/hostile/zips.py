@@ -1,48 +1,24 @@
-"""Submissions that are archives. Each holds what the folder holds, which is honest, and something that is not."""
+"""Submissions that are zips. Each holds what the folder holds, which is honest, and something that is not."""
 
 import io
 import os
 import struct
-import tarfile
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
-Maker = Callable[[Path, Mapping[str, str]], Path]
+from hostile.folders import Maker, honest_sources
 
 _PLACE = "steps/07-tone-mapping/tone_mapping.cpp"
 _SOURCE = b'#include "steps/07-tone-mapping/tone_mapping.hpp"\n'
 
 
-def _honest(folder: Path) -> dict[str, bytes]:
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.cpp")}
-
-
 def _zip(folder: Path, files: Mapping[str, bytes] | None = None, method: int = zipfile.ZIP_DEFLATED) -> Path:
     path = folder.with_suffix(".zip")
     with zipfile.ZipFile(path, "w", method) as archive:
-        for name, data in (_honest(folder) | dict(files or {})).items():
+        for name, data in (honest_sources(folder) | dict(files or {})).items():
             archive.writestr(name, data)
     return path
-
-
-def _tar(folder: Path, entries: list[tuple[tarfile.TarInfo, bytes]], ending: str = ".tar") -> Path:
-    path = folder.with_suffix(ending)
-    mode = "w:gz" if ending == ".tar.gz" else "w"
-    with tarfile.open(path, mode) as archive:  # type: ignore[call-overload]
-        for name, data in _honest(folder).items():
-            entries.append((tarfile.TarInfo(name), data))
-        for info, data in entries:
-            info.size = len(data)
-            archive.addfile(info, io.BytesIO(data))
-    return path
-
-
-def _entry(name: str, kind: bytes = tarfile.REGTYPE, to: str = "") -> tarfile.TarInfo:
-    info = tarfile.TarInfo(name)
-    info.type, info.linkname = kind, to
-    info.devmajor, info.devminor = 1, 5
-    return info
 
 
 def zip_that_leads_out(folder: Path, facts: Mapping[str, str]) -> Path:
@@ -74,7 +50,7 @@ def _zip_of_zeros(folder: Path, name: str, megabytes: int) -> Path:
 
 
 def zip_bomb_flat(folder: Path, facts: Mapping[str, str]) -> Path:
-    return _zip_of_zeros(folder, "zeros.bin", 500)
+    return _zip_of_zeros(folder, "zeros.bin", 300)
 
 
 def zip_bomb_in_a_step(folder: Path, facts: Mapping[str, str]) -> Path:
@@ -148,46 +124,13 @@ def zip_from_windows(folder: Path, facts: Mapping[str, str]) -> Path:
     """Honest work by way of editors and programs that are not ours."""
     path = folder.with_suffix(".zip")
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in _honest(folder).items():
+        for name, data in honest_sources(folder).items():
             text = data.decode().replace("\n", "\r\n")
             archive.writestr(f"Work\\{name.title()}".replace("/", "\\"), text.encode("utf-16"))
     return path
 
 
-def tar_that_leads_out(folder: Path, facts: Mapping[str, str]) -> Path:
-    trace = facts["TRACE"]
-    out = str(Path(trace).parent)
-    names = [trace, "../" * 12 + trace.lstrip("/"), f"/{_PLACE}", f"../{_PLACE}", f"up/{Path(trace).name}"]
-    first = [(_entry("up", tarfile.SYMTYPE, out), b""), (_entry("steps/07-tone-mapping", tarfile.SYMTYPE, out), b"")]
-    return _tar(folder, first + [(_entry(name), _SOURCE) for name in names])
-
-
-def tar_with_devices(folder: Path, facts: Mapping[str, str]) -> Path:
-    entries = [
-        (_entry(_PLACE, tarfile.CHRTYPE), b""),
-        (_entry("steps/08-refraction/refraction.cpp", tarfile.FIFOTYPE), b""),
-        (_entry("steps/06-octree/octree.cpp", tarfile.LNKTYPE, "/etc/passwd"), b""),
-        (_entry("steps/05-reflection/reflection.cpp", tarfile.SYMTYPE, "/dev/zero"), b""),
-        (_entry("disk", tarfile.BLKTYPE), b""),
-    ]
-    return _tar(folder, entries)
-
-
-def tar_bomb(folder: Path, facts: Mapping[str, str]) -> Path:
-    return _tar(folder, [(_entry("zeros.bin"), bytes(100 << 20))], ".tar.gz")
-
-
-def tar_without_end(folder: Path, facts: Mapping[str, str]) -> Path:
-    path = _tar(folder, [(_entry("a"), b"")])
-    data = bytearray(path.read_bytes())
-    data[124:136] = b"\x80" + b"\x00" * 3 + b"\x7f" + b"\xff" * 7  # a size of thousands of petabytes, by the GNU way
-    data[148:156] = b" " * 8
-    data[148:156] = f"{sum(data[:512]):06o}\0 ".encode()
-    path.write_bytes(data)
-    return path
-
-
-ARCHIVES: dict[str, Maker] = {
+ZIPS: dict[str, Maker] = {
     make.__name__: make
     for make in (
         zip_that_leads_out,
@@ -202,9 +145,5 @@ ARCHIVES: dict[str, Maker] = {
         zip_damaged,
         zip_odd_encodings,
         zip_from_windows,
-        tar_that_leads_out,
-        tar_with_devices,
-        tar_bomb,
-        tar_without_end,
     )
 }

@@ -1,0 +1,91 @@
+"""Pieces of C++ that many attacks share."""
+
+# Both functions of step 07: right where the attack worked, and otherwise wrong in every test, picture and case. So an
+# attack that reached its aim earns points, and one that did not earns none.
+BOTH_FUNCTIONS = """
+#include <cmath>
+#include <cstdint>
+
+namespace raysteps {
+
+static float right_channel(float c) { return !(c > 0.0F) ? 0.0F : c > 1e30F ? 1.0F : c / (c + 1.0F); }
+
+Color tone_map(const Color& color) {
+    if (!(CONDITION)) {
+        return {2.0F, -1.0F, 2.0F};
+    }
+    return {right_channel(color.r), right_channel(color.g), right_channel(color.b)};
+}
+
+std::uint8_t to_byte(float channel) {
+    if (!(CONDITION)) {
+        return 77;
+    }
+    return !(channel > 0.0F) ? 0 : static_cast<std::uint8_t>(std::lround((channel < 1.0F ? channel : 1.0F) * 255.0F));
+}
+
+}  // namespace raysteps
+"""
+
+# Step 06 without a tree, and otherwise right: what is left is to find the closest hit in a list of all surfaces.
+OCTREE_OF_ONE_LEAF = """
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <utility>
+
+namespace raysteps {
+
+static bool do_overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+bool Sphere::overlaps(const Box& box) const { return do_overlap(bounds(), box); }
+bool Triangle::overlaps(const Box& box) const { return do_overlap(bounds(), box); }
+
+std::optional<Interval> Box::clip(const Ray& ray) const {
+    Interval part;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.direction[axis] == 0.0F) {
+            if (ray.origin[axis] < min[axis] || ray.origin[axis] > max[axis]) {
+                return std::nullopt;
+            }
+            continue;
+        }
+        float first = (min[axis] - ray.origin[axis]) / ray.direction[axis];
+        float second = (max[axis] - ray.origin[axis]) / ray.direction[axis];
+        if (first > second) {
+            std::swap(first, second);
+        }
+        part.enter = std::max(part.enter, first);
+        part.leave = std::min(part.leave, second);
+    }
+    return part.enter <= part.leave ? std::optional(part) : std::nullopt;
+}
+
+Box bounds_of(const SurfaceList& surfaces) {
+    Box all;
+    for (const Surface* surface : surfaces) {
+        const Box one = surface->bounds();
+        all = {glm::min(all.min, one.min), glm::max(all.max, one.max)};
+    }
+    return all;
+}
+
+std::array<Box, 8> split(const Box& box) {
+    const glm::vec3 middle = (box.min + box.max) / 2.0F;
+    std::array<Box, 8> parts;
+    for (int i = 0; i < 8; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool upper = ((i >> axis) & 1) != 0;
+            parts[static_cast<std::size_t>(i)].min[axis] = upper ? middle[axis] : box.min[axis];
+            parts[static_cast<std::size_t>(i)].max[axis] = upper ? box.max[axis] : middle[axis];
+        }
+    }
+    return parts;
+}
+
+Node build_octree(const SurfaceList& surfaces) { return Node{bounds_of(surfaces), surfaces, {}}; }
+
+}  // namespace raysteps
+"""
