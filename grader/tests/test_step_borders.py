@@ -80,3 +80,45 @@ def test_what_a_file_defines_beside_its_functions_stays_its_own(
     """
     result = _grade(kit, make_submission("extra", {STEP: solved[STEP] + extra}), tmp_path / "out")
     assert result.status == "passed", result.messages
+
+
+@pytest.mark.parametrize(
+    ("declared", "called", "shown"),
+    [
+        ("namespace raysteps { float helper(float); }", "(void)helper(1.0F);", "raysteps::helper(float)"),
+        ("float own_helper(float);", "(void)::own_helper(1.0F);", "own_helper(float)"),
+    ],
+)
+def test_a_helper_that_nobody_defines_is_named(
+    kit: BuiltKit,
+    tmp_path: Path,
+    make_submission: MakeSubmission,
+    solved: Sources,
+    declared: str,
+    called: str,
+    shown: str,
+) -> None:
+    source = declared + "\n" + _with(solved, called, "core/ray.hpp")[STEP]
+    result = _grade(kit, make_submission("helper", {STEP: source}), tmp_path / "out")
+    assert result.status == "does-not-build"
+    assert result.messages[0].startswith(f"It does not build: {shown} is called, but defined nowhere.")
+
+
+def test_the_standard_library_is_within_reach(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    use = """
+    [[maybe_unused]] static const std::size_t once = [&ray] {
+        static thread_local std::vector<std::string> words;
+        std::thread([] {}).join();
+        try { words.push_back(std::regex_replace("a", std::regex("a"), "b")); } catch (const std::exception&) { throw; }
+        std::clog << words.size() << typeid(ray).name();
+        return words.size();
+    }();
+    """
+    headers = "".join(
+        f"#include <{name}>\n" for name in ("iostream", "regex", "string", "thread", "typeinfo", "vector")
+    )
+    source = headers + _with(solved, use, "core/ray.hpp")[STEP]
+    result = _grade(kit, make_submission("library", {STEP: source}), tmp_path / "out")
+    assert result.status == "passed", result.messages

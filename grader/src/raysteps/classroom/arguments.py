@@ -3,12 +3,12 @@
 import argparse
 import os
 import shlex
+from decimal import Decimal
 from pathlib import Path
 
 from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.plan import Order
 from raysteps.common.errors import UsageError
-from raysteps.common.text import number
 from raysteps.grading.limits import parse_limits
 
 
@@ -31,6 +31,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--merge", nargs="+", type=Path, default=[], metavar="OUT", help="bring the results of shards together in --out"
     )
+
+
+def refuse_beside_merge(arguments: argparse.Namespace) -> None:
+    """All other options say how to grade; to ignore them without a word would be worse."""
+    if arguments.folder is not None:
+        raise UsageError("--merge brings together what is graded already; leave DIR out")
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    for name, value in vars(arguments).items():
+        option = f"--{name.replace('_', '-')}"
+        if name not in ("merge", "out") and option in parser.format_help() and value != parser.get_default(name):
+            raise UsageError(f"--merge brings together what is graded already; leave {option} out, it is for the shards")
 
 
 def read_order(arguments: argparse.Namespace, grader: str) -> Order:
@@ -61,6 +73,11 @@ def read_order(arguments: argparse.Namespace, grader: str) -> Order:
     )
 
 
+def _plain(value: float) -> str:
+    """All digits, and no exponent: it must give the same number again."""
+    return format(Decimal(repr(value)), "f").removesuffix(".0")
+
+
 def line_to_go_on(order: Order) -> str:
     """The line that goes on with the same run."""
     words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
@@ -75,7 +92,7 @@ def line_to_go_on(order: Order) -> str:
     if order.feedback != "full":
         words += ["--feedback", order.feedback]
     for name, value in order.limits.items():
-        words += ["--limit", f"{name}={number(value)}"]
+        words += ["--limit", f"{name}={_plain(value)}"]
     words += ["--require-sandbox"] if order.require_sandbox else []
     words += ["--shard", str(order.shard)] if order.shard != Shard() else []
     words += ["--only", *order.only] if order.only else []

@@ -24,18 +24,20 @@ def run_job(document: dict[str, Any]) -> dict[str, Any]:
     with _lock:
         slot = _free.pop() if _free else Slot()
         _busy[slot] = job.run
+    keep = False
     try:
         answer: Answer = slot.grade(job)
-    except BaseException:
-        slot.close()
-        raise
-    else:
-        with _lock:
-            _free.append(slot)
+        keep = True
         return answer.to_json()
     finally:
+        # In one step: a slot that is free and still counts as busy would be stopped for a run that it has left.
         with _lock:
             del _busy[slot]
+            keep = keep and not slot.stopped
+            if keep:
+                _free.append(slot)
+        if not keep:
+            slot.close()
 
 
 def stop_run(run: str) -> None:
@@ -43,8 +45,7 @@ def stop_run(run: str) -> None:
     with _lock:
         idle = list(_free)
         _free.clear()
-        busy = [slot for slot, whose in _busy.items() if whose == run]
-    for slot in busy:
-        slot.stop()
+        for slot in [slot for slot, whose in _busy.items() if whose == run]:
+            slot.stop()
     for slot in idle:
         slot.close()

@@ -2,18 +2,19 @@
 
 import argparse
 import fcntl
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 
-from raysteps.classroom.arguments import add_arguments, line_to_go_on, read_order
+from raysteps.classroom.arguments import add_arguments, line_to_go_on, read_order, refuse_beside_merge
 from raysteps.classroom.cluster import Cluster
-from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.files import write_class
+from raysteps.classroom.database import LOCK, ClassDatabase
+from raysteps.classroom.files import withdraw_tables, write_class
 from raysteps.classroom.graders import KIT_GRADER, Grader, make_grader
+from raysteps.classroom.interrupts import terminated_as_interrupted
 from raysteps.classroom.merge import merge
 from raysteps.classroom.plan import Order, Plan, make_plan
 from raysteps.classroom.pool import LocalPool
@@ -32,7 +33,7 @@ __all__ = ["add_arguments", "run"]
 def _only_one(out: Path) -> Iterator[None]:
     """Two runs into one folder would take each other's results for changes."""
     usable_folder(out)
-    with (out / "class.lock").open("a") as file:
+    with (out / LOCK).open("a") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
@@ -44,9 +45,9 @@ def _only_one(out: Path) -> Iterator[None]:
         yield
 
 
-def _finish(console: Console, database: ClassDatabase, out: Path) -> dict[str, Any]:
+def _finish(console: Console, database: ClassDatabase, out: Path, done: Container[str] = ()) -> dict[str, Any]:
     document = class_document(database)
-    write_class(database, out, document)
+    write_class(database, out, document, done)
     print_summary(console, document, out)
     return document
 
@@ -68,9 +69,18 @@ def _prepare(order: Order, meter: Meter) -> Grader:
     return grader
 
 
+def _again(order: Order) -> str:
+    return f"To go on:\n  {line_to_go_on(order)}"
+
+
+def _interrupted(console: Console, again: str) -> int:
+    console.print(f"Interrupted. {again}", markup=False, highlight=False, soft_wrap=True)
+    return 130
+
+
 def _grade(console: Console, plan: Plan, grader: Grader, meter: Meter) -> int:
     order = plan.order
-    again = f"To go on:\n  {line_to_go_on(order)}"
+    again = _again(order)
     runner = _runner(plan, grader.fingerprint, meter)
     with closing(ClassDatabase(order.out)) as database:
         registered = plan.registered(database.names())
@@ -82,31 +92,38 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: Meter) -> int:
                 complete = session.grade(runner)
         except GraderFault as fault:
             if session.recorded:
-                _finish(console, database, order.out)
+                _finish(console, database, order.out, session.recorded)
             raise GraderFault(f"{fault}\n{again}") from fault
-        document = _finish(console, database, order.out)
+        document = _finish(console, database, order.out, session.recorded)
     if not complete:
-        console.print(f"Interrupted. {again}", markup=False, highlight=False, soft_wrap=True)
-        return 130
+        return _interrupted(console, again)
     return GraderFault.exit_code if document["faults"] else 0
 
 
 def _merge(console: Console, folders: list[Path], out: Path) -> int:
     with _only_one(out), closing(ClassDatabase(out)) as database:
-        missing = merge(folders, database)
+        missing, warnings = merge(folders, database)
+        withdraw_tables(out)
         document = _finish(console, database, out)
+    for warning in warnings:
+        console.print(f"Warning: {warning}", markup=False, highlight=False, soft_wrap=True)
     if missing:
         console.print(f"Missing: {', '.join(missing)} of the shards", markup=False)
     return GraderFault.exit_code if missing or document["faults"] or document["not_graded"] else 0
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console, *, grader: str = KIT_GRADER) -> int:
-    """0 when all were graded, whatever their points; 4 when the grader failed with one; 130 when interrupted."""
+    """0 when all were graded, whatever their points; 4 when the grader failed with one, or when a merge leaves some
+    that are not graded yet; 130 when interrupted."""
     if arguments.merge:
-        if arguments.folder is not None:
-            raise UsageError("--merge brings together what is graded already; leave DIR out")
+        refuse_beside_merge(arguments)
         return _merge(console, arguments.merge, arguments.out)
     plan = make_plan(project, read_order(arguments, grader))
     with _only_one(plan.order.out):
         meter = Meter(console, len(plan.mine()))
-        return _grade(console, plan, _prepare(plan.order, meter), meter)
+        try:
+            with terminated_as_interrupted():
+                made = _prepare(plan.order, meter)
+        except KeyboardInterrupt:
+            return _interrupted(console, _again(plan.order))
+        return _grade(console, plan, made, meter)

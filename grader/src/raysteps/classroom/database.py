@@ -3,30 +3,19 @@
 import hashlib
 import json
 import sqlite3
-from collections.abc import Iterable, Mapping
-from datetime import UTC, datetime
+from collections.abc import Collection, Iterable
 from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.classroom.messages import Answer
 from raysteps.classroom.records import Registered, Registration, RunFacts
+from raysteps.classroom.statements import insert, now
 from raysteps.classroom.tables import open_database, transaction
 from raysteps.judge.feedback import Feedback
 
 FILE = "class.sqlite"
+LOCK = "class.lock"
 _CURRENT = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
-
-
-def now() -> str:
-    return datetime.now(UTC).isoformat(timespec="seconds")
-
-
-def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, Any], conflict: str = "") -> int:
-    """The names are the code's own, the values are bound. `conflict` is an upsert clause. Returns the rows it made."""
-    columns = ", ".join(row)
-    marks = ", ".join(f":{name}" for name in row)
-    sql = f"INSERT INTO {table} ({columns}) VALUES ({marks}) {conflict}"  # noqa: S608
-    return connection.execute(sql, row).rowcount
 
 
 class ClassDatabase:
@@ -49,7 +38,7 @@ class ClassDatabase:
             self.connection.execute("UPDATE runs SET state = 'interrupted' WHERE state = 'running'")
             row = {
                 "uid": facts.uid,
-                "started_at": now(),
+                "started_at": now("microseconds"),  # runs of several machines are put in order by it
                 "state": "running",
                 "kit": facts.kit,
                 "folder": facts.folder,
@@ -89,10 +78,15 @@ class ClassDatabase:
                 {**row, "entry": entry},
             )
 
-    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: int) -> None:
+    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: Collection[str]) -> None:
+        """`reused` are the submissions whose earlier result was found to hold."""
         with transaction(self.connection):
             self.connection.execute(
-                "UPDATE runs SET state = ?, ended_at = ?, reused = ? WHERE number = ?", (state, now(), reused, run)
+                "UPDATE runs SET state = ?, ended_at = ?, reused = ? WHERE number = ?", (state, now(), len(reused), run)
+            )
+            self.connection.executemany(
+                "INSERT OR IGNORE INTO reused (submission, run) SELECT id, ? FROM submissions WHERE name = ?",
+                [(run, name) for name in reused],
             )
 
     def feedback(self) -> Feedback:

@@ -10,9 +10,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
+from raysteps.common.text import printable
 
 _MOST_FILES = 20_000
 _MOST_DEPTH = 6
+_BLANKS = str.maketrans("\n\t", "  ")
 _NO_SUBMISSIONS = {"__MACOSX", "Thumbs.db", "desktop.ini"}
 
 
@@ -57,10 +59,10 @@ def read_shard(text: str) -> Shard:
 
 
 def _label(path: Path, known: set[str]) -> str:
-    """A name that is not UTF-8 can be neither stored nor printed as it is."""
-    label = os.fsencode(path.name).decode("utf-8", "backslashreplace")
+    """A name that is not UTF-8, or that steers a terminal, can be neither stored nor printed as it is."""
+    label = printable(os.fsencode(path.name).decode("utf-8", "backslashreplace")).translate(_BLANKS)
     mark = hashlib.sha256(os.fsencode(path.name)).hexdigest()
-    return label if label not in known else f"{label} {mark}"
+    return label if label.strip() and label not in known else f"{label} {mark}".strip()
 
 
 def list_entries(folder: Path, leave_out: list[Path]) -> Listing:

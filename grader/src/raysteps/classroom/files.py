@@ -1,7 +1,7 @@
 """The files that are made from the database: results.json and pictures per submission, results.csv, class.json."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from raysteps.common.files import write_bytes, write_if_changed, write_json
 from raysteps.judge.feedback import withhold
 
 SUBMISSIONS = "submissions"
+_TABLES = ("results.csv", "class.json")
 
 
 def _forget_pictures(folder: Path, kept: set[str]) -> None:
@@ -74,9 +75,17 @@ def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
         yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student["note"]]
 
 
-def write_class(database: ClassDatabase, out: Path, document: dict[str, Any]) -> None:
-    """Everything anew: also what a run that was killed had no time for."""
+def withdraw_tables(out: Path) -> None:
+    """Before the first result changes: tables of earlier results beside new ones would be taken for theirs."""
+    for name in _TABLES:
+        (out / name).unlink(missing_ok=True)
+
+
+def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], done: Container[str] = ()) -> None:
+    """Everything but what is done: also what a run that was killed had no time for."""
     for one in document["submissions"]:
-        write_submission(database, out, one["name"])
-    write_bytes(out / "results.csv", csv_bytes(_rows(document)))
-    write_json(out / "class.json", document)
+        if one["name"] not in done:
+            write_submission(database, out, one["name"])
+    table, facts = _TABLES
+    write_bytes(out / table, csv_bytes(_rows(document)))
+    write_json(out / facts, document)

@@ -7,13 +7,13 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import date, datetime, time, timedelta
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 import jsonschema
 
+from raysteps.classroom.names import folded
 from raysteps.common.errors import UsageError
+from raysteps.common.schemas import read_schema
 
 
 @dataclass(frozen=True)
@@ -25,16 +25,6 @@ class LatePolicy:
     grace: timedelta = timedelta()
     max_days: int | None = None  # what is later than that gets nothing
     extensions: Mapping[str, datetime] = field(default_factory=dict)  # by folded student id
-
-
-def fold(student: str) -> str:
-    """Ids are compared without regard to upper and lower case."""
-    return student.strip().casefold()
-
-
-@cache
-def _schema() -> Any:
-    return json.loads(files("raysteps.classroom").joinpath("late_policy.schema.json").read_text(encoding="utf-8"))
 
 
 def _plain(value: Any) -> Any:
@@ -87,7 +77,8 @@ def parse_late_policy(text: str, name: str) -> LatePolicy:
         table = _plain(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
         raise UsageError(f"{name}: is not TOML: {error}") from error
-    problem = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(_schema()).iter_errors(table))
+    schema = read_schema("raysteps.classroom", "late_policy.schema.json")
+    problem = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(table))
     if problem is not None:
         while problem.parent is not None:  # the branch of an `anyOf` says less than the whole
             problem = problem.parent
@@ -100,13 +91,13 @@ def parse_late_policy(text: str, name: str) -> LatePolicy:
         extended = _moment(value, where) if isinstance(value, str) else deadline + timedelta(days=value)
         if extended < deadline:
             raise UsageError(f"{where}: `extensions.{student}` ends before the deadline")
-        if extensions.setdefault(fold(student), extended) is not extended:
+        if extensions.setdefault(folded(student), extended) is not extended:
             raise UsageError(f"{where}: `extensions.{student}` stands there twice, in upper and lower case")
     return LatePolicy(
         deadline,
         float(table["percent_per_day"]),
         timedelta(minutes=table.get("grace_minutes", 0)),
-        table.get("max_days"),
+        int(table["max_days"]) if "max_days" in table else None,
         extensions,
     )
 

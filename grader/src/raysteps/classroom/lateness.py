@@ -3,8 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
+from decimal import ROUND_CEILING, Decimal
 
-from raysteps.classroom.late_policy import LatePolicy, fold
+from raysteps.classroom.late_policy import LatePolicy
+from raysteps.classroom.names import folded
 from raysteps.common.text import count, number
 
 _DAY = timedelta(days=1)
@@ -29,12 +31,19 @@ def _span(span: timedelta) -> str:
 
 def _deadline(policy: LatePolicy, students: Sequence[str]) -> datetime:
     """Of several students with one submission the latest deadline counts."""
-    extended = [policy.extensions[fold(student)] for student in students if fold(student) in policy.extensions]
+    extended = [policy.extensions[folded(student)] for student in students if folded(student) in policy.extensions]
     return max([policy.deadline, *extended])
 
 
+def _left(points: float, percent: Decimal) -> float:
+    """In decimal numbers, as anybody would check the sum; hundredths are rounded in the student's favour."""
+    exact = Decimal(str(points)) * (100 - percent) / 100
+    return float(exact.quantize(Decimal("0.01"), rounding=ROUND_CEILING))
+
+
 def apply_policy(policy: LatePolicy, students: Sequence[str], submitted_at: str, points: float) -> Lateness:
-    """`students` are the ids whose extensions count; a time without a zone is in the zone of the deadline."""
+    """`students` are the ids whose extensions count; a time without a zone is in that of the deadline that
+    counts for them."""
     deadline = _deadline(policy, students)
     extension = ", with an extension" if deadline != policy.deadline else ""
     shown = deadline.isoformat(sep=" ", timespec="minutes")
@@ -43,7 +52,7 @@ def apply_policy(policy: LatePolicy, students: Sequence[str], submitted_at: str,
         return Lateness(0, 0.0, points, shown, words)
     submitted = datetime.fromisoformat(submitted_at)
     if submitted.tzinfo is None:
-        submitted = submitted.replace(tzinfo=policy.deadline.tzinfo)
+        submitted = submitted.replace(tzinfo=deadline.tzinfo)
     late = submitted - deadline
     if late <= timedelta():
         return Lateness(0, 0.0, points, shown, f"Handed in on time{extension}: {number(points)} points.")
@@ -54,10 +63,10 @@ def apply_policy(policy: LatePolicy, students: Sequence[str], submitted_at: str,
     days = -(-late // _DAY)
     if policy.max_days is not None and days > policy.max_days:
         return Lateness(days, 100.0, 0.0, shown, f"{after}, more than {count(policy.max_days, 'day')}: 0 points.")
-    percent = min(100.0, days * policy.percent_per_day)
-    left = round(points * (1 - percent / 100), 2)
+    percent = min(Decimal(100), days * Decimal(str(policy.percent_per_day)))
+    left = _left(points, percent)
     words = (
-        f"{after}: {count(days, 'day')} begun, {number(policy.percent_per_day)} % each, takes {number(percent)} % off "
+        f"{after}: {count(days, 'day')} begun, {policy.percent_per_day:g} % each, takes {float(percent):g} % off "
         f"{number(points)} points: {number(points)} - {number(round(points - left, 2))} = {number(left)} points."
     )
-    return Lateness(days, percent, left, shown, words)
+    return Lateness(days, float(percent), left, shown, words)

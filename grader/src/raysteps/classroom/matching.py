@@ -4,10 +4,9 @@ Only the roster and the entry's own name count. The name must be the student's i
 it: the beginning is what a learning platform writes, while the end may be a file name that a student chose."""
 
 import re
-import unicodedata
 from dataclasses import dataclass, field
 
-from raysteps.classroom.names import stem
+from raysteps.classroom.names import folded, platform_identity, stem
 from raysteps.classroom.roster import Student
 
 
@@ -21,13 +20,34 @@ class Matches:
 
 
 def _plain(text: str) -> str:
-    folded = unicodedata.normalize("NFKC", text).casefold()
-    return re.sub(r"[\W_]+", "_", folded).strip("_")
+    return re.sub(r"[\W_]+", "_", folded(text)).strip("_")
+
+
+def _squeezed(name: str) -> set[str]:
+    """`Ann Lee` as Canvas writes it, the last name first and without blanks; nobody knows where that begins."""
+    words = _plain(name).split("_")
+    return {"".join(words[at:] + words[:at]) for at in range(len(words))} if len(words) > 1 else set()
+
+
+def _fits_platform(student: Student, entry: str) -> tuple[bool, int]:
+    """By the name and the number that Canvas or Moodle put at the beginning. The number alone is no evidence against
+    another name: it may be of another kind than those of the roster."""
+    name, number = platform_identity(entry)
+    if not number:
+        return (False, 0)
+    named = bool(student.name) and (
+        "".join(_plain(name).split("_")) in _squeezed(student.name) or _plain(name) == _plain(student.name)
+    )
+    numbered = _plain(student.id) in (number, f"participant_{number}")
+    if numbered and (named or not student.name):
+        return (True, len(name) + len(number))
+    return (False, len(name)) if named and len(_plain(student.name).split("_")) > 1 else (False, 0)
 
 
 def _fit(student: Student, entry: str) -> tuple[bool, int]:
     """Whether the entry's name is the student's, and how much of it; (False, 0) when it is not."""
-    best = (False, 0)
+    best = _fits_platform(student, entry)
+    entry = _plain(entry)
     words = [student.id, student.email, student.name]
     for word in map(_plain, words):
         if word and entry == word:
@@ -60,11 +80,11 @@ def match(entries: list[str], students: list[Student]) -> Matches:
     for at, entry in enumerate(entries):
         if at in claimed:
             continue
-        plain = _plain(stem(entry))
+        name = stem(entry)
         fits = {
             number: fit
             for number, student in enumerate(students)
-            if not student.submission and (fit := _fit(student, plain)) != (False, 0)
+            if not student.submission and (fit := _fit(student, name)) != (False, 0)
         }
         best = [number for number, fit in fits.items() if fit == max(fits.values())]
         if len(best) == 1:

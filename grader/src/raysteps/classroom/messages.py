@@ -1,16 +1,12 @@
 """What goes to a process that grades, and what comes back: plain JSON, so that it may run on any machine."""
 
 import base64
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache
-from importlib.resources import files
 from typing import Any, Literal
 
-import jsonschema
-
 from raysteps.common.errors import GraderFault
+from raysteps.common.schemas import complaint, read_schema
 from raysteps.submission.intake import Submission
 
 Document = dict[str, Any]
@@ -91,15 +87,7 @@ class Answer:
         return Answer(document["name"], document["status"], document["document"], pictures, *words)
 
 
-@cache
-def _schema(kind: str) -> Any:
-    text = files("raysteps.classroom").joinpath("messages.schema.json").read_text(encoding="utf-8")
-    schema = json.loads(text)
-    return {"$schema": schema["$schema"], "$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}
-
-
 def _check(document: Any, kind: str) -> None:
-    try:
-        jsonschema.validate(document, _schema(kind))
-    except jsonschema.ValidationError as error:
-        raise GraderFault(f"a {kind} breaks its schema: {error.json_path}: {error.message[:300]}") from error
+    problem = complaint(document, read_schema("raysteps.classroom", "messages.schema.json", kind))
+    if problem:
+        raise GraderFault(f"a {kind} breaks its schema: {problem}")

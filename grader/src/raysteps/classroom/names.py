@@ -1,4 +1,4 @@
-"""Names of submissions that are safe as names of files, on any system."""
+"""Names of submissions: what they tell, and how they become safe as names of files on any system."""
 
 import hashlib
 import re
@@ -9,6 +9,9 @@ from collections.abc import Mapping, Sequence
 ARCHIVE_ENDINGS = (".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar", ".zip")
 _MOST_BYTES = 100
 _DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
+# Only the beginning is the platform's; what comes after it may be a file name that a student chose.
+_CANVAS = re.compile(r"([^\W_]+)_(?:LATE_)?([0-9]+)_[0-9]+_")  # leeann_4711_815_steps
+_MOODLE = re.compile(r"(.+?)_([0-9]+)_assignsubmission_")  # Ann Lee_123_assignsubmission_file
 
 
 def stem(entry: str) -> str:
@@ -19,6 +22,19 @@ def stem(entry: str) -> str:
     return entry
 
 
+def platform_identity(entry: str) -> tuple[str, str]:
+    """The name and the number that Canvas or Moodle gave to a download: of the student, as the platform counts them.
+
+    Empty where no platform named it."""
+    found = _CANVAS.match(entry) or _MOODLE.match(entry)
+    return (found[1], found[2]) if found else ("", "")
+
+
+def folded(text: str) -> str:
+    """For comparisons: without differences of case, spacing and encoding."""
+    return " ".join(unicodedata.normalize("NFKC", text).casefold().split())
+
+
 def safe_name(text: str) -> str:
     """Letters, digits, `.`, `_` and `-` only; never hidden, empty, too long, or a device of Windows."""
     plain = unicodedata.normalize("NFKC", text)
@@ -27,23 +43,18 @@ def safe_name(text: str) -> str:
     return f"_{name}" if not name or _DEVICES.fullmatch(name) else name
 
 
-def _same(name: str) -> str:
-    """What a file system that ignores case, or spells letters in its own way, takes for the same name."""
-    return unicodedata.normalize("NFKC", name).casefold()
-
-
 def name_entries(entries: Sequence[str], known: Mapping[str, str]) -> dict[str, str]:
-    """Entry -> name, no two alike. An entry that has a name (`known`) keeps it."""
+    """Entry -> name, no two alike even where a file system ignores case. One that has a name (`known`) keeps it."""
     names = {entry: known[entry] for entry in entries if entry in known}
-    taken = {_same(name) for name in known.values()}
+    taken = {folded(name) for name in known.values()}
     wanted = {entry: safe_name(stem(entry)) for entry in entries if entry not in known}
-    often = Counter(_same(name) for name in wanted.values())
+    often = Counter(folded(name) for name in wanted.values())
     for entry, name in wanted.items():
         mark = hashlib.sha256(entry.encode("utf-8", "surrogateescape")).hexdigest()
         unique, length = name, 6
         # The mark comes from the entry itself, so that an entry that is added later changes no name.
-        while _same(unique) in taken or (unique == name and often[_same(name)] > 1):
+        while folded(unique) in taken or (unique == name and often[folded(name)] > 1):
             unique, length = f"{name}-{mark[:length]}", length + 2
         names[entry] = unique
-        taken.add(_same(unique))
+        taken.add(folded(unique))
     return names

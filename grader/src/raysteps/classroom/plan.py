@@ -1,22 +1,21 @@
 """What a run is to do, worked out before anything is built or graded."""
 
-import os
 import uuid
 from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.database import FILE
 from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
 from raysteps.classroom.graders import KIT_GRADER
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.matching import Matches, match
 from raysteps.classroom.names import name_entries
+from raysteps.classroom.places import check_places, read_text
 from raysteps.classroom.records import Registered, Registration, RunFacts, Scope
 from raysteps.classroom.roster import Student, read_roster
-from raysteps.common.errors import UsageError
 from raysteps.judge.feedback import Feedback
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
@@ -78,17 +77,33 @@ class Plan:
     def registered(self, known: dict[str, str]) -> list[Registered]:
         """All entries, also those of other shards, so that merging shards shows what is missing."""
         names = name_entries([entry.label for entry in self.listing.entries], known)
-        times: dict[int, str] = {}
-        for at, number in self.matches.pairs:
-            times[at] = times.get(at) or self.students[number].submitted_at
+        times = self._times()
         rows = []
         for at, entry in enumerate(self.listing.entries):
-            when = times.get(at) or newest_time(entry.path)
-            source = "roster" if times.get(at) else "files" if when else ""
+            said = times.get(at, [])
+            when = said[-1] if said else newest_time(entry.path)
+            source = "roster" if said else "files" if when else ""
             scope: Scope = "here" if self.order.shard.holds(entry.label) else "elsewhere"
             note = self.matches.entry_notes.get(at, "")
+            if len(said) > 1:
+                note = f"Its students have different times in the roster ({', '.join(said)}); the latest counts."
             rows.append(Registered(entry.label, names[entry.label], scope, when, source, note))
         return rows
+
+    def _times(self) -> dict[int, list[str]]:
+        """What the roster says of when an entry was handed in: of a team perhaps several times, the latest last."""
+        zone = parse_late_policy(self.late_policy, "").deadline.tzinfo if self.late_policy else UTC
+
+        def moment(text: str) -> datetime:
+            when = datetime.fromisoformat(text)
+            return when if when.tzinfo is not None else when.replace(tzinfo=zone)
+
+        times: dict[int, dict[datetime, str]] = defaultdict(dict)
+        for at, number in self.matches.pairs:
+            text = self.students[number].submitted_at
+            if text:
+                times[at][moment(text)] = text
+        return {at: [said[when] for when in sorted(said)] for at, said in times.items()}
 
     def registrations(self) -> list[Registration]:
         entries: dict[int, list[str]] = defaultdict(list)
@@ -106,36 +121,12 @@ class Plan:
         return [entry for entry in self.listing.entries if self.order.shard.holds(entry.label)]
 
 
-def _inside(path: Path, folder: Path) -> bool:
-    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
-
-
-def _check_places(order: Order) -> None:
-    if not order.folder.is_dir():
-        raise UsageError(f"{order.folder}: expected a folder with one entry per submission")
-    if _inside(order.out, order.folder):
-        raise UsageError(f"--out {order.out}: lies in the folder of the submissions; name another folder")
-    if _inside(order.folder, order.out / "submissions"):
-        raise UsageError(f"--out {order.out}: its results would go into the folder of the submissions")
-    if order.resume and order.out.exists() and not (order.out / FILE).is_file() and any(order.out.iterdir()):
-        raise UsageError(f"--resume: {order.out} holds no {FILE} to go on from")
-
-
-def _read_text(path: Path | None) -> str:
-    if path is None:
-        return ""
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: the late policy cannot be read: {error}") from error
-
-
 def make_plan(project: Project, order: Order) -> Plan:
     """Everything that can be wrong with the inputs is found here."""
-    _check_places(order)
+    check_places(order.folder, order.out, resume=order.resume)
     steps = read_steps(project)
     chosen = choose(steps, list(order.only))
-    policy = _read_text(order.late_policy)
+    policy = read_text(order.late_policy)
     if order.late_policy is not None:
         parse_late_policy(policy, str(order.late_policy))
     students = read_roster(order.roster) if order.roster is not None else []

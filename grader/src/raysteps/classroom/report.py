@@ -3,24 +3,23 @@
 import json
 import sqlite3
 import statistics
-from functools import cache
-from importlib.resources import files
+from collections.abc import Sequence
 from typing import Any
 
-import jsonschema
-
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.late_policy import fold, parse_late_policy
-from raysteps.classroom.names import stem
+from raysteps.classroom.late_policy import parse_late_policy
+from raysteps.classroom.names import folded, stem
 from raysteps.classroom.standing import Standings
 from raysteps.common.errors import GraderFault
+from raysteps.common.schemas import complaint, read_schema
 
 Document = dict[str, Any]
 
 
-@cache
-def _schema() -> Any:
-    return json.loads(files("raysteps.classroom").joinpath("class.schema.json").read_text(encoding="utf-8"))
+def _last_runs(runs: Sequence[sqlite3.Row]) -> list[sqlite3.Row]:
+    """The last run; of a class that was divided, the last one of each shard."""
+    count = runs[-1]["shard"].split("/")[1]
+    return list({row["shard"]: row for row in runs if row["shard"].split("/")[1] == count}.values())
 
 
 class _Report:
@@ -42,9 +41,9 @@ class _Report:
         return {**{word: row[word] for word in words}, "settings": json.loads(row["settings"]), "results": counts}
 
     def _unknown_extensions(self, submissions: list[Document]) -> list[str]:
-        known = {fold(name) for one in submissions for name in (one["name"], one["entry"], stem(one["entry"]))}
+        known = {folded(name) for one in submissions for name in (one["name"], one["entry"], stem(one["entry"]))}
         for row in self._query("SELECT id, email FROM students"):
-            known |= {fold(row["id"]), fold(row["email"])}
+            known |= {folded(row["id"]), folded(row["email"])}
         extensions = self._policy.extensions if self._policy is not None else {}
         return sorted(student for student in extensions if student not in known)
 
@@ -54,7 +53,7 @@ class _Report:
 
     def document(self) -> Document:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
-        standings = Standings(self._database, self._policy, self._last["number"])
+        standings = Standings(self._database, self._policy, _last_runs(self._runs))
         submissions = [standings.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
@@ -85,6 +84,7 @@ class _Report:
                 for one in submissions
                 if one["before"] is not None and one["before"]["points"] != one["points"]
             ],
+            "outdated": [one["name"] for one in submissions if one["outdated"]],
             "gone": self._names("gone"),
             "ignored": json.loads(self._last["ignored"]),
             "unknown_extensions": self._unknown_extensions(submissions),
@@ -99,8 +99,7 @@ class _Report:
 def class_document(database: ClassDatabase) -> Document:
     """Checked against its schema."""
     document = _Report(database).document()
-    try:
-        jsonschema.validate(document, _schema())
-    except jsonschema.ValidationError as error:
-        raise GraderFault(f"class.json would break its schema: {error.json_path}: {error.message}") from error
+    problem = complaint(document, read_schema("raysteps.classroom", "class.schema.json"))
+    if problem:
+        raise GraderFault(f"class.json would break its schema: {problem}")
     return document

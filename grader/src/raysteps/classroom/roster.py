@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
+from raysteps.classroom.names import folded
+from raysteps.common.cells import delimiter_of
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed, printable
 
@@ -22,10 +24,7 @@ _HEADERS = {
     "last": ("lastname", "surname", "familyname", "last", "nachname"),
     "email": ("email", "emailaddress", "mail"),
     "submission": ("submission", "entry", "file", "filename", "folder", "archive"),
-    "submitted_at": (
-        *("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
-        "lastmodifiedsubmission",
-    ),
+    "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
 _MOST_BYTES = 16 << 20
 
@@ -47,7 +46,7 @@ class Student:
 
 
 def _plain(header: str) -> str:
-    return re.sub(r"[\W_]+", "", header.casefold())
+    return re.sub(r"[\W_]+", "", folded(header))
 
 
 def _columns(header: list[str], path: Path) -> dict[str, int]:
@@ -96,9 +95,7 @@ def _text(path: Path) -> str:
 
 
 def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:
-    first = text.split("\n", 1)[0]
-    delimiter = max(",;\t", key=first.count)
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter_of(text), strict=True)
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
@@ -127,9 +124,11 @@ def read_roster(path: Path) -> list[Student]:
         )
         if not student.shown:
             raise UsageError(f"{path}:{line}: expected an id, a name or an email address")
-        for field, value in (("id", student.id), ("email", student.email)):
-            if value and seen.setdefault((field, value.casefold()), line) != line:
-                other = seen[field, value.casefold()]
+        # Two students of one name need something else that tells them apart.
+        alone = "" if student.id or student.email else student.name
+        for field, value in (("id", student.id), ("email", student.email), ("name", alone)):
+            if value and seen.setdefault((field, folded(value)), line) != line:
+                other = seen[field, folded(value)]
                 raise UsageError(f"{path}:{line}: the {field} {value!r} stands in line {other}, too")
         students.append(student)
     if not students:

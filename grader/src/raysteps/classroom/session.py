@@ -1,16 +1,13 @@
 """One run over a class."""
 
 import json
-import signal
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
-from types import FrameType
 from typing import Protocol
 
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.files import write_submission
+from raysteps.classroom.files import withdraw_tables, write_submission
+from raysteps.classroom.interrupts import terminated_as_interrupted, undisturbed
 from raysteps.classroom.keys import submission_key
 from raysteps.classroom.messages import Answer, Job
 from raysteps.classroom.plan import Plan
@@ -28,38 +25,6 @@ class Runner(Protocol):
 
     def close(self) -> None:
         """Ends what still runs."""
-
-
-@contextmanager
-def _terminated_as_interrupted() -> Iterator[None]:
-    """A batch system sends SIGTERM before it kills: there is time to leave things in order, as after Ctrl-C."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def interrupt(number: int, frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-@contextmanager
-def _undisturbed() -> Iterator[None]:
-    """A second Ctrl-C must not break off the tidying up after the first."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    numbers = (signal.SIGINT, signal.SIGTERM)
-    before = [signal.signal(number, signal.SIG_IGN) for number in numbers]
-    try:
-        yield
-    finally:
-        for which, handler in zip(numbers, before, strict=True):
-            signal.signal(which, handler)
 
 
 @dataclass
@@ -80,8 +45,8 @@ class Session:
     meter: Meter
     run: int
     names: dict[str, str]
-    reused: int = 0
-    recorded: int = 0
+    reused: list[str] = field(default_factory=list)
+    recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
     def _jobs(self) -> Iterator[Job]:
@@ -95,7 +60,7 @@ class Session:
                 continue
             key = submission_key(taken.submission, self.kit, self.plan.grading)
             if self.plan.order.resume and self._is_done(name, key):
-                self.reused += 1
+                self.reused.append(name)
                 self.meter.skip()
                 continue
             self._pending[name] = _Pending(key, taken.unreadable)
@@ -115,7 +80,9 @@ class Session:
             except GraderFault as fault:
                 answer = Answer(answer.name, "fault", fault=str(fault), seconds=answer.seconds, worker=answer.worker)
         if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
-            self.recorded += 1
+            if not self.recorded:
+                withdraw_tables(self.plan.order.out)
+            self.recorded.add(answer.name)
             write_submission(self.database, self.plan.order.out, answer.name)
             total = answer.document["total"] if answer.document is not None else None
             points = (
@@ -129,7 +96,7 @@ class Session:
         """Whether it came to its end; what was graded until then is kept either way."""
         complete = False
         try:
-            with _terminated_as_interrupted():
+            with terminated_as_interrupted():
                 for answer in runner.answers(self._jobs()):
                     pending = self._pending.pop(answer.name, None)
                     if pending is not None:  # else it came twice
@@ -138,7 +105,7 @@ class Session:
         except KeyboardInterrupt:
             self.meter.say("interrupted; ending what still runs")
         finally:
-            with _undisturbed():
+            with undisturbed():
                 runner.close()
                 self.database.end_run(self.run, "complete" if complete else "interrupted", self.reused)
         return complete

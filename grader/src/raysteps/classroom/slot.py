@@ -56,6 +56,12 @@ class Slot:
         text = "the process that graded this submission died twice"
         return Answer(job.submission.name, "fault", fault=f"{text}: {deaths[-1]}", details="\n".join(deaths))
 
+    @property
+    def stopped(self) -> bool:
+        """Then it grades nothing any more."""
+        with self._lock:
+            return self._stopped
+
     def stop(self) -> None:
         """Ends what is being graded; `grade` then raises Stopped."""
         with self._lock:

@@ -2,12 +2,14 @@
 
 import json
 import sqlite3
+from collections.abc import Sequence
 from typing import Any
 
 from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.entries import read_shard
 from raysteps.classroom.late_policy import LatePolicy
 from raysteps.classroom.lateness import apply_policy
-from raysteps.classroom.names import stem
+from raysteps.classroom.names import folded, stem
 
 Document = dict[str, Any]
 
@@ -33,13 +35,15 @@ def _result(row: sqlite3.Row | None) -> Document:
 
 
 class Standings:
-    """Of the submissions of a class, when `run` was the last run."""
+    """Of the submissions of a class, after these last runs: one, or one for each shard."""
 
-    def __init__(self, database: ClassDatabase, policy: LatePolicy | None, run: int) -> None:
+    def __init__(self, database: ClassDatabase, policy: LatePolicy | None, runs: Sequence[sqlite3.Row]) -> None:
         self._database = database
         self._query = database.connection.execute
         self._policy = policy
-        self._run = run
+        self._runs = {row["number"]: row for row in runs}
+        people = self._query("SELECT id, email FROM students").fetchall()
+        self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
 
     def _students(self, submission: int) -> list[Document]:
         rows = self._query(
@@ -51,7 +55,7 @@ class Standings:
 
     def _before(self, submission: int, run: int | None) -> Document | None:
         """The result that counted until the last run gave another one."""
-        if run != self._run:
+        if run not in self._runs:
             return None
         row = self._query(
             "SELECT run, status, points FROM results WHERE submission = ? AND run < ? ORDER BY run DESC LIMIT 1",
@@ -59,14 +63,29 @@ class Standings:
         ).fetchone()
         return dict(row) if row is not None else None
 
+    def extended(self, row: sqlite3.Row, students: list[Document]) -> list[str]:
+        """By what names an extension may be given: also that of the submission, unless it is what another one on the
+        roster is called."""
+        words = [word for student in students for word in (student["id"], student["email"]) if word]
+        names = (row["name"], stem(row["entry"]), row["entry"])
+        return words + [name for name in names if folded(name) not in self._people]
+
+    def _is_outdated(self, row: sqlite3.Row, run: int | None) -> bool:
+        """Whether the last run was broken off before it came to this submission, so that an earlier result stands."""
+        mine = [number for number, last in self._runs.items() if read_shard(last["shard"]).holds(row["entry"])]
+        if run is None or run in mine or (mine and self._runs[mine[-1]]["state"] == "complete"):
+            return False
+        marks = ", ".join("?" * len(mine))
+        query = f"SELECT 1 FROM reused WHERE submission = ? AND run IN ({marks})"  # noqa: S608
+        return self._query(query, (row["id"], *mine)).fetchone() is None
+
     def of(self, row: sqlite3.Row) -> Document:
         current = self._database.current(row["name"])
         students = self._students(row["id"])
         result = _result(current)
         late = None
         if self._policy is not None and result["points"] is not None:
-            ids = [word for student in students for word in (student["id"], student["email"]) if word]
-            ids = ids or [row["name"], stem(row["entry"]), row["entry"]]
+            ids = self.extended(row, students)
             late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"]))
         return {
             "name": row["name"],
@@ -77,6 +96,7 @@ class Standings:
             "late": late,
             "submitted_at": row["submitted_at"],
             "submitted_from": row["submitted_from"],
+            "outdated": self._is_outdated(row, result["run"]),
             "before": self._before(row["id"], result["run"]),
             "isolation": json.loads(current["document"])["isolation"]["name"]
             if current and current["document"]

@@ -72,6 +72,7 @@ def _print_apart(console: Console, document: dict[str, Any]) -> None:
     faults = [f"{name}: {first_line(by_name[name]['fault'])}" for name in document["faults"]]
     _print_list(console, "Not graded because of a fault of the grader; --resume tries again", faults)
     _print_list(console, "Not graded yet; --resume goes on, or a shard is missing", document["not_graded"])
+    _print_list(console, "With an earlier result, because the last run was interrupted", document["outdated"])
     unread = [f"{name} (results.json says why)" for name in document["unreadable"]]
     _print_list(console, "Nothing could be taken from these", unread)
     claims = [

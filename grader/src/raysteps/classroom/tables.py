@@ -79,6 +79,13 @@ CREATE TABLE pictures (
     FOREIGN KEY (submission, run) REFERENCES results (submission, run)
 );
 """
+_REUSED = """
+CREATE TABLE IF NOT EXISTS reused (       -- earlier results that a run found to hold
+    submission INTEGER NOT NULL REFERENCES submissions (id),
+    run INTEGER NOT NULL REFERENCES runs (number),
+    PRIMARY KEY (submission, run)
+)
+"""
 
 
 @contextmanager
@@ -87,13 +94,14 @@ def transaction(connection: sqlite3.Connection) -> Iterator[None]:
     connection.execute("BEGIN IMMEDIATE")
     try:
         yield
+        connection.execute("COMMIT")
     except BaseException:
-        connection.execute("ROLLBACK")
+        if connection.in_transaction:  # SQLite itself rolls back when the disk is full
+            connection.execute("ROLLBACK")
         raise
-    connection.execute("COMMIT")
 
 
-def _version(connection: sqlite3.Connection, path: Path) -> int:
+def version_of(connection: sqlite3.Connection, path: Path) -> int:
     """0 for a database that is still empty."""
     (application,) = connection.execute("PRAGMA application_id").fetchone()
     (version,) = connection.execute("PRAGMA user_version").fetchone()
@@ -112,16 +120,17 @@ def open_database(path: Path) -> sqlite3.Connection:
         try:
             connection.row_factory = sqlite3.Row
             connection.execute("PRAGMA foreign_keys = ON")
-            _version(connection, path)
+            version_of(connection, path)
             # Where the file system has no shared memory this stays as it is; transactions hold all the same.
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = FULL")
             with transaction(connection):
-                if _version(connection, path) == 0:
+                if version_of(connection, path) == 0:
                     for statement in filter(str.strip, _TABLES.split(";\n")):
                         connection.execute(statement)
                     connection.execute(f"PRAGMA application_id = {_APPLICATION}")
                     connection.execute(f"PRAGMA user_version = {VERSION}")
+                connection.execute(_REUSED)
         except BaseException:
             connection.close()
             raise

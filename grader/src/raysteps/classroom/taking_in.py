@@ -41,5 +41,7 @@ def take_in_as(name: str, path: Path, steps: list[Step]) -> TakenIn:
         reason = printable(str(error).removeprefix(f"{path}: "))
         notes = {step.id: f"Nothing was taken from this submission: {reason}" for step in steps}
         return TakenIn(Submission(name, {}, notes), unreadable=True)
-    except (OSError, RuntimeError, ValueError) as error:
+    except GraderFault:
+        raise
+    except Exception as error:  # whatever it is, it is the fault of one submission, and the class goes on
         raise GraderFault(f"the submission cannot be read: {type(error).__name__}: {error}") from error

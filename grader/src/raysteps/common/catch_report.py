@@ -82,9 +82,10 @@ def parse_report(report: bytes) -> list[TestOutcome] | None:
     totals = root.find("OverallResultsCases")
     if root.tag not in ("Catch", "Catch2TestRun") or totals is None:
         return None
-    outcomes = [_outcome(case) for case in root.iter("TestCase")]
-    if len({outcome.name for outcome in outcomes}) != len(outcomes):
+    cases = [*root.findall("TestCase"), *root.findall("Group/TestCase")]
+    if len({case.get("name") for case in cases}) != len(cases):
         return None
+    outcomes = [_outcome(case) for case in cases]
     failed = sum(not outcome.passed for outcome in outcomes)
     if totals.get("successes") != str(len(outcomes) - failed) or totals.get("failures") != str(failed):
         return None

@@ -3,17 +3,16 @@
 import csv
 import io
 import math
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.classroom.names import platform_identity
 from raysteps.common.cells import harmless_cell
 from raysteps.common.errors import UsageError
 from raysteps.exports.reading import read_results
 from raysteps.exports.summary import Document
 
-_CANVAS_FILE = re.compile(r"[^_]+_(?:LATE_)?([0-9]+)_[0-9]+_")  # leeann_4711_815_steps
-_MOODLE_FILE = re.compile(r"_([0-9]+)_assignsubmission_")  # Ann Lee_123_assignsubmission_file
+_ALIKE = 0.005  # points are written in hundredths
 _NEEDED = ("submission", "id", "name", "email", "points", "max")
 
 
@@ -30,12 +29,19 @@ class Graded:
     most: float
 
     @property
+    def known(self) -> bool:
+        """Whether there was a roster; else only the name of the submission tells whose it is."""
+        return bool(self.id or self.name or self.email)
+
+    @property
     def ids(self) -> frozenset[str]:
-        """What tells whose it is. Without a roster, the name that Canvas or Moodle gave to the file does."""
-        if self.id or self.name or self.email:
-            return frozenset(filter(None, [self.id]))
-        found = _CANVAS_FILE.match(self.submission) or _MOODLE_FILE.search(self.submission)
-        return frozenset([self.submission, *(found.groups() if found else ())])
+        """What people are called by: a student number, a login."""
+        return frozenset(filter(None, [self.id if self.known else self.submission]))
+
+    @property
+    def numbers(self) -> frozenset[str]:
+        """What Canvas or Moodle itself may count this student by."""
+        return frozenset(filter(None, [self.id if self.known else platform_identity(self.submission)[1]]))
 
     @property
     def label(self) -> str:
@@ -60,6 +66,14 @@ def _unmarked(text: str) -> str:
     return text[1:] if text.startswith("'") and harmless_cell(text[1:]) == text else text
 
 
+def _graded(path: Path, line: int, row: dict[str, str]) -> Graded:
+    points = _number(path, line, "points", row["points"])
+    late = _number(path, line, "late_points", row.get("late_points") or "")
+    most = _number(path, line, "max", row["max"])
+    who = {name: _unmarked(row[name].strip()) for name in ("submission", "id", "name", "email")}
+    return Graded(**who, in_time=points, points=points if late is None else late, most=most or 0.0)
+
+
 def read_class(folder: Path) -> list[Graded]:
     """The rows of FOLDER/results.csv."""
     path = folder / "results.csv"
@@ -71,23 +85,25 @@ def read_class(folder: Path) -> list[Graded]:
     missing = [name for name in _NEEDED if name not in (reader.fieldnames or [])]
     if missing:
         raise UsageError(f"{path}: has no column {', '.join(missing)}; expected the output folder of grade-class")
-    rows = []
-    for row in reader:
-        line = reader.line_num
-        points = _number(path, line, "points", row["points"])
-        late = _number(path, line, "late_points", row.get("late_points") or "")
-        most = _number(path, line, "max", row["max"])
-        who = {name: _unmarked(row[name].strip()) for name in ("submission", "id", "name", "email")}
-        rows.append(Graded(**who, in_time=points, points=points if late is None else late, most=most or 0.0))
+    try:
+        rows = [_graded(path, reader.line_num, row) for row in reader]
+    except csv.Error as error:
+        raise UsageError(f"{path}:{reader.line_num}: is not CSV: {error}") from error
     if not rows:
         raise UsageError(f"{path}: holds no submission")
     return rows
 
 
 def results_of(folder: Path, graded: Graded) -> Document | None:
-    """The results.json of a submission, or None where there is none."""
+    """The results.json of a submission, or None where there is none; it must be what the row was made from."""
     home = (folder / "submissions").resolve()
     path = (home / graded.submission / "results.json").resolve()
     if not path.is_relative_to(home) or not path.is_file():
         return None
-    return read_results(path)
+    document = read_results(path)
+    if graded.in_time is None or abs(document["total"]["points"] - graded.in_time) > _ALIKE:
+        raise UsageError(
+            f"{path}: is of another run than results.csv, whose points for {graded.label} are not those; "
+            "run grade-class with --resume again, which writes both"
+        )
+    return document

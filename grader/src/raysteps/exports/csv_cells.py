@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.common.cells import delimiter_of
 from raysteps.common.errors import UsageError
 
 _MAX_BYTES = 32 << 20
-_DELIMITERS = ",;\t"
 _WIDE = (b"\xff\xfe", b"\xfe\xff", b"\x00\x00\xfe\xff")
 
 
@@ -82,20 +82,6 @@ class _Scanner:
         return rows
 
 
-def _delimiter(text: str) -> str:
-    """The one that the first record has most of, outside of quotes."""
-    quoted = False
-    seen = dict.fromkeys(_DELIMITERS, 0)
-    for letter in text:
-        if letter == '"':
-            quoted = not quoted
-        elif not quoted and letter in "\r\n":
-            break
-        elif not quoted and letter in seen:
-            seen[letter] += 1
-    return max(_DELIMITERS, key=lambda one: seen[one])
-
-
 @dataclass(frozen=True)
 class Sheet:
     """The file's text, its byte order mark included, and its records."""
@@ -134,7 +120,7 @@ def read_sheet(path: Path) -> Sheet:
     except UnicodeDecodeError as error:
         raise UsageError(f"{path}: is not UTF-8 (byte {error.start}); export or save it as CSV in UTF-8") from error
     start = 1 if text.startswith("\ufeff") else 0
-    delimiter = _delimiter(text[start:])
+    delimiter = delimiter_of(text[start:])
     rows = _Scanner(path, text, start, delimiter).rows()
     if not rows:
         raise UsageError(f"{path}: is empty")

@@ -1,31 +1,22 @@
 """The formats of other systems, as schemas; nothing is written that breaks its own."""
 
 import json
-from functools import cache
-from importlib.resources import files
+import shutil
 from pathlib import Path
 from typing import Any, Literal
 
-import jsonschema
-
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
+from raysteps.common.schemas import complaint, read_schema
 
 Format = Literal["gradescope", "classroom50", "github-legacy", "autolab", "prairielearn"]
 
 
-@cache
-def _schema(name: Format) -> Any:
-    path = files("raysteps.exports").joinpath("schemas", f"{name}.schema.json")
-    return json.loads(path.read_text(encoding="utf-8"))
-
-
 def validate(document: Any, name: Format) -> None:
     """A document against the schema is the kit's fault."""
-    try:
-        jsonschema.validate(document, _schema(name))
-    except jsonschema.ValidationError as error:
-        raise GraderFault(f"the {name} result would break its schema: {error.json_path}: {error.message}") from error
+    problem = complaint(document, read_schema("raysteps.exports", f"schemas/{name}.schema.json"))
+    if problem:
+        raise GraderFault(f"the {name} result would break its schema: {problem}")
 
 
 def encoded(document: Any) -> bytes:
@@ -45,3 +36,14 @@ def write_out(path: Path, data: bytes) -> None:
         write_bytes(path, data)
     except OSError as error:
         raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def remove(path: Path) -> None:
+    """What lies where a result is to come, whoever put it there."""
+    try:
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be replaced: {error.strerror or error}") from error

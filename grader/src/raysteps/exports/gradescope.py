@@ -13,12 +13,11 @@ from raysteps.kit.manifest import Step
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 VISIBILITIES: tuple[Visibility, ...] = get_args(Visibility)
-_KINDS = {"test": "test", "picture": "picture", "hidden": "hidden"}
 _MAX_METADATA = 4 << 20
 
 
 def _name(name: str, item: Item) -> str:
-    return f"{name}: {_KINDS[item.kind]} {item.name}" if item.kind in _KINDS else f"{name}: {item.name}"
+    return f"{name}: {item.name}" if item.kind == "step" else f"{name}: {item.kind} {item.name}"
 
 
 def _test(name: str, number: str, entry: Entry, hidden: Visibility) -> dict[str, Any]:

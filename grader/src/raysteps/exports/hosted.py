@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from raysteps.classroom.names import ARCHIVE_ENDINGS
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import number, shorten
@@ -17,7 +18,6 @@ from raysteps.kit.manifest import Step, choose
 from raysteps.kit.project import Project
 from raysteps.submission.intake import take_in
 
-_ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.xz", ".tar.bz2")
 _GRADED = (0, 1, 3)  # all passed, checks failed, some step does not build
 _MOST_FILES = 200
 
@@ -39,7 +39,7 @@ class Options:
 def _one_archive(folder: Path) -> Path | None:
     """The archive in a folder that holds one and no steps: a student who zipped what was to be dropped in."""
     files = [path for path, _ in zip(sorted(folder.iterdir()), range(_MOST_FILES), strict=False)]
-    archives = [path for path in files if path.name.lower().endswith(_ARCHIVES) and path.is_file()]
+    archives = [path for path in files if path.name.lower().endswith(ARCHIVE_ENDINGS) and path.is_file()]
     return archives[0] if len(archives) == 1 and not archives[0].is_symlink() else None
 
 
@@ -90,7 +90,8 @@ def grade_here(project: Project, submission: Path, steps: list[Step], options: O
         print(clean(outcome.stdout + outcome.stderr, 200_000), file=sys.stderr, flush=True)
     if outcome.timed_out:
         minutes = number(options.seconds / 60)
-        raise NotGraded(f"grading took more than {minutes} minutes; some step may run without an end.")
+        unit = "minute" if minutes == "1" else "minutes"
+        raise NotGraded(f"grading took more than {minutes} {unit}; some step may run without an end.")
     if outcome.code not in _GRADED:
         raise NotGraded(_complaint(outcome))
     try:

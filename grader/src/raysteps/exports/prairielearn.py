@@ -62,7 +62,8 @@ def to_prairielearn(document: Mapping[str, Any], steps: Mapping[str, Step], fold
             break
     left_out = album.paste(folder, room)
     if left_out:
-        results["message"] += f"\n{count(left_out, 'picture')} did not fit and was left out."
+        were = "was" if left_out == 1 else "were"
+        results["message"] += f"\n{count(left_out, 'picture')} did not fit and {were} left out."
     return results
 
 

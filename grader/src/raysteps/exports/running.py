@@ -9,19 +9,19 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import RaystepsError, UsageError
+from raysteps.common.errors import GraderFault, RaystepsError, UsageError
 from raysteps.common.process import run
 from raysteps.exports.autolab import as_lines, to_autolab
-from raysteps.exports.formats import validate, write
+from raysteps.exports.formats import remove, validate, write
 from raysteps.exports.github import output_line, to_classroom50, to_legacy
 from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_gradescope
 from raysteps.exports.hosted import NotGraded, Options, by_id, grade_here
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.exports.summary import summary
+from raysteps.exports.wording import clean, harmless_log
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 
-_FAULT = 4
 _GIT_SECONDS = 30
 
 Deliver = Callable[[Mapping[str, Any], Mapping[str, Step], Path], None]
@@ -36,7 +36,7 @@ def _grade(project: Project, submission: Path, options: Options, deliver: Delive
             document = grade_here(project, submission, steps, options, work)
             deliver(document, by_id(steps), work)
     except (RaystepsError, NotGraded, OSError, subprocess.SubprocessError) as error:
-        print(f"raysteps: {error}", file=sys.stderr)
+        print(f"raysteps: {harmless_log(clean(str(error)))}", file=sys.stderr)
         return str(error)
     return ""
 
@@ -52,7 +52,7 @@ def gradescope(project: Project, root: Path, options: Options, hidden: Visibilit
     why = _grade(project, root / "submission", options, deliver)
     if why:
         write(not_graded(why), "gradescope", path)
-    return _FAULT if why else 0
+    return GraderFault.exit_code if why else 0
 
 
 def prairielearn(project: Project, root: Path, options: Options) -> int:
@@ -66,7 +66,7 @@ def prairielearn(project: Project, root: Path, options: Options) -> int:
     if why:
         text = f"This submission was not graded: {why}\nNo attempt was used up. Please tell your instructors."
         write(not_gradable(text), "prairielearn", path)
-    return _FAULT if why else 0
+    return GraderFault.exit_code if why else 0
 
 
 def autolab(project: Project, handin: Path, options: Options) -> int:
@@ -78,11 +78,12 @@ def autolab(project: Project, handin: Path, options: Options) -> int:
         print(summary(document, steps, checks=True))
         print(as_lines(lines), end="", flush=True)
 
-    return _FAULT if _grade(project, handin, options, deliver) else 0
+    return GraderFault.exit_code if _grade(project, handin, options, deliver) else 0
 
 
 def submitted_at(repository: Path) -> datetime:
-    """When the commit that is checked out there was made; now, where git does not know."""
+    """When the commit that is checked out there was made; now, where git does not know. It is the student's clock, or
+    whatever the student told git."""
     command: list[str | Path] = [
         "git",
         "-c",
@@ -128,9 +129,12 @@ def deliver_github(
 
 
 def github(project: Project, submission: Path, options: Options, out: Path | None, *, legacy: bool) -> int:
-    """Nothing is written when the grader fails: the runner then reports an error, not a score."""
+    """Nothing is written when the grader fails: the runner then reports an error, not a score. Nor does anything stay
+    that was handed in under that name."""
+    if out is not None and not legacy:
+        remove(out)
 
     def deliver(document: Mapping[str, Any], steps: Mapping[str, Step], work: Path) -> None:
         deliver_github(document, steps, out, submission, legacy=legacy)
 
-    return _FAULT if _grade(project, submission, options, deliver) else 0
+    return GraderFault.exit_code if _grade(project, submission, options, deliver) else 0

@@ -26,5 +26,5 @@ def as_html(text: str, limit: int = 4000) -> str:
 
 
 def harmless_log(text: str) -> str:
-    """The log of GitHub Actions takes a line that begins with two colons for a command."""
-    return _COMMAND.sub(r"\1: :", text)
+    """The log of GitHub Actions takes a line that begins with two colons for a command, and `##[` anywhere in it."""
+    return _COMMAND.sub(r"\1: :", text).replace("##[", "# #[")

@@ -10,12 +10,14 @@ _ERROR = re.compile(
     r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$", re.M
 )
 _MISSING = re.compile(r"undefined reference to [`'](?P<name>.+?)'|undefined symbol: (?P<other>\S.*)")
+_TWICE = re.compile(r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)")
 _MOST_LOG = 64_000
 
 
 def build_log(ran: Ran) -> str:
-    """All that the compiler said, as text that cannot steer a terminal."""
-    return shorten(printable(ran.outcome.stderr + ran.outcome.stdout).strip(), _MOST_LOG)
+    """All that the compiler said, as text that cannot steer a terminal, and without the grader's folders."""
+    text = re.sub(r"(?:/[^\s:/]+)*/include/(core|steps)/", r"\1/", printable(ran.outcome.stderr + ran.outcome.stdout))
+    return shorten(re.sub(r"(?:/[^\s:/]+)+/(\w+\.cpp\b)", r"\1", text).strip(), _MOST_LOG)
 
 
 def _context(source: str, line: int, column: int) -> str:
@@ -65,11 +67,20 @@ def missing_message(names: tuple[str, ...]) -> str:
     return f"It does not build: {shown} {which} exactly as the header declares."
 
 
+def undefined_message(names: tuple[str, ...]) -> str:
+    """A helper that was declared and forgotten, or has another signature where it is defined."""
+    shown = listed([shorten(name, 200) for name in names[:5]])
+    return f"It does not build: {shown} is called, but defined nowhere. Is the signature the same in both places?"
+
+
 def link_message(ran: Ran) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:
         return "It does not build: the linker took too long."
     missing = _MISSING.search(printable(ran.outcome.stderr))
+    twice = _TWICE.search(printable(ran.outcome.stderr))
+    if twice is not None:
+        return f"It does not build: {shorten(twice['name'], 200)} is defined twice."
     if missing is None:
         return "It does not build: the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)

@@ -12,6 +12,7 @@ from raysteps.grading.build_messages import (
     forbidden_message,
     link_message,
     missing_message,
+    undefined_message,
 )
 from raysteps.grading.hidden import ask_functions, render_scenes
 from raysteps.grading.limits import StepLimits
@@ -100,6 +101,8 @@ class StepGrader:
             return forbidden_message(compiled.forbidden, owners)
         if compiled.unreadable:
             return "It does not build: its object holds more names than a step can have, or cannot be read."
+        if compiled.undefined:
+            return undefined_message(compiled.undefined)
         if compiled.missing:
             return missing_message(compiled.missing)
         return compile_message(self._step, source, compiled.ran)

@@ -69,7 +69,13 @@ def parse_limits(words: Sequence[str]) -> dict[str, float]:
     changes: dict[str, float] = {}
     for word in words:
         name, _, value = word.partition("=")
-        if name not in NAMES or not re.fullmatch(r"[0-9]+(\.[0-9]+)?", value) or float(value) <= 0:
-            raise UsageError(f"--limit {word}: expected one of {', '.join(NAMES)}, then = and a number above 0")
+        whole = not name.endswith("seconds")
+        if (
+            name not in NAMES
+            or not re.fullmatch(r"[0-9]+" if whole else r"[0-9]+(\.[0-9]+)?", value)
+            or not float(value)
+        ):
+            kind = "a whole number" if whole else "a number"
+            raise UsageError(f"--limit {word}: expected one of {', '.join(NAMES)}, then = and {kind} above 0")
         changes[name] = float(value)
     return changes

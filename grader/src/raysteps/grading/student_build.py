@@ -1,5 +1,6 @@
 """Compiles and links one step of a student, in the sandbox. The commands are the kit's; only the source is not."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,7 +9,7 @@ from raysteps.grading.limits import StepLimits
 from raysteps.kit.built_kit import BuiltKit, Kind
 from raysteps.kit.linking import KNOWN_TO_COMPILER, library_name
 from raysteps.kit.manifest import Step
-from raysteps.kit.symbols import nm_arguments, parse_symbols
+from raysteps.kit.symbols import nm_arguments, of_somebody, parse_symbols
 from raysteps.sandbox.task import Input, Output, Ran, Sandbox, Task, Word
 
 _MOST_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand
@@ -22,6 +23,7 @@ class Compiled:
     ran: Ran
     forbidden: tuple[str, ...] = ()  # linker names that the step may not ask for
     missing: tuple[str, ...] = ()  # functions that the step should define
+    undefined: tuple[str, ...] = ()  # functions that the step calls and nobody defines
     unreadable: bool = False  # an object that no compiler makes of what a student writes
 
 
@@ -69,11 +71,12 @@ class StudentBuild:
         if listed.outcome.code != 0 or listed.outcome.timed_out or len(text) >= _MOST_SYMBOLS:
             return Compiled(None, compiled, unreadable=True)
         symbols = parse_symbols(text)
-        strange = sorted(symbols.wanted - self._kit.allowed(step))
-        forbidden = tuple(name for name in strange if "8raysteps" in name or "5Catch" in name)
+        strange = sorted(name for name in symbols.wanted - self._kit.allowed(step) if of_somebody(name))
+        forbidden = tuple(name for name in strange if name in self._kit.known() or "5Catch" in name)
         missing = tuple(shown for name, shown in self._kit.functions(step).items() if name not in symbols.defined)
-        if forbidden or missing:
-            return Compiled(None, compiled, forbidden, missing)
+        undefined = self._shown(raw, [name for name in strange if name not in forbidden], limits)
+        if forbidden or missing or undefined:
+            return Compiled(None, compiled, forbidden, missing, undefined)
         name = library_name(step.number)
         words: tuple[Word, ...] = (description.compiler, *description.link_flags, "-fno-lto", "-shared")
         words += (
@@ -87,6 +90,20 @@ class StudentBuild:
         if not data:
             return Compiled(None, ran)
         return Compiled(self._write(f"libraries/{name}", data), compiled)
+
+    def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:
+        """Linker names of an object as C++ writes them."""
+        tools = self._kit.description.seal
+        if not names or tools is None:
+            return ()
+        lists = []
+        for option in ((), ("--demangle",)):
+            words = (tools.nm, *nm_arguments(), "--undefined-only", "--no-sort", *option, Input(raw, "step.o"))
+            lists.append(self._run(limits, *words).outcome.stdout.splitlines())
+        shown = {
+            plain.split()[0]: re.sub(r" [Uwv]\s*[0-9a-f ]*$", "", text) for plain, text in zip(*lists, strict=False)
+        }
+        return tuple(shown.get(name, name) for name in names)
 
     def program(
         self, kind: Kind, step: Step, binaries: list[Path], limits: StepLimits, *, together: bool = False

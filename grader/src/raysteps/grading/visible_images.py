@@ -64,8 +64,9 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     if rendered.pixels is None:
         result.outcome, result.message = trouble(rendered)
         return result
-    result.mine = (folder / f"{case.name}-mine.png").as_posix()
-    write_png(rendered.pixels, gallery.out / result.mine)
+    if rendered.pixels.shape == reference.shape:
+        result.mine = (folder / f"{case.name}-mine.png").as_posix()
+        write_png(rendered.pixels, gallery.out / result.mine)
     verdict = compare(rendered.pixels, reference, case.max_wrong)
     result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
     if case.max_share is not None:

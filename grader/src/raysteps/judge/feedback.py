@@ -10,7 +10,9 @@ _HIDDEN_ITEM = "hidden item"  # of the line that counts them
 
 
 def _without_cases(item: dict[str, Any]) -> dict[str, Any]:
-    return {**item, **dict.fromkeys(_CASES, "")}
+    """A picture's message tells of single pixels."""
+    places = {"message": ""} if item["kind"] == "picture" and item["outcome"] == "wrong" else {}
+    return {**item, **dict.fromkeys(_CASES, ""), **places}
 
 
 def _share_only(items: list[dict[str, Any]], kind: str, name: str) -> list[dict[str, Any]]:
@@ -38,6 +40,7 @@ def _share_only(items: list[dict[str, Any]], kind: str, name: str) -> list[dict[
 
 def _withheld_step(step: dict[str, Any], feedback: Feedback) -> dict[str, Any]:
     hidden = step["hidden"]
+    step = {**step, "inconsistent": []}  # that is for the instructor
     if feedback == "diagnosis":
         return {**step, "hidden": [_without_cases(item) for item in hidden]}
     texts = {item["message"] for item in hidden if item["message"]}

@@ -47,6 +47,7 @@ class Assembly:
                 precompile(self._description, self._folder / "include", step.id)
         for step in self._steps:
             self._add_step(step)
+        self._write_known()
         raytrace = [self._copy(path) for path in self._description.raytrace]
         worker = [self._copy(path) for path in self._description.worker]
         for kind, objects in (("raytrace", raytrace), ("worker", worker)):
@@ -64,6 +65,14 @@ class Assembly:
         tools = self._description.seal
         loader = None if tools is None else interpreter_of(tools.readelf, self._folder / "bin" / "raytrace")
         write_json(self._folder / "facts.json", {"interpreter": loader, "tests": tests})
+
+    def _write_known(self) -> None:
+        """Every name that the kit defines, to tell what is not for a step from what is nowhere."""
+        tools = self._description.seal
+        if tools is not None:
+            libraries = [path for path in (self._core, *self._others) if path.suffix == ".a"]
+            names = set().union(*(symbols_of(tools.nm, path).defined for path in libraries), *self._kept.values())
+            write_json(self._folder / "steps" / "known.json", sorted(names))
 
     def _copy(self, path: Path) -> Path:
         parts = self._folder / "parts"

@@ -56,6 +56,10 @@ class BuiltKit:
         """The linker's version script with the names of the functions."""
         return self.folder / "steps" / f"{step.number}.map"
 
+    def known(self) -> frozenset[str]:
+        """All names of the kit."""
+        return frozenset(json.loads((self.folder / "steps" / "known.json").read_text(encoding="utf-8")))
+
     def allowed(self, step: Step) -> frozenset[str]:
         """The kit's names that the step may ask for: core's, and the functions of steps up to it."""
         names = json.loads((self.folder / "steps" / f"{step.number}.allowed.json").read_text(encoding="utf-8"))

@@ -7,18 +7,25 @@ from pathlib import Path
 
 from raysteps.kit.project import Project
 
-_SOURCES = ("framework", "cmake", "scenes", "solutions", "steps", "grader/src")
-_LEFT_OUT = re.compile(r"__pycache__|\.egg-info|\.pyc$|\.tmp$")
+# Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps.
+_SOURCES = {
+    "framework": r".*\.(hpp|cpp|cmake|txt)",
+    "cmake": r".*\.cmake",
+    "scenes": r".*\.(nff|py)",
+    "solutions": r".*\.(cpp|toml)",
+    "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
+    "grader/src": r".*\.(py|json)",
+}
 
 
 def _files(project: Project) -> Iterator[Path]:
     yield project.root / "CMakeLists.txt"
     yield project.root / "CMakePresets.json"
-    stubs = re.compile(r"steps/[0-9]{2}-[a-z0-9-]+/(?!.*_test\.cpp$).*(\.cpp|\.md)$")
-    for name in _SOURCES:
-        for path in sorted((project.root / name).rglob("*")):
-            relative = path.relative_to(project.root).as_posix()
-            if path.is_file() and not _LEFT_OUT.search(relative) and not stubs.match(relative):
+    for name, pattern in _SOURCES.items():
+        folder = project.root / name
+        for path in sorted(folder.rglob("*")):
+            counts = re.fullmatch(pattern, path.relative_to(folder).as_posix()) and not path.name.startswith(".")
+            if counts and path.is_file():
                 yield path
 
 

@@ -18,7 +18,6 @@ from raysteps.kit.project import Project
 
 _KEPT = 3
 _IN_USE_SECONDS = 1800  # a class touches its kit for each submission
-_NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
 
 
 def build_kit(project: Project, say: Say = lambda text: None) -> BuiltKit:
@@ -62,6 +61,9 @@ def _build(project: Project, steps: list[Step], folder: Path) -> None:
         outcome = tree.build(["kit"])
         if outcome.code != 0:
             raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
+        for left in folder.parent.glob(".new-*"):  # by builds that were killed: this one has the lock
+            if left != Path(name):
+                shutil.rmtree(left, ignore_errors=True)
         new = Path(name) / "kit"
         new.mkdir()
         Assembly(project, steps, new, read_description(tree.folder / "kit.json")).run()

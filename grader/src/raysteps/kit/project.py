@@ -23,10 +23,6 @@ class Project:
         return self.root / "scenes"
 
     @property
-    def generated_scenes(self) -> Path:
-        return self.scenes / "generated"
-
-    @property
     def samples(self) -> Path:
         return self.root / "grader" / "samples"
 

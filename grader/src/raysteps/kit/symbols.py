@@ -33,6 +33,14 @@ def parse_symbols(text: str) -> Symbols:
     return Symbols(frozenset(defined), frozenset(wanted))
 
 
+_NOT_OF_A_LIBRARY = re.compile(r"_Z(?:T[VIST])?N?K?(?!9__gnu_cxx|10__cxxabi)[0-9]")
+
+
+def of_somebody(name: str) -> bool:
+    """Whether a linker name is of a C++ function or class that is neither the compiler's nor the standard library's."""
+    return _NOT_OF_A_LIBRARY.match(name) is not None
+
+
 def nm_arguments() -> tuple[str, ...]:
     return ("--extern-only", "--format=posix")
 

@@ -122,6 +122,7 @@ def main() -> None:
     command = sys.argv[2:]
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    signal.signal(signal.SIGCHLD, lambda *_: None)  # some systems drop what is ignored before anybody waits for it
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM, signal.SIGCHLD})
     child = os.fork()
     if child == 0:

@@ -1,0 +1,58 @@
+"""One state of the kit and another."""
+
+from pathlib import Path
+
+import pytest
+
+from raysteps.kit.fingerprint import fingerprint
+from raysteps.kit.project import Project
+
+FILES = {
+    "CMakeLists.txt": "project(x)",
+    "CMakePresets.json": "{}",
+    "framework/core/ray.hpp": "struct Ray {};",
+    "steps/01-camera-rays/step.toml": "id = 1",
+    "steps/01-camera-rays/camera_rays.hpp": "// contract",
+    "steps/01-camera-rays/camera_rays_test.cpp": "// tests",
+    "solutions/01-camera-rays/camera_rays.cpp": "// answer",
+    "solutions/01-camera-rays/cases.toml": "x = 1",
+    "scenes/lessons/a.nff": "b 0 0 0",
+    "grader/src/raysteps/cli.py": "pass",
+    "grader/src/raysteps/grading/results.schema.json": "{}",
+}
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Project:
+    for name, text in FILES.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return Project(tmp_path)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_what_a_grade_depends_on_counts(copy: Project, name: str) -> None:
+    before = fingerprint(copy)
+    assert fingerprint(copy) == before
+    (copy.root / name).write_text("another")
+    assert fingerprint(copy) != before
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "steps/01-camera-rays/camera_rays.cpp",  # a student's own
+        "steps/01-camera-rays/.camera_rays.hpp.swp",
+        "steps/01-camera-rays/camera_rays.hpp~",
+        "steps/01-camera-rays/README.md",
+        "scenes/mine.ppm",
+        "scenes/.DS_Store",
+        "grader/src/raysteps/__pycache__/cli.cpython-311.pyc",
+    ],
+)
+def test_what_lies_beside_it_does_not(copy: Project, name: str) -> None:
+    before = fingerprint(copy)
+    (copy.root / name).parent.mkdir(parents=True, exist_ok=True)
+    (copy.root / name).write_text("x")
+    assert fingerprint(copy) == before
