@@ -1,5 +1,6 @@
 """The commands `check` and `grade`: a student's own steps, and somebody else's."""
 
+import hashlib
 import os
 import sys
 from collections.abc import Callable
@@ -100,7 +101,8 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
     sandbox = find_sandbox(require=wish.require_sandbox)
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
-    with console.status("starting") as status:
+    lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
+    with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
         say = _progress(console, status)
         kit = build_kit(project, say)
         submission = take_in(wish.submission, kit.steps)

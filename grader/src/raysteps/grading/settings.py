@@ -14,4 +14,4 @@ class Settings:
     only: tuple[str, ...] = ()  # step ids; all steps when there are none
     feedback: Feedback = "full"
     limits: Mapping[str, float] = field(default_factory=dict)  # changes by name, see grading.limits
-    jobs: int = 1  # steps at a time; changes no grade
+    jobs: int = 1  # steps at a time; changes a grade only where a step is near its time limit
