@@ -104,8 +104,8 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
     with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
         say = _progress(console, status)
+        submission = take_in(wish.submission, read_steps(project))
         kit = build_kit(project, say)
-        submission = take_in(wish.submission, kit.steps)
         clear(out, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
