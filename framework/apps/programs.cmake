@@ -17,20 +17,8 @@ endforeach()
 raysteps_add_raytrace(raytrace-mine ${numbers})
 raysteps_add_raytrace(raytrace-reference)
 
-# worker, which answers the judge's cases with the functions of one step, and with the reference's.
+# worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
 add_library(worker-app OBJECT apps/worker.cpp apps/worker_functions.cpp apps/worker_output.cpp
             apps/worker_surfaces.cpp apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_values.cpp
             apps/worker_words.cpp)
 target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
-
-# name, then the numbers of the steps that are mine
-function(raysteps_add_worker name)
-    add_executable(${name} $<TARGET_OBJECTS:worker-app>)
-    target_link_libraries(${name} PRIVATE raysteps-core)
-    raysteps_link_steps(${name} ${ARGN})
-endfunction()
-
-foreach(number IN LISTS numbers)
-    raysteps_add_worker(worker-isolated-${number} ${number})
-endforeach()
-raysteps_add_worker(worker-reference)

@@ -10,8 +10,9 @@ namespace raysteps {
 namespace {
 
 constexpr int k_levels = 3;
-constexpr std::size_t k_most_nodes = 100000;
-constexpr std::size_t k_most_entries = 1000000;
+// Larger trees are not told; judge/trees.py knows the same numbers.
+constexpr std::size_t k_most_nodes = 5000;
+constexpr std::size_t k_most_entries = 50000;
 constexpr int k_deepest = 500;
 
 bool apart(const Box& a, const Box& b) {
@@ -48,12 +49,15 @@ public:
         }
     }
 
-    /// Whether the tree was small enough.
-    bool write(Answer& answer, const Node& node, int depth) {
+    /// Of what the tree has too much; nothing when it was small enough.
+    const char* write(Answer& answer, const Node& node, int depth) {
         nodes_ += 1;
         entries_ += node.surfaces.size();
-        if (nodes_ > k_most_nodes || entries_ > k_most_entries || depth > k_deepest) {
-            return false;
+        if (nodes_ > k_most_nodes || depth > k_deepest) {
+            return depth > k_deepest ? "levels" : "boxes";
+        }
+        if (entries_ > k_most_entries) {
+            return "entries";
         }
         write_box(answer, node.box);
         answer.whole(static_cast<long long>(node.surfaces.size()));
@@ -63,11 +67,11 @@ public:
         }
         answer.whole(static_cast<long long>(node.children.size()));
         for (const Node& child : node.children) {
-            if (!write(answer, child, depth + 1)) {
-                return false;
+            if (const char* what = write(answer, child, depth + 1)) {
+                return what;
             }
         }
-        return true;
+        return nullptr;
     }
 
 private:
@@ -90,8 +94,8 @@ Node simple_tree(const SurfaceList& surfaces) {
 
 void write_tree(Answer& answer, const Node& root, const SurfaceList& surfaces) {
     Answer tree;
-    if (!TreeWriter(surfaces).write(tree, root, 0)) {
-        answer.word("large");
+    if (const char* what = TreeWriter(surfaces).write(tree, root, 0)) {
+        answer.word("large").word(what);
         return;
     }
     answer.word("tree").word(std::string_view(tree.text()).substr(1));

@@ -9,7 +9,7 @@ namespace raysteps {
 [[nodiscard]] Node simple_tree(const SurfaceList& surfaces);
 
 /// Each node: its box, how many surfaces and their numbers (-1: unknown), how many children, and these.
-/// `large` instead of the tree where it is too large to be told.
+/// `large boxes`, `large entries` or `large levels` instead of the tree where it has too many of them to be told.
 void write_tree(Answer& answer, const Node& root, const SurfaceList& surfaces);
 
 }  // namespace raysteps

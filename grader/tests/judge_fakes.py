@@ -24,15 +24,22 @@ def ran(stdout: str, code: int = 0, *, timed_out: bool = False, seconds: float =
 
 
 class FakeWorker:
-    """Answers cases as worker.cpp does. Counts how often it was started."""
+    """Answers cases as worker.cpp does. Counts how often it was started, and how long it ran; who hangs runs as long
+    as it may."""
 
     def __init__(self, answer: Answer, seconds: float = 0.01) -> None:
         self._answer = answer
         self._seconds = seconds
         self.starts = 0
+        self.used = 0.0
 
-    def __call__(self, stdin: bytes) -> Ran:
+    def __call__(self, stdin: bytes, seconds: float) -> Ran:
         self.starts += 1
+        ran = self._run(stdin, seconds)
+        self.used += ran.outcome.seconds
+        return ran
+
+    def _run(self, stdin: bytes, seconds: float) -> Ran:
         said = ""
         lines = stdin.decode().splitlines()
         for line in lines:
@@ -41,7 +48,8 @@ class FakeWorker:
             try:
                 said += f"done {number} {self._answer(function, [float(word) for word in rest])}\n"
             except Ended as end:
-                return ran(said + end.half, end.code, timed_out=end.timed_out, seconds=self._seconds)
+                used = seconds if end.timed_out else self._seconds
+                return ran(said + end.half, end.code, timed_out=end.timed_out, seconds=used)
         return ran(said + f"end {len(lines)}\n", seconds=self._seconds)
 
 

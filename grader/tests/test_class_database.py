@@ -3,6 +3,7 @@
 import csv
 import io
 import sqlite3
+import unicodedata
 from contextlib import closing
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from raysteps.classroom.messages import Answer, Job
 from raysteps.classroom.records import Registered, Registration, RunFacts
 from raysteps.classroom.spreadsheet import csv_bytes, safe_cell
 from raysteps.classroom.tables import VERSION, open_database, transaction
+from raysteps.common.cells import FORMULA_SIGNS
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.submission.intake import Submission
 
@@ -133,10 +135,30 @@ def test_without_times() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", " =1", "\uff1d1+1", "\u200b=1", "\x1b[2J"]
+    "text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t1", "\r=1", " =1", "\uff1d1+1", "\u200b=1", "\x1b[2J"]
 )
 def test_cells_that_a_spreadsheet_would_run(text: str) -> None:
     assert safe_cell(text) == f"'{text}"
+
+
+@pytest.mark.parametrize(
+    ("text", "cell"),
+    [
+        ("a;=1+1", "a;'=1+1"),
+        ("a; \u3000-1;b", "a; \u3000'-1;b"),
+        ("a\t@x;+1", "a\t'@x;'+1"),
+        ("\t=1", "'\t'=1"),
+        ("a;\uff1d1", "a;'\uff1d1"),
+        ("a;b-1=2", "a;b-1=2"),
+    ],
+)
+def test_nor_where_semicolons_or_tabs_separate_cells(text: str, cell: str) -> None:
+    assert safe_cell(text) == cell
+
+
+def test_all_signs_that_are_read_as_those_of_a_formula_are_known() -> None:
+    found = {chr(code) for code in range(0x110000) if unicodedata.normalize("NFKC", chr(code))[:1] in set("=+-@")}
+    assert found <= set(FORMULA_SIGNS), [hex(ord(sign)) for sign in found - set(FORMULA_SIGNS)]
 
 
 @pytest.mark.parametrize(

@@ -89,3 +89,33 @@ def test_never_below_nothing() -> None:
     policy = parse_late_policy("deadline = 2026-11-20T23:59:00Z\npercent_per_day = 40", "late.toml")
     late = apply_policy(policy, [], "2026-12-20T23:59:00Z", 50.0)
     assert (late.percent, late.points) == (100.0, 0.0)
+
+
+def test_a_time_without_a_zone_is_in_that_of_the_deadline_that_counts() -> None:
+    text = "deadline = 2026-11-20T23:59:00+01:00\npercent_per_day = 10\n[extensions]\ns2 = 2026-11-22T23:59:00-05:00\n"
+    policy = parse_late_policy(text, "late.toml")
+    assert apply_policy(policy, ["s2"], "2026-11-22T23:30:00", 50.0).days == 0
+    assert apply_policy(policy, ["s2"], "2026-11-23T00:30:00", 50.0).days == 1
+    assert apply_policy(policy, ["s1"], "2026-11-20T23:30:00", 50.0).days == 0
+
+
+@pytest.mark.parametrize(
+    ("percent", "points", "left", "words"),
+    [
+        ("33.3", 10.01, 6.68, "33.3 % each, takes 33.3 % off 10.01 points: 10.01 - 3.33 = 6.68"),  # 6.67667
+        ("10", 0.05, 0.05, "0.05 - 0 = 0.05"),  # 0.045
+        ("0.125", 80.0, 79.9, "0.125 % each, takes 0.125 % off"),
+        ("10", 8.7, 7.83, "8.7 - 0.87 = 7.83"),  # exactly
+        ("0", 8.7, 8.7, "8.7 - 0 = 8.7"),
+    ],
+)
+def test_sums_are_as_on_paper(percent: str, points: float, left: float, words: str) -> None:
+    policy = parse_late_policy(f"deadline = 2026-11-20T23:59:00Z\npercent_per_day = {percent}", "late.toml")
+    late = apply_policy(policy, [], "2026-11-21T10:00:00Z", points)
+    assert late.points == left
+    assert words in late.words
+
+
+def test_days_are_counted_in_whole_numbers() -> None:
+    policy = parse_late_policy("deadline = 2026-11-20T23:59:00Z\npercent_per_day = 1\nmax_days = 5.0", "late.toml")
+    assert "more than 5 days: 0 points" in apply_policy(policy, [], "2026-12-20T23:59:00Z", 50.0).words

@@ -70,6 +70,15 @@ def test_listing(tmp_path: Path) -> None:
         list_entries(tmp_path / "missing", [])
 
 
+def test_names_cannot_steer_a_terminal(tmp_path: Path) -> None:
+    for name in ("\x1b[2Ja\nb\tc", "a b c", "\x07", "\x07\x07"):
+        (tmp_path / name).mkdir()
+    labels = [entry.label for entry in list_entries(tmp_path, []).entries]
+    assert len(set(labels)) == 4
+    assert all(label.strip() and label.isprintable() for label in labels)
+    assert "a b c" in labels
+
+
 def test_shards_divide_a_class() -> None:
     labels = [f"student {number}" for number in range(1000)]
     shards = [read_shard(f"{index}/7") for index in range(1, 8)]

@@ -43,6 +43,7 @@ def test_headers_are_tolerant(tmp_path: Path, text: str) -> None:
         ("id,name\n7,Ann\n8,Bob\n7,Cleo\n", r"roster\.csv:4: the id '7' stands in line 2, too"),
         ("name,email\nAnn,A@x.edu\nBob,a@X.edu\n", r"roster\.csv:3: the email"),
         ("id,name\n,\n7,A\n ,x\n,,\n", None),
+        ("name\nAnn Lee\nBob\nANN  Lee\n", r"roster\.csv:4: the name 'ANN  Lee' stands in line 2, too"),
         ("id,email,time\n,,2026-11-20T10:00\n", r"roster\.csv:2: expected an id"),
         ("id,submitted_at\n7,yesterday\n", r"roster\.csv:2: submitted_at is 'yesterday'"),
         ("id,submitted_at\n7,2026-11-20\n", r"roster\.csv:2: submitted_at"),
@@ -111,3 +112,45 @@ def test_a_submission_that_the_roster_names_and_nobody_handed_in() -> None:
 
 def test_without_a_roster_there_is_nothing_to_note() -> None:
     assert match(["a", "b"], []).entry_notes == {}
+
+
+def test_delimiters_in_quotes_do_not_count(tmp_path: Path) -> None:
+    path = _write(tmp_path, '"name, as in the register, or else",id;"e;mail"\n'.replace(",id", ";id") + "Ann;7;a@x\n")
+    assert [student.id for student in read_roster(path)] == ["7"]
+
+
+def test_a_grading_worksheet_of_moodle_is_a_roster(tmp_path: Path) -> None:
+    text = (
+        'Identifier,"Full name","ID number","Email address",Status,Grade,"Last modified (submission)"\n'
+        '"Participant 101","Ann Lee",S1,ann@uni.edu,Submitted,,"Friday, 20 November 2026, 10:00 AM"\n'
+    )
+    (student,) = read_roster(_write(tmp_path, text))
+    assert (student.id, student.name, student.submitted_at) == ("S1", "Ann Lee", "")
+
+
+@pytest.mark.parametrize(
+    ("entry", "whose"),
+    [
+        ("leeann_4711_815_steps.zip", 0),  # by the name, which Canvas writes so
+        ("leeann_LATE_4711_815_steps.zip", 0),
+        ("devriescleo_99_816_steps.zip", 1),
+        ("who_55_817_steps.zip", 3),  # by the number, of somebody whose name is not known
+        ("foxeve_77_818_steps.zip", None),  # the number is another one's, who has another name
+        ("evil_1_2_leeann_4711_815_steps.zip", None),  # only the beginning is the platform's
+        ("Ann Lee_4711_assignsubmission_file", 0),
+        ("Ann Lee_55_assignsubmission_file", 0),
+        ("Eve Fox_77_assignsubmission_leeann_4711_1_.zip", None),
+        ("twinjo_6_1_a.zip", 4),  # two of one name: the number tells which
+        ("twinjo_8_1_a.zip", None),
+    ],
+)
+def test_downloads_of_canvas_and_moodle(entry: str, whose: int | None) -> None:
+    students = [
+        _student(2, id="4711", name="Ann Lee"),
+        _student(3, id="s2", name="Cleo de Vries"),
+        _student(4, id="77", name="Dan Ray"),
+        _student(5, id="55"),
+        _student(6, id="6", name="Jo Twin"),
+        _student(7, id="7", name="Jo Twin"),
+    ]
+    assert match([entry], students).pairs == ([] if whose is None else [(0, whose)])

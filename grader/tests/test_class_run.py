@@ -268,6 +268,46 @@ def test_late_policy(tmp_path: Path, handed_in: Path) -> None:
     assert {one["name"]: one["final"] for one in _document(out)["submissions"]} == {"s1": 1, "s2": 1, "s3": 0, "s4": 0}
 
 
+def test_extensions_by_the_name_of_a_submission(tmp_path: Path, handed_in: Path) -> None:
+    for number in range(1, 5):
+        os.utime(handed_in / f"s{number}" / "steps" / FIRST, (90_000, 90_000))
+    policy = tmp_path / "late.toml"
+    policy.write_text(
+        "deadline = 1970-01-01T00:00:00Z\npercent_per_day = 50\n[extensions]\ns1 = 9\ns2 = 9\ns4 = 9\nteam = 9\n"
+    )
+    (handed_in / "s3").rename(handed_in / "team")
+    roster = tmp_path / "roster.csv"
+    roster.write_text("id,name,submission\n1,Ann,s1\n2,Bob,s2\n3,Cleo,team\ns2,Dan,s4\n")
+    out = tmp_path / "out"
+    words = ("--late-policy", policy)
+    assert grade_class(handed_in, "--out", out, *words) == 0
+    assert {one["name"]: one["final"] for one in _document(out)["submissions"]} == {
+        "s1": 1,
+        "s2": 2,
+        "s4": 4,
+        "team": 3,
+    }
+    assert grade_class(handed_in, "--out", out, "--roster", roster, *words, "--resume") == 0
+    found = {one["name"]: one["final"] for one in _document(out)["submissions"]}
+    # On the roster, s2 is Dan: Bob does not get Dan's extension by handing in something of that name.
+    assert found == {"s1": 1, "s2": 0, "s4": 4, "team": 3}
+    assert _document(out)["unknown_extensions"] == []
+
+
+def test_of_a_team_the_latest_time_counts(tmp_path: Path, handed_in: Path) -> None:
+    roster = tmp_path / "roster.csv"
+    roster.write_text(
+        "id,submission,submitted_at\na,s1,2026-11-20T10:00:00+01:00\nb,s1,2026-11-20T09:30:00Z\n"
+        "c,s2,2026-11-20T10:00:00\nd,s2,2026-11-20T10:00:00\ne,s2,\n"
+    )
+    out = tmp_path / "out"
+    assert grade_class(handed_in, "--out", out, "--roster", roster) == 0
+    one, two = _document(out)["submissions"][:2]
+    assert one["submitted_at"] == "2026-11-20T09:30:00+00:00"
+    assert "different times in the roster (2026-11-20T10:00:00+01:00, 2026-11-20T09:30:00+00:00)" in one["note"]
+    assert (two["submitted_at"], two["note"]) == ("2026-11-20T10:00:00", "")
+
+
 def test_usage(tmp_path: Path, handed_in: Path) -> None:
     out = tmp_path / "out"
     for words, message in (

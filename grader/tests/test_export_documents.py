@@ -18,7 +18,7 @@ from raysteps.grading.results import (
 )
 from raysteps.kit.manifest import Step
 
-HOSTILE = "<script>alert(1)</script>\x1b[31m\x00\u202eevil\n::error::done"
+HOSTILE = "<script>alert(1)</script>\x1b[31m\x00\u202eevil\n::error::done\nfine ##[error]done"
 
 
 def step_result(step: Step, *, share: float = 1.0, text: str = "is wrong") -> StepResult:

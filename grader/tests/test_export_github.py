@@ -17,6 +17,7 @@ from raysteps.exports.formats import validate
 from raysteps.exports.github import output_line, to_classroom50, to_legacy, whole_points
 from raysteps.exports.hosted import by_id
 from raysteps.exports.running import deliver_github, submitted_at
+from raysteps.exports.wording import harmless_log
 from raysteps.kit.manifest import Step
 
 ENVIRONMENT = {
@@ -78,6 +79,7 @@ def test_legacy_output(steps: list[Step], tmp_path: Path, monkeypatch: pytest.Mo
     validate(result, "github-legacy")
     assert result["status"] == "fail"
     assert result["max_score"] == 110
+    assert "##[" not in json.dumps(result)
     assert not any(line.lstrip().startswith("::") for test in result["tests"] for line in test["message"].splitlines())
     assert result["tests"][1]["filename"] == "steps/02-intersection/intersection.cpp"
 
@@ -121,3 +123,9 @@ def test_autograder_is_python() -> None:
     text = classroom50_autograder(words).decode()
     found = next(node for node in ast.parse(text).body if isinstance(node, ast.Assign))
     assert ast.literal_eval(found.value) == words
+
+
+def test_no_form_of_a_command_is_left() -> None:
+    assert harmless_log("a ##[set-output name=x]1\n  ::error::b\nc::d ###[x") == (
+        "a # #[set-output name=x]1\n  : :error::b\nc::d ## #[x"
+    )

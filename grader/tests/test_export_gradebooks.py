@@ -147,7 +147,9 @@ def test_moodle_changes_grades_and_feedback_only(
 ) -> None:
     folder = case.graded / "submissions" / "one"
     folder.mkdir(parents=True)
-    (folder / "results.json").write_text(json.dumps(mixed(steps, HOSTILE)))
+    document = mixed(steps, HOSTILE)
+    document["total"]["points"] = 87.5
+    (folder / "results.json").write_text(json.dumps(document))
     case.results("one,S1,Ann,,87.5,100,70,\ntwo,,,jose@uni.edu,110,100,,\nthree,103,,,10,100,,\n")
     filled = case.run("moodle", MOODLE)
     before, after = (list(csv.reader(io.StringIO(text, newline=""))) for text in (MOODLE, filled))
@@ -160,8 +162,9 @@ def test_moodle_changes_grades_and_feedback_only(
     assert "<br>  - hidden function 0: " in feedback
     assert "secret" not in feedback
     assert not any(ord(letter) < 32 for letter in feedback)
-    assert filled.endswith('Yes,-,-,""\n' + '"Participant 103"' + MOODLE.split('"Participant 103"')[1])
+    assert filled.endswith('Yes,-,-,"<p>old</p>"\n' + '"Participant 103"' + MOODLE.split('"Participant 103"')[1])
     said = capsys.readouterr().err
+    assert "two (jose@uni.edu): has no results.json; the comment on José de la Cruz Participant 102 (line 3)" in said
     assert "two (jose@uni.edu): 110 points are above the maximum; 100 entered" in said
     assert "Eve Locked Participant 103 (line 4) has a locked grade" in said
 
@@ -221,7 +224,13 @@ def test_a_submission_cannot_point_out_of_the_folder(case: Case, steps: list[Ste
 def test_names_in_two_columns(case: Case) -> None:
     text = "LastName,FirstName,ID,SIS Login ID,Section,Raysteps (12)\r\nLee,Ann,101,x,A,\r\n"
     case.results("s,,Ann Lee,,7,100,,\n")
-    assert case.run("canvas", text) == text.replace("x,A,", "x,A,7")
+    with pytest.raises(
+        UsageError, match=r"no maximum for s \(Ann Lee\), who was graded out of 100; say --points as-is"
+    ):
+        case.run("canvas", text)
+    with pytest.raises(UsageError, match="no maximum"):
+        case.run("canvas", text, "--points", "scale")
+    assert case.run("canvas", text, "--points", "as-is") == text.replace("x,A,", "x,A,7")
 
 
 def test_the_template_is_never_overwritten(project: Project, case: Case) -> None:
@@ -243,3 +252,52 @@ def test_what_is_no_output_of_grade_class(case: Case) -> None:
     (case.graded / "results.csv").write_text("name,points\na,1\n")
     with pytest.raises(UsageError, match="submission, id, email, max"):
         case.run("canvas", CANVAS, "--assignment", "12")
+
+
+@pytest.mark.parametrize("text", ["1,000", "1.000", "1,000.00", "(read only)", "hundred"])
+def test_a_maximum_that_may_mean_anything_is_refused(case: Case, text: str) -> None:
+    case.results("x,101,,,7,100,,\n")
+    template = CANVAS.replace(",100.00,", f',"{text}",')
+    for words in ([], ["--points", "scale"], ["--points", "as-is"]):
+        with pytest.raises(UsageError, match=r"template.csv:4: the maximum is '.*', expected a number"):
+            case.run("canvas", template, "--assignment", "12", *words)
+
+
+def test_no_maximum_needs_a_word(case: Case) -> None:
+    case.results("x,101,,,7,100,,\n")
+    text = "".join(line for line in CANVAS.splitlines(keepends=True) if "Points Possible" not in line)
+    with pytest.raises(UsageError, match="no maximum for x"):
+        case.run("canvas", text, "--assignment", "12")
+    assert "ann,A,4,7,91" in case.run("canvas", text, "--assignment", "12", "--points", "as-is")
+
+
+@pytest.mark.parametrize("system", ["canvas", "moodle"])
+def test_results_of_two_runs_are_not_mixed(case: Case, steps: list[Step], system: str) -> None:
+    folder = case.graded / "submissions" / "x"
+    folder.mkdir(parents=True)
+    document = mixed(steps)
+    (folder / "results.json").write_text(json.dumps(document))
+    points = document["total"]["points"]
+    words = ["--assignment", "12"] if system == "canvas" else []
+    for wrong in (points + 0.01, ""):
+        case.results(f"x,101,,,{wrong},100,,\n")
+        with pytest.raises(UsageError, match=r"results.json: is of another run than results.csv, .* x \(101\)"):
+            case.run(system, CANVAS if system == "canvas" else MOODLE, *words)
+    case.results(f"x,101,,,{points},100,1,\n")
+    case.run(system, CANVAS if system == "canvas" else MOODLE, *words)
+
+
+def test_what_is_no_csv(case: Case) -> None:
+    case.results(f"x,101,{'a' * 200_000},,7,100,,\n")
+    with pytest.raises(UsageError, match=r"results.csv:\d: is not CSV: field larger"):
+        case.run("canvas", CANVAS, "--assignment", "12")
+
+
+def test_entities_begin_no_formula(case: Case, steps: list[Step]) -> None:
+    folder = case.graded / "submissions" / "x"
+    folder.mkdir(parents=True)
+    document = mixed(steps, "0 < -1 and 'a'=+@b")
+    (folder / "results.json").write_text(json.dumps(document))
+    case.results(f"x,101,,,{document['total']['points']},100,,\n")
+    cell = list(csv.reader(io.StringIO(case.run("moodle", MOODLE))))[1][10]
+    assert "0 &lt; &#45;1 and &#x27;a&#x27;&#61;&#43;&#64;b" in cell

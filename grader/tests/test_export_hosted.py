@@ -92,7 +92,7 @@ def test_what_grade_says_is_passed_on_only_where_no_student_reads_it(
         (lambda grade: setattr(grade, "code", 4), "no sandbox here"),
         (lambda grade: setattr(grade, "code", 2), "no sandbox here"),
         (lambda grade: setattr(grade, "code", -9), "no sandbox here"),
-        (lambda grade: setattr(grade, "timed_out", True), "more than 1 minutes"),
+        (lambda grade: setattr(grade, "timed_out", True), "more than 1 minute;"),
         (lambda grade: setattr(grade, "document", None), "grade left no results"),
         (lambda grade: setattr(grade, "document", {"schema": "other"}), "grade left no results"),
     ],
@@ -160,13 +160,26 @@ def test_autolab(project: Project, grade: Grade, root: Path, capsys: pytest.Capt
     assert capsys.readouterr().out == ""
 
 
-def test_classroom50(project: Project, grade: Grade, root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_classroom50(
+    project: Project, grade: Grade, root: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     for name, value in ENVIRONMENT.items():
         monkeypatch.setenv(name, value)
     out = root / "result.json"
     grade.code = 4
-    assert running.github(project, root / "submission", _OPTIONS, out, legacy=False) == 4
-    assert not out.exists()
+    grade.stderr = "raysteps: what ##[error]he said\n"
+    for handed_in in ("file", "folder", "link"):
+        if handed_in == "file":
+            out.write_text('{"score": 110}')
+        elif handed_in == "folder":
+            (out / "deep").mkdir(parents=True)
+        else:
+            out.symlink_to(root / "submission")
+        assert running.github(project, root / "submission", _OPTIONS, out, legacy=False) == 4
+        assert not out.exists()
+        assert not out.is_symlink()
+    assert (root / "submission").is_dir()
+    assert "what # #[error]he said" in capsys.readouterr().err
     grade.code = 3
     assert running.github(project, root / "submission", _OPTIONS, out, legacy=False) == 0
     validate(json.loads(out.read_text()), "classroom50")
@@ -178,6 +191,7 @@ def test_the_autograder_of_classroom50_calls_the_kit(tmp_path: Path) -> None:
     bundle, checkout = tmp_path / "bundle", tmp_path / "checkout"
     (bundle / "kit").mkdir(parents=True)
     checkout.mkdir()
+    (checkout / "result.json").write_text('{"score": 110}')
     (bundle / "autograder.py").write_bytes(classroom50_autograder(["--minutes", "5"]))
     (bundle / "kit" / "raysteps").write_text('printf "%s\\n" "$PWD" "$@" >"$OUT"\nexit 4\n')
     (checkout / "subprocess.py").write_text("raise SystemExit('imported from the checkout')")
@@ -185,6 +199,7 @@ def test_the_autograder_of_classroom50_calls_the_kit(tmp_path: Path) -> None:
     command: list[str | Path] = [sys.executable, bundle / "autograder.py"]
     done = subprocess.run(command, cwd=checkout, env=environment, check=False)
     assert done.returncode == 4
+    assert not (checkout / "result.json").exists()
     place, *words = (tmp_path / "said").read_text().splitlines()
     assert place == str(bundle / "kit")
     out = str(checkout / "result.json")

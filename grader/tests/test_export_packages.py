@@ -1,6 +1,7 @@
 """What is uploaded to other systems: archives, scripts, and which files of the kit are in them."""
 
 import io
+import json
 import os
 import shutil
 import stat
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+from test_export_documents import mixed
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.exports.archives import Member, into_folder
@@ -18,6 +20,7 @@ from raysteps.exports.arguments import add_arguments
 from raysteps.exports.autograders import autolab_tar, gradescope_zip, prairielearn_folder
 from raysteps.exports.command import run
 from raysteps.exports.kit_files import kit_files
+from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
 _WORDS = ["--minutes", "9", "--limit", "seconds=40", "--steps", "01", "it's; echo $HOME"]
@@ -217,3 +220,30 @@ def test_what_makes_no_sense_is_said(
 def test_odd_options_are_refused(project: Project, words: list[str]) -> None:
     with pytest.raises(SystemExit):
         _export(project, "gradescope", "--out", "x.zip", *words)
+
+
+@pytest.mark.parametrize("system", ["gradescope", "classroom50", "autolab", "prairielearn"])
+@pytest.mark.parametrize(
+    "words", [["--seed", "7"], ["--steps", "01"], ["--limit", "seconds=2"], ["--require-sandbox"]]
+)  # fmt: skip
+def test_what_is_graded_already_takes_no_options_of_grading(
+    project: Project, tmp_path: Path, system: str, words: list[str]
+) -> None:
+    with pytest.raises(UsageError, match=f"leave {words[0]} out"):
+        _export(
+            project, system, "--results", tmp_path / "r.json", "--out", tmp_path / "x", "--feedback", "full", *words
+        )
+
+
+def test_feedback_holds_for_what_is_converted(project: Project, steps: list[Step], tmp_path: Path) -> None:
+    path, out = tmp_path / "results.json", tmp_path / "out.json"
+    path.write_text(json.dumps(mixed(steps)))
+    said = {}
+    for feedback in ("full", "diagnosis", "score"):
+        words = ("--results", path, "--out", out, "--hidden", "after_published", "--feedback", feedback)
+        assert _export(project, "gradescope", *words) == 0
+        said[feedback] = out.read_text()
+    assert "secret input" in said["full"]
+    assert "secret" not in said["diagnosis"]
+    assert "origin inside" in said["diagnosis"]
+    assert "origin inside" not in said["score"]

@@ -1,17 +1,19 @@
 """The hidden cases: repeatable, float32-exact, complete."""
 
 import struct
+from math import ceil
 from pathlib import Path
 
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.judging import make_cases
+from raysteps.judge.judging import ORDINARY_SHARE, make_cases
 from raysteps.judge.numbers import f32, text
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
+_SLIPS = 2  # of the ordinary cases may be wrong before the other kinds do not count
 _FEW = 3  # kinds of cases at least, so that a share says something
 
 
@@ -35,6 +37,8 @@ def test_every_step_has_a_plan(project: Project, steps: list[Step]) -> None:
         assert [function.name for function in plan.functions] == list(step.functions)
         for function in plan.functions:
             assert len(function.cases) >= _FEW, function.name
+            ordinary = next(iter(function.cases.values()))
+            assert ordinary - ceil(ORDINARY_SHARE * ordinary) >= _SLIPS, function.name
 
 
 def test_the_same_seed_makes_the_same_cases(project: Project, steps: list[Step]) -> None:

@@ -1,6 +1,7 @@
 """Who is accused of a false claim: forgers, and nobody else."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import pytest
 
@@ -103,6 +104,32 @@ def test_honest_mistakes(
     assert {test.name for test in result.tests if test.passed} == passed
 
 
+def _cut_short(plan: Plan, name: str, asked: int, right: int, outcome: Ending) -> HiddenResult:
+    """The first ordinary cases were asked, and then no more."""
+    result = _seen(plan, name, {}, outcome)
+    for place, group in enumerate(result.groups):
+        group.undecided = group.cases if place else group.cases - asked
+    result.groups[0].right = right
+    return result
+
+
+@pytest.mark.parametrize("outcome", ["crashed", "timeout", "wrong"])
+def test_what_was_never_asked_speaks_against_nobody(step: Step, plan: Plan, outcome: Ending) -> None:
+    """Four rare crashes, or no time at all; or the answers were too large."""
+    for asked, right in ((0, 0), (12, 8), (8, 4)):
+        hidden = [_cut_short(plan, name, asked, right, outcome) for name in ("Sphere::intersect", "closest_hit")]
+        result = _result(set(_TAGS), hidden)
+        assert contradictions(step, plan, result, _TAGS) == []
+        assert all(test.passed for test in result.tests)
+
+
+@pytest.mark.parametrize(("asked", "right"), [(1, 0), (4, 0), (9, 4)])
+def test_a_crash_on_purpose_is_no_way_out(step: Step, plan: Plan, asked: int, right: int) -> None:
+    hidden = [_cut_short(plan, name, asked, right, "timeout") for name in ("Sphere::intersect", "closest_hit")]
+    result = _result(set(_TAGS), hidden)
+    assert len(contradictions(step, plan, result, _TAGS)) == len(_TAGS)
+
+
 def test_after_a_crash_nobody_knows_the_rest(step: Step, plan: Plan) -> None:
     hidden = [_seen(plan, "Sphere::intersect", {}, "crashed")]
     result = _result({"sphere, whole"}, hidden)
@@ -125,6 +152,54 @@ def test_an_embedded_picture(step: Step, plan: Plan, wrong_share: float | None, 
     lines = contradictions(step, plan, result, {})
     assert bool(lines) == accused
     assert result.images[0].passed is not accused
+
+
+def _shared(
+    octree: Step, plan: Plan, wrong: Mapping[str, int], *, wasteful: bool, outcome: Ending = "wrong"
+) -> tuple[list[str], StepResult]:
+    """Step 06 whose pictures all pass, after so many cases of these kinds were wrong."""
+    result = StepResult(octree.id, "partial", 0, 20, False)
+    result.images = [ImageResult(image.name, image.scene, True, image.max_wrong) for image in octree.images]
+    for function in plan.functions:
+        groups = [
+            CaseGroup(kind, n, n - wrong.get(kind, 0), 0, wrong.get(kind, 0) if wasteful else 0)
+            for kind, n in function.cases.items()
+        ]
+        bad = any(group.right < group.cases for group in groups)
+        ending: Ending = outcome if bad else "ok"
+        result.hidden.append(HiddenResult(function.name, "function", 0.5, groups=groups, outcome=ending))
+    result.hidden += [HiddenResult(twin_name(image.name), "picture", 1.0) for image in octree.images]
+    result.hidden += [HiddenResult(scene.name, "picture", 1.0) for scene in plan.random_scenes]
+    return contradictions(octree, plan, result, {}), result
+
+
+@pytest.mark.parametrize("kind", ["many small spheres", "few surfaces are asked"])
+def test_who_spares_nothing(project: Project, steps: list[Step], kind: str) -> None:
+    """All cases wasteful: the claims fall. All lost or crashed, or some wasteful: nobody is accused."""
+    octree = next(step for step in steps if step.number == "06")
+    plan = read_plan(project, octree)
+    assert plan is not None
+    amount = next(function.cases[kind] for function in plan.functions if kind in function.cases)
+    for outcome in ("wrong", "crashed"):  # a crash on purpose in another kind is no way out
+        lines, result = _shared(octree, plan, {kind: amount}, wasteful=True, outcome=outcome)
+        assert len(lines) == len(octree.images)
+        assert not any(image.passed for image in result.images)
+        assert not any(item.share for item in result.hidden if item.kind == "picture")
+    assert _shared(octree, plan, {kind: amount}, wasteful=False)[0] == []
+    assert _shared(octree, plan, {kind: amount - 1}, wasteful=True)[0] == []
+
+
+def test_only_pictures_with_a_share_fall(project: Project, steps: list[Step]) -> None:
+    octree = next(step for step in steps if step.number == "06")
+    plan = read_plan(project, octree)
+    assert plan is not None
+    first = replace(octree.images[0], max_share=None)
+    octree = replace(octree, images=(first, *octree.images[1:]))
+    plan = replace(plan, random_scenes=tuple(replace(scene, max_share=None) for scene in plan.random_scenes))
+    _, result = _shared(octree, plan, {"many small spheres": 5}, wasteful=True)
+    assert [image.name for image in result.images if image.passed] == [first.name]
+    kept = {item.name for item in result.hidden if item.kind == "picture" and item.share}
+    assert kept == {twin_name(first.name), *(scene.name for scene in plan.random_scenes)}
 
 
 def test_every_visible_test_names_functions_of_its_step(kit: BuiltKit) -> None:

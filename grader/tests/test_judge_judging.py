@@ -12,6 +12,7 @@ from raysteps.grading.results import HiddenResult
 from raysteps.judge.judging import judge_functions
 from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
+from raysteps.judge.time_budget import TimeBudget
 from raysteps.judge.worker_client import Ask
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -101,7 +102,7 @@ def test_ordinary_cases_come_first(step: Step, plan: Plan) -> None:
     result = judge(step, plan, FakeWorker(edges_only))["to_byte"]
     assert result.share == 0
     assert "negative or NaN" not in result.message
-    assert "any level" in result.message
+    assert "Until at least 90 % of 'any level' are right, the other kinds do not count." in result.message
 
 
 def test_a_few_ordinary_cases_may_be_wrong_but_cost_their_kind(step: Step, plan: Plan) -> None:
@@ -153,21 +154,66 @@ def test_leaving_early_is_a_crash(step: Step, plan: Plan, code: int) -> None:
     assert worker.starts <= 2 * 4
 
 
-def test_hanging(step: Step, plan: Plan) -> None:
-    def hang(function: str, numbers: list[float]) -> str:
-        raise Ended(-9, timed_out=True)
+def _hang(function: str, numbers: list[float]) -> str:
+    raise Ended(-9, timed_out=True)
 
-    worker = FakeWorker(hang, seconds=step.seconds)
+
+def test_hanging(step: Step, plan: Plan) -> None:
+    worker = FakeWorker(_hang)
     results = judge(step, plan, worker)
     assert all(result.outcome == "timeout" and result.share == 0 for result in results.values())
     assert f"{number(step.seconds)} seconds" in results["tone_map"].message
-    assert worker.starts <= 5, "the time of a step is bounded"
+    assert all(result.groups[0].decided == 4 for result in results.values()), "hanging is no way not to be asked"
+    assert worker.used <= 4 * step.seconds
+
+
+def test_who_hangs_takes_no_time_from_the_next(step: Step, plan: Plan) -> None:
+    worker = FakeWorker(lambda f, numbers: _hang(f, numbers) if f == "tone_map" else right(f, numbers))
+    results = judge(step, plan, worker)
+    assert results["tone_map"].share == 0
+    assert results["to_byte"].share == 1
+
+
+@pytest.mark.parametrize("seconds", [0.5, 3, 10, 60])
+@pytest.mark.parametrize("functions", [1, 3, 7])
+def test_time_for_every_function(seconds: float, functions: int) -> None:
+    """However long each of them hangs."""
+    budget = TimeBudget(seconds, functions)
+    used = []
+    for _ in range(functions):
+        first = given = budget.next_function()
+        assert first >= min(1, seconds)
+        runs = 0
+        while given and runs < 4:
+            assert given <= seconds
+            used.append(given)
+            budget.spend(given, hung=True)
+            given = budget.next_run()
+            runs += 1
+    assert used[0] == seconds
+    assert all(given <= max(1, seconds / 4) for given in used[1:])
+    assert sum(used) <= max(4 * seconds, functions)
+
+
+def test_after_four_crashes_the_rest_is_not_known(step: Step, plan: Plan) -> None:
+    """The rest was not asked, and speaks neither for nor against the function."""
+
+    def crash_when_dark(function: str, numbers: list[float]) -> str:
+        if function == "tone_map" and numbers[0] < 0.7:
+            raise Ended
+        return right(function, numbers)
+
+    result = judge(step, plan, FakeWorker(crash_when_dark))["tone_map"]
+    asked = sum(group.decided for group in result.groups)
+    assert sum(group.right for group in result.groups) == asked - 4 > 0
+    assert all(not group.decided and not group.right for group in result.groups[2:])
+    assert "SIGSEGV" in result.actual, "the example is a case that was asked"
 
 
 def test_silence_and_a_refused_start(step: Step, plan: Plan) -> None:
     for silent in (ran("", 127), ran("", 0), ran("no protocol at all\n", 0)):
 
-        def say_nothing(stdin: bytes, silent: Ran = silent) -> Ran:
+        def say_nothing(stdin: bytes, seconds: float, silent: Ran = silent) -> Ran:
             return silent
 
         for result in judge(step, plan, say_nothing).values():
@@ -207,8 +253,8 @@ def test_an_exception_is_an_answer(step: Step, plan: Plan) -> None:
 def test_lines_in_between_change_nothing(step: Step, plan: Plan) -> None:
     """Answers come in order: what was said too early or twice is not heard."""
 
-    def noisy(stdin: bytes) -> Ran:
-        clean = FakeWorker(right)(stdin).outcome.stdout.splitlines()
+    def noisy(stdin: bytes, seconds: float) -> Ran:
+        clean = FakeWorker(right)(stdin, seconds).outcome.stdout.splitlines()
         lines = ["done 5 9 9 9", "score 100", *clean]
         lines.insert(6, "done 0 9 9 9")
         lines.insert(8, "start 99999999999")
@@ -217,17 +263,39 @@ def test_lines_in_between_change_nothing(step: Step, plan: Plan) -> None:
     assert all(result.share == 1 for result in judge(step, plan, noisy).values())
 
 
-def test_a_long_answer_that_was_cut_is_no_crash(step: Step, plan: Plan) -> None:
-    def cut(stdin: bytes) -> Ran:
-        return ran(FakeWorker(right)(stdin).outcome.stdout[:1500])
+@pytest.mark.parametrize("end", ["", "start", "done"])
+def test_a_long_answer_that_was_cut_is_no_crash(step: Step, plan: Plan, end: str) -> None:
+    """In the middle of a line, or exactly behind one."""
+
+    def cut(stdin: bytes, seconds: float) -> Ran:
+        said = FakeWorker(right)(stdin, seconds).outcome.stdout
+        kept = said[:1500]
+        if len(said) > len(kept):
+            kept = kept[: kept.rindex(f"{end} ")] if end else kept
+            kept += said[len(kept) :].partition("\n")[0] + "\n" if end else ""
+        return ran(kept)
 
     assert all(result.share == 1 for result in judge(step, plan, cut).values())
+
+
+def test_an_exit_in_the_middle_is_no_cut(step: Step, plan: Plan) -> None:
+    """It happens again where a cut would not."""
+
+    def leave_when_bright(function: str, numbers: list[float]) -> str:
+        if math.inf in numbers:
+            raise Ended(0)
+        return right(function, numbers)
+
+    result = judge(step, plan, FakeWorker(leave_when_bright))["tone_map"]
+    assert result.outcome == "crashed"
+    assert "the program ended (exit code 0)" in result.message
+    assert result.groups[0].right == result.groups[0].cases
 
 
 def test_an_endless_answer_ends(step: Step, plan: Plan) -> None:
     starts = []
 
-    def endless(stdin: bytes) -> Ran:
+    def endless(stdin: bytes, seconds: float) -> Ran:
         starts.append(1)
         return ran("start 0\ndone 0 " + "1 " * 100_000)
 

@@ -1,10 +1,14 @@
 """Any division of space that loses no surface is a right tree."""
 
+import time
+import tracemalloc
+
 import pytest
 
 from raysteps.common.errors import GraderFault
+from raysteps.judge.answers import Verdict
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
-from raysteps.judge.trees import TREE
+from raysteps.judge.trees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
 from raysteps.judge.values import Inputs
 
 _LEFT, _RIGHT = Sphere((-2.0, 0.0, 0.0), 1.0), Sphere((2.0, 0.0, 0.0), 1.0)
@@ -12,10 +16,23 @@ _TWO: Inputs = {"surfaces": Surfaces((_LEFT, _RIGHT))}
 _ALL = "-3 -1 -1 3 1 1"
 _WEST, _EAST = "-3 -1 -1 0 1 1", "0 -1 -1 3 1 1"
 _GOOD = f"tree {_ALL} 0 2 {_WEST} 1 0 0 {_EAST} 1 1 0"
+_HUNDRED: Inputs = {"surfaces": Surfaces(tuple(Sphere((float(i % 10), float(i // 10), 0.0), 0.25) for i in range(100)))}
+_AROUND_HUNDRED = "-1 -1 -1 10 10 1"
+_WHOLE_HUNDRED = f"tree {_AROUND_HUNDRED} 100 {' '.join(map(str, range(100)))}"
+_HALVES = [
+    "-1 -1 -1 4.5 10 1 50 " + " ".join(str(i) for i in range(100) if i % 10 < 5) + " 0",
+    "4.5 -1 -1 10 10 1 50 " + " ".join(str(i) for i in range(100) if i % 10 > 4) + " 0",
+]
+_GOOD_HUNDRED = f"tree {_AROUND_HUNDRED} 0 2 {_HALVES[0]} {_HALVES[1]}"
 
 
 def _problem(line: str, inputs: Inputs = _TWO) -> str:
     return TREE.verdict("build_octree", inputs, line if inputs is not _TWO else _GOOD, line).problem
+
+
+def _chain(nodes: int) -> str:
+    """Boxes in one another, each with another surface in its list."""
+    return "tree " + "".join(f"{_ALL} 1 {i % 1000} 1 " for i in range(nodes)) + f"{_ALL} 2 0 1 0"
 
 
 @pytest.mark.parametrize(
@@ -52,9 +69,16 @@ def test_wrong_trees(tree: str, said: str) -> None:
     "tree",
     [
         "large",
+        "large forests",
         "tree",
         f"tree {_ALL} 0 100000 {_WEST}",
+        f"tree {_ALL} 0 {MOST_NODES} " + f"{_ALL} 0 0 " * MOST_NODES,
         f"tree {_ALL} 99999999 0",
+        f"tree {_ALL} {MOST_ENTRIES} " + "0 " * MOST_ENTRIES + f"1 {_ALL} 1 0 0",
+        f"tree {_ALL} 1 1001 0",
+        "tree " + "1 " * 3_000_000,
+        "tree " + f"{_ALL} 0 1 " * (DEEPEST + 1) + f"{_ALL} 2 0 1 0",
+        _chain(MOST_NODES),
         f"tree {_ALL} 0 8 " + f"{_ALL} 0 8 " * 5000,
         f"{_GOOD} 1",
         "tree 1 2 3",
@@ -65,22 +89,59 @@ def test_no_proper_tree(tree: str) -> None:
 
 
 def test_a_deep_tree_is_read() -> None:
-    deep = "tree " + f"{_ALL} 0 1 " * 5000 + f"{_ALL} 2 0 1 0"
+    deep = "tree " + f"{_ALL} 0 1 " * DEEPEST + f"{_ALL} 2 0 1 0"
     assert _problem(deep) == ""
 
 
+def test_a_forged_chain_takes_little_memory() -> None:
+    """Each of its boxes has other surfaces around it; the first ones are not too many to be read."""
+    for line in (_chain(DEEPEST), _chain(20000)):
+        tracemalloc.start()
+        TREE.verdict("build_octree", _TWO, _GOOD, line)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < 30e6
+
+
+def test_the_largest_tree_is_judged_at_once() -> None:
+    """Every list is as long as it may be, and no box holds a surface as a whole but the last one."""
+    size = (MOST_ENTRIES - 100) // MOST_NODES
+    boxes = [f"{_AROUND_HUNDRED} {size} {' '.join(str((i + j) % 100) for j in range(size))} 0" for i in range(100)]
+    halves = [box.replace("10 10 1", f"{i % 10} {i // 10} 0", 1) for i, box in enumerate(boxes)]
+    line = f"{_WHOLE_HUNDRED} {MOST_NODES - 1} " + " ".join([*(halves * MOST_NODES)[: MOST_NODES - 2], boxes[0]])
+    start = time.process_time()
+    verdict = TREE.verdict("build_octree", _HUNDRED, _GOOD_HUNDRED, line)
+    assert time.process_time() - start < 0.3
+    assert verdict.actual.startswith(f"a tree of {MOST_NODES} boxes")
+
+
+@pytest.mark.parametrize(
+    ("excess", "said"),
+    [
+        ("boxes", "more than 5000 boxes for 2 surfaces"),
+        ("entries", "more than 50000 entries in its lists for 2 surfaces"),
+        ("levels", "more than 500 levels for 2 surfaces"),
+    ],
+)
+def test_a_tree_that_was_too_large_to_tell(excess: str, said: str) -> None:
+    verdict = TREE.verdict("build_octree", _TWO, _GOOD, f"large {excess}")
+    assert said in verdict.problem
+    assert not verdict.decided
+    assert not verdict.wasteful
+    assert said.removesuffix(" for 2 surfaces") in verdict.actual
+
+
 def test_many_small_surfaces_must_be_divided() -> None:
-    spheres = tuple(Sphere((float(i % 10), float(i // 10), 0.0), 0.25) for i in range(100))
-    inputs: Inputs = {"surfaces": Surfaces(spheres)}
-    everything = " ".join(str(i) for i in range(100))
-    box = "-1 -1 -1 10 10 1"
-    halves = [
-        "-1 -1 -1 4.5 10 1 50 " + " ".join(str(i) for i in range(100) if i % 10 < 5) + " 0",
-        "4.5 -1 -1 10 10 1 50 " + " ".join(str(i) for i in range(100) if i % 10 > 4) + " 0",
-    ]
-    good = f"tree {box} 0 2 {halves[0]} {halves[1]}"
-    assert TREE.verdict("build_octree", inputs, good, good).problem == ""
-    assert "hardly shorter" in TREE.verdict("build_octree", inputs, good, f"tree {box} 100 {everything} 0").problem
+    def verdict(line: str) -> Verdict:
+        return TREE.verdict("build_octree", _HUNDRED, _GOOD_HUNDRED, line)
+
+    assert verdict(_GOOD_HUNDRED).problem == ""
+    whole = verdict(f"{_WHOLE_HUNDRED} 0")
+    assert "hardly shorter" in whole.problem
+    assert whole.wasteful
+    lost = verdict(f"tree {_AROUND_HUNDRED} 0 1 {_HALVES[0]}")
+    assert lost.problem
+    assert not lost.wasteful
 
 
 def test_no_surfaces() -> None:

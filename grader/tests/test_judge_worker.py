@@ -1,11 +1,13 @@
 """The real worker, linked with the reference."""
 
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from raysteps.common.process import Outcome
+from raysteps.grading.hidden import _reference_answers
 from raysteps.judge.judging import judge_functions, make_cases
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.kit.built_kit import BuiltKit
@@ -33,7 +35,7 @@ def _run(worker: Path, stdin: str) -> "subprocess.CompletedProcess[str]":
 
 @pytest.mark.parametrize("seed", [1, 2, 12345])
 def test_the_reference_is_right_in_everything(project: Project, steps: list[Step], worker: Path, seed: int) -> None:
-    def ask(stdin: bytes) -> Ran:
+    def ask(stdin: bytes, _seconds: float) -> Ran:
         done = _run(worker, stdin.decode())
         return Ran(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
 
@@ -53,6 +55,30 @@ def test_overlap_answers_are_what_the_cases_were_made_for(project: Project, step
         for case, answer in zip(cases, answers, strict=True):
             if not case.group.startswith("touching or"):
                 assert answer == ("0" if case.group == "far apart" else "1"), case.given()
+
+
+@pytest.mark.parametrize("hanging", ["Box::clip", "build_octree"])
+def test_a_function_that_hangs_costs_no_other(project: Project, steps: list[Step], worker: Path, hanging: str) -> None:
+    used = []
+
+    def reference(stdin: bytes, _seconds: float) -> Ran:
+        done = _run(worker, stdin.decode())
+        return Ran(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
+
+    def student(stdin: bytes, seconds: float) -> Ran:
+        number, function = stdin.decode().split(" ", 2)[:2]
+        hangs = function == hanging
+        ran = Ran(Outcome(-9, True, f"start {number}\n", "", seconds), {}, 0.0, "wall")
+        ran = ran if hangs else reference(stdin, seconds)
+        used.append(ran.outcome.seconds)
+        return ran
+
+    step = next(step for step in steps if step.number == "06")
+    results = judge_functions(step, _plan(project, step), student, reference, 1)
+    assert {result.name: result.share for result in results} == {
+        name: 0.0 if name == hanging else 1.0 for name in step.functions
+    }
+    assert sum(used) < 4 * step.seconds
 
 
 def test_the_lines(worker: Path) -> None:
@@ -78,3 +104,12 @@ def test_a_case_that_nobody_can_run(worker: Path, line: str) -> None:
 
 def test_no_cases(worker: Path) -> None:
     assert _run(worker, "").stdout == "end 0\n"
+
+
+def test_the_reference_may_say_as_much_as_a_student(kit: BuiltKit, tmp_path: Path) -> None:
+    """An answer that is as long as a student's may be is not cut off."""
+    (tmp_path / "bin").symlink_to(kit.folder / "bin")
+    cases = "".join(f"{i} split 0.1 0.2 0.3 0.4 0.5 0.6\n" for i in range(20_000))
+    said = _reference_answers(replace(kit, folder=tmp_path), cases.encode()).outcome.stdout
+    assert len(said) > 2 << 20
+    assert said.endswith("\nend 20000\n")

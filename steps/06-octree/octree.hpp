@@ -29,6 +29,7 @@ namespace raysteps {
 /// The tree over all surfaces. A surface is in the list of each leaf that it overlaps, or in the list of a
 /// node above them. No surfaces: a leaf with an empty list.
 /// Depth and size of the leaves are yours to choose; the paper's three levels (1, 8 and 64 boxes) will do.
+/// A box without surfaces need not be split: for small scenes, a tree may have 5000 boxes in 500 levels.
 [[nodiscard]] Node build_octree(const SurfaceList& surfaces);
 
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Ask a box with

@@ -42,7 +42,7 @@ def refuse_beside_merge(arguments: argparse.Namespace) -> None:
     for name, value in vars(arguments).items():
         option = f"--{name.replace('_', '-')}"
         if name not in ("merge", "out") and option in parser.format_help() and value != parser.get_default(name):
-            raise UsageError(f"--merge brings together what is graded already; leave {option} out, it is for the shards")
+            raise UsageError(f"--merge brings together what is graded already; {option} is for the shards")
 
 
 def read_order(arguments: argparse.Namespace, grader: str) -> Order:

@@ -5,7 +5,7 @@ import json
 import sqlite3
 from collections.abc import Collection, Iterable
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from raysteps.classroom.messages import Answer
 from raysteps.classroom.records import Registered, Registration, RunFacts

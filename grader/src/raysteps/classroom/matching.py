@@ -39,7 +39,9 @@ def _fits_platform(student: Student, entry: str) -> tuple[bool, int]:
         "".join(_plain(name).split("_")) in _squeezed(student.name) or _plain(name) == _plain(student.name)
     )
     numbered = _plain(student.id) in (number, f"participant_{number}")
-    if numbered and (named or not student.name):
+    if numbered and not student.name:
+        return (False, 1)  # anybody whom the name fits comes first
+    if numbered and named:
         return (True, len(name) + len(number))
     return (False, len(name)) if named and len(_plain(student.name).split("_")) > 1 else (False, 0)
 

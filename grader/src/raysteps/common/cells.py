@@ -4,7 +4,7 @@ import re
 import unicodedata
 
 DELIMITERS = ",;\t"
-FORMULA_SIGNS = "=+-@＝＋－＠﹦﹢﹣﹫⁼⁺⁻₌₊₋﬩"  # noqa: RUF001  # some take the wide forms of these signs, too
+FORMULA_SIGNS = "=+-@＝＋－＠﹦﹢﹣﹫⁼⁺⁻₌₊₋﬩⩵⩶"  # noqa: RUF001  # some take the wide forms of these signs, too
 _AFTER_SEPARATOR = re.compile(rf"([;\t][^\S\t]*)(?=[{re.escape(FORMULA_SIGNS)}])")
 
 

@@ -88,6 +88,14 @@ def grading_words(arguments: argparse.Namespace) -> list[str]:
     return words + (["--only", *arguments.steps] if arguments.steps else [])
 
 
+def refuse_grading_words(arguments: argparse.Namespace) -> None:
+    """With --results everything is graded already; only --feedback still makes a difference."""
+    for word in grading_words(arguments):
+        if word.startswith("--") and word != "--feedback":
+            option = "--steps" if word == "--only" else word
+            raise UsageError(f"--results converts what is graded already; leave {option} out, it is for grading")
+
+
 def script_words(arguments: argparse.Namespace) -> list[str]:
     """The same options as `export` takes them, for the scripts that call it."""
     words = ["--minutes", f"{arguments.minutes:g}", *grading_words(arguments)]

@@ -41,7 +41,8 @@ class Graded:
     @property
     def numbers(self) -> frozenset[str]:
         """What Canvas or Moodle itself may count this student by."""
-        return frozenset(filter(None, [self.id if self.known else platform_identity(self.submission)[1]]))
+        said = self.id if self.known else platform_identity(self.submission)[1] or self.submission
+        return frozenset(filter(None, [said]))
 
     @property
     def label(self) -> str:
@@ -82,10 +83,10 @@ def read_class(folder: Path) -> list[Graded]:
     except (OSError, ValueError) as error:
         raise UsageError(f"{path}: cannot be read ({error}); expected the output folder of grade-class") from error
     reader = csv.DictReader(io.StringIO(text, newline=""), restval="")
-    missing = [name for name in _NEEDED if name not in (reader.fieldnames or [])]
-    if missing:
-        raise UsageError(f"{path}: has no column {', '.join(missing)}; expected the output folder of grade-class")
     try:
+        missing = [name for name in _NEEDED if name not in (reader.fieldnames or [])]
+        if missing:
+            raise UsageError(f"{path}: has no column {', '.join(missing)}; expected the output folder of grade-class")
         rows = [_graded(path, reader.line_num, row) for row in reader]
     except csv.Error as error:
         raise UsageError(f"{path}:{reader.line_num}: is not CSV: {error}") from error

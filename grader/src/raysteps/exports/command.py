@@ -6,7 +6,7 @@ import sys
 from rich.console import Console
 
 from raysteps.exports import running
-from raysteps.exports.arguments import add_arguments, grading_words, out_file
+from raysteps.exports.arguments import add_arguments, grading_words, out_file, refuse_grading_words
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import validate, write, write_out
 from raysteps.exports.gradebook_command import fill_gradebook
@@ -15,6 +15,7 @@ from raysteps.exports.hosted import Options, by_id
 from raysteps.exports.packaging import package
 from raysteps.exports.prairielearn import to_prairielearn
 from raysteps.exports.reading import read_results
+from raysteps.judge.feedback import withhold
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 
@@ -40,7 +41,9 @@ def _run_there(project: Project, arguments: argparse.Namespace) -> int:
 
 
 def _convert(project: Project, arguments: argparse.Namespace) -> int:
+    refuse_grading_words(arguments)
     document, steps = read_results(arguments.results), by_id(read_steps(project))
+    document = withhold(document, arguments.feedback or "full")
     match arguments.system:
         case "gradescope":
             names = submitters(arguments.metadata) if arguments.metadata is not None else []

@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count
-from raysteps.exports.class_results import Graded, read_class
+from raysteps.exports.class_results import Graded, read_class, results_of
 from raysteps.exports.csv_cells import read_sheet
 from raysteps.exports.feedback import moodle_cell
 from raysteps.exports.formats import write_out
@@ -69,10 +69,12 @@ def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Con
     book = moodle(sheet, renamed) if is_moodle else canvas(sheet, arguments.assignment)
     steps = by_id(read_steps(project))
 
-    def feedback(graded: Graded) -> str:
-        return moodle_cell(arguments.results, graded, steps)
-
     graded = read_class(arguments.results)
+    documents = {one.submission: results_of(arguments.results, one) for one in graded if one.submission}
+
+    def feedback(one: Graded) -> str | None:
+        return moodle_cell(documents.get(one.submission), one, steps)
+
     # Moodle leaves a grade above the maximum out without a word.
     filled = fill(sheet, book, graded, feedback, points=arguments.points, clip=is_moodle)
     for note in filled.notes:

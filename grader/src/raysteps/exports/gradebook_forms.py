@@ -4,9 +4,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from raysteps.classroom.names import folded
 from raysteps.common.errors import UsageError
 from raysteps.exports.csv_cells import Row, Sheet
-from raysteps.exports.identities import Person, folded, number_at_end, spoken_name
+from raysteps.exports.identities import Person, number_at_end, spoken_name
 
 _ASSIGNMENT = re.compile(r"\((?P<id>[0-9]+)\)\s*$")
 _MOODLE = {
@@ -99,9 +100,11 @@ def canvas(sheet: Sheet, assignment: str | None) -> Gradebook:
         name = _canvas_name(row, headers)
         if not name.strip(" ,") and not row.text(headers["ID"]).strip():
             continue  # as the row that says which grades are posted by hand
-        ids = _filled(row, headers, "ID", "SIS User ID", "SIS Login ID", "Integration ID")
+        ids = _filled(row, headers, "SIS User ID", "SIS Login ID", "Integration ID")
+        numbers = _filled(row, headers, "ID")
         emails = frozenset(one for one in _filled(row, headers, "SIS Login ID", "Email") if "@" in one)
-        person = Person(_label(row, name.strip(), row.text(headers["ID"]).strip()), ids, emails, spoken_name(name))
+        label = _label(row, name.strip(), row.text(headers["ID"]).strip())
+        person = Person(label, emails, ids, numbers, spoken_name(name))
         said = row.text(grade).strip().upper()
         why = {"EX": "is excused", "N/A": "is not assigned"}.get(said, "")
         students.append(Student(row, person, most, why))
@@ -124,9 +127,10 @@ def moodle(sheet: Sheet, renamed: Mapping[str, str]) -> Gradebook:
             continue
         identifier = row.text(columns["identifier"]).strip()
         name = row.text(columns["name"]) if "name" in columns else ""
-        ids = {*_filled(row, columns, "identifier", "id", "email"), number_at_end(identifier)} - {""}
+        numbers = {*_filled(row, columns, "identifier"), number_at_end(identifier)} - {""}
         label = _label(row, name.strip(), identifier)
-        person = Person(label, frozenset(ids), _filled(row, columns, "email"), spoken_name(name))
+        emails, ids = _filled(row, columns, "email"), _filled(row, columns, "id")
+        person = Person(label, emails, ids, frozenset(numbers), spoken_name(name))
         most = row.text(columns["max"]).strip() if "max" in columns else ""
         locked = "locked" in columns and folded(row.text(columns["locked"])) == "no"
         students.append(Student(row, person, most, "has a locked grade" if locked else ""))

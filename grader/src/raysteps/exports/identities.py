@@ -1,10 +1,10 @@
 """Finds the row of a gradebook that belongs to a submission."""
 
 import re
-import unicodedata
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
+from raysteps.classroom.names import folded
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.class_results import Graded
@@ -14,17 +14,21 @@ _NUMBER_AT_END = re.compile(r"[0-9]+$")
 
 @dataclass(frozen=True)
 class Person:
-    """Who a row of the gradebook is about. `ids` and `emails` tell people apart; names do so only if they must."""
+    """Who a row of the gradebook is about, from the best evidence to the least."""
 
     label: str
-    ids: frozenset[str]
     emails: frozenset[str]
+    ids: frozenset[str]  # student number, login
+    numbers: frozenset[str]  # what the platform itself counts people by
     name: str
 
 
-def folded(text: str) -> str:
-    """For comparisons: without differences of case, spacing and encoding."""
-    return " ".join(unicodedata.normalize("NFKC", text).casefold().split())
+@dataclass
+class Rows:
+    """From submissions to rows, by index; and why a row that looks right was not taken."""
+
+    found: dict[int, int] = field(default_factory=dict)
+    doubts: dict[int, str] = field(default_factory=dict)
 
 
 def spoken_name(text: str) -> str:
@@ -39,37 +43,49 @@ def number_at_end(text: str) -> str:
     return found.group() if found else ""
 
 
-def _same_id(graded: Graded, person: Person) -> bool:
-    return any(folded(one) in person.ids for one in graded.ids)
+def _emails(graded: Graded) -> frozenset[str]:
+    return frozenset(word for word in map(folded, (graded.email, *graded.ids)) if "@" in word)
 
 
-def _same_email(graded: Graded, person: Person) -> bool:
-    return bool(graded.email) and folded(graded.email) in person.emails
+def _is_another(graded: Graded, person: Person) -> bool:
+    """Whether a name or an email says so: numbers of different kinds may be alike by chance."""
+    words, theirs = set(spoken_name(graded.name).split()), set(person.name.split())
+    if words and theirs:
+        return not (words <= theirs or theirs <= words)
+    emails = _emails(graded)
+    return bool(emails and person.emails and not emails & person.emails)
 
 
-def _same_name(graded: Graded, person: Person) -> bool:
-    return bool(graded.name) and spoken_name(graded.name) == person.name
+def _sure(graded: Graded, people: Sequence[Person]) -> tuple[list[int], list[int]]:
+    """The rows that an email address or a number speaks for, and those that a number alone does against the rest."""
+    emails, ids, numbers = _emails(graded), set(map(folded, graded.ids)), set(map(folded, graded.numbers))
+    by_email = [at for at, one in enumerate(people) if emails & one.emails]
+    by_id = [at for at, one in enumerate(people) if ids & one.ids]
+    by_number = [at for at, one in enumerate(people) if numbers & one.numbers] if not by_email else []
+    words = {at for at in by_id if any(not word.isdecimal() for word in ids & people[at].ids)}
+    alone = [at for at in (*by_id, *by_number) if at not in words and at not in by_email]
+    doubtful = [at for at in alone if _is_another(graded, people[at])]
+    return sorted({*by_email, *by_id, *by_number} - set(doubtful)), doubtful
 
 
-def _candidates(graded: Graded, people: Sequence[Person]) -> list[int]:
-    sure = [at for at, one in enumerate(people) if _same_id(graded, one) or _same_email(graded, one)]
-    return sure or [at for at, one in enumerate(people) if _same_name(graded, one)]
-
-
-def match(graded: Sequence[Graded], people: Sequence[Person]) -> Mapping[int, int]:
-    """From submissions to rows; one that fits no row is left out. Whatever fits twice is an error."""
-    found: dict[int, int] = {}
+def match(graded: Sequence[Graded], people: Sequence[Person]) -> Rows:
+    """One that fits no row is left out. Whatever fits twice is an error."""
+    rows = Rows()
     taken: dict[int, int] = {}
     for at, one in enumerate(graded):
-        rows = _candidates(one, people)
-        if len(rows) > 1:
-            which = listed([people[row].label for row in rows])
+        fits, doubtful = _sure(one, people)
+        name = spoken_name(one.name)
+        fits = fits or [row for row, person in enumerate(people) if name and person.name == name]
+        if len(fits) > 1:
+            which = listed([people[row].label for row in fits])
             raise UsageError(f"{one.label} fits more than one row: {which}; make their identities differ")
-        if not rows:
+        if not fits:
+            if doubtful:
+                rows.doubts[at] = f"{people[doubtful[0]].label} has that number, but another name or email address"
             continue
-        if rows[0] in taken:
-            both = listed([graded[taken[rows[0]]].label, one.label])
-            raise UsageError(f"{both} both fit {people[rows[0]].label}; remove one of them from results.csv")
-        found[at] = rows[0]
-        taken[rows[0]] = at
-    return found
+        if fits[0] in taken:
+            both = listed([graded[taken[fits[0]]].label, one.label])
+            raise UsageError(f"{both} both fit {people[fits[0]].label}; remove one of them from results.csv")
+        rows.found[at] = fits[0]
+        taken[fits[0]] = at
+    return rows

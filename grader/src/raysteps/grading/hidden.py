@@ -21,7 +21,7 @@ from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Input, Limits, Ran, Task
 
 _ANSWERS_KB = 8192  # a tree of many boxes is a long answer
-_REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300)
+_REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300, output_kb=_ANSWERS_KB)
 
 
 def _reference_answers(kit: BuiltKit, cases: bytes) -> Ran:
@@ -39,11 +39,11 @@ def _reference_answers(kit: BuiltKit, cases: bytes) -> Ran:
 def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, seed: int) -> list[HiddenResult]:
     """The student's functions, asked in a process that knows no answer."""
 
-    def student(cases: bytes) -> Ran:
-        limits = replace(gallery.limits.of_program(), output_kb=_ANSWERS_KB)
+    def student(cases: bytes, seconds: float) -> Ran:
+        limits = replace(gallery.limits.of_program(seconds), output_kb=_ANSWERS_KB)
         return gallery.sandbox.run(Task(worker.words, limits, stdin=cases))
 
-    def reference(cases: bytes) -> Ran:
+    def reference(cases: bytes, _seconds: float) -> Ran:
         return _reference_answers(gallery.kit, cases)
 
     return judge_functions(step, plan, student, reference, seed, gallery.limits.seconds)

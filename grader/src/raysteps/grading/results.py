@@ -58,6 +58,13 @@ class CaseGroup:
     name: str
     cases: int
     right: int
+    undecided: int = 0  # not right, but perhaps it would be: never asked, or the answer is too large to be read
+    wasteful: int = 0  # not right only because it spares no work
+
+    @property
+    def decided(self) -> int:
+        """Cases in which the judge saw what the function does."""
+        return self.cases - self.undecided
 
 
 @dataclass

@@ -13,6 +13,18 @@ from raysteps.judge.values import Frame, Inputs, Ray, vector_words
 T = TypeVar("T")
 
 
+class Wasteful(str):
+    """A problem of an answer that is right, but spares no work."""
+
+    __slots__ = ()
+
+
+class TooLarge(str):
+    """A problem of an answer that the judge does not look through: it earns nothing, and may be right."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True)
 class Verdict:
     """What the judge thinks of one answer; `problem` is empty when it is right."""
@@ -20,6 +32,15 @@ class Verdict:
     problem: str
     expected: str
     actual: str
+
+    @property
+    def wasteful(self) -> bool:
+        return isinstance(self.problem, Wasteful)
+
+    @property
+    def decided(self) -> bool:
+        """Whether the answer says anything about the function."""
+        return not isinstance(self.problem, TooLarge)
 
 
 @dataclass(frozen=True)
@@ -73,10 +94,6 @@ def read_ray(tokens: Tokens) -> Ray:
 
 def read_frame(tokens: Tokens) -> Frame:
     return Frame(tokens.vector(), tokens.vector(), tokens.vector(), tokens.real(), tokens.real())
-
-
-def read_real(tokens: Tokens) -> float:
-    return tokens.real()
 
 
 def read_whole(tokens: Tokens) -> int:

@@ -12,6 +12,9 @@ a contradiction only where no honest program makes it, however many mistakes it 
 - a picture passes, but its twin is grossly wrong;
 - a picture says that few objects were tested, but the tree or the search spares the rays nothing.
 
+Of the cases only those count in which the judge saw what the function does: it was asked, and its answer could be read.
+A case in which it crashed or hung is one of them, so that silence is no way out.
+
 Where a test asks for several functions, all of them must speak against it.
 """
 
@@ -24,6 +27,7 @@ from raysteps.judge.functions import Function
 from raysteps.judge.generators import functions_of
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan
+from raysteps.judge.share_claims import MESSAGE, false_shares
 from raysteps.kit.manifest import Step
 
 ANY = "any"
@@ -31,7 +35,6 @@ PART = "part"
 _HALF = 0.5
 _GROSSLY = 10  # times what the twin's gate allows
 _GROSS_SHARE = 0.05
-_MESSAGE = "The program says that this passes, but the judge's own inputs say otherwise; it does not count."
 
 Tags = Mapping[str, frozenset[str]]
 
@@ -45,9 +48,9 @@ class _Seen:
     all_claimed: bool
 
     def mostly_wrong(self) -> bool:
-        """Of the ordinary cases less than half are right."""
+        """Of the ordinary cases that were decided less than half are right."""
         groups = self.result.groups
-        return bool(groups) and groups[0].right < _HALF * groups[0].cases
+        return bool(groups) and groups[0].right < _HALF * groups[0].decided
 
     def wholly_wrong(self) -> bool:
         """Not one case is right of those that take a real answer; of yes and no, some always are. Where the worker
@@ -57,7 +60,7 @@ class _Seen:
         if self.function.yes_or_no:
             return self.mostly_wrong()
         telling = [group for group in self.result.groups if self.function.by_name[group.name].telling]
-        return bool(telling) and not any(group.right for group in telling)
+        return bool(telling) and not any(group.right or group.undecided for group in telling)
 
     def denied(self) -> bool:
         """All its tests together claim more than the judge saw."""
@@ -93,7 +96,7 @@ def _tests(step: Step, result: StepResult, tags: Tags) -> list[str]:
                 f"The test '{test.name}' claims to pass, but most of the judge's ordinary cases of {listed(names)} "
                 "came out wrong."
             )
-            test.passed, test.outcome, test.message = False, "wrong", _MESSAGE
+            test.passed, test.outcome, test.message = False, "wrong", MESSAGE
     return lines
 
 
@@ -110,38 +113,11 @@ def _images(plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenRe
                 f"The picture '{image.name}' is right, but the same scene seen from a little farther round is "
                 "grossly wrong."
             )
-            image.passed, image.outcome, image.message = False, "wrong", _MESSAGE
-    return lines
-
-
-def _saves_nothing(result: HiddenResult, function: Function) -> bool:
-    groups = [group for group in result.groups if function.by_name[group.name].saves]
-    return result.outcome == "wrong" and any(group.cases and not group.right for group in groups)
-
-
-def _shares(step: Step, images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> list[str]:
-    """How many objects were tested is counted in the program itself. The judge looks at the tree that the program hands
-    out, and counts by surfaces of its own."""
-    known = functions_of(step.number)
-    wasteful = [item.name for item in hidden if item.kind == "function" and _saves_nothing(item, known[item.name])]
-    limited = {image.name for image in step.images if image.max_share is not None}
-    if not wasteful or not limited:
-        return []
-    lines = []
-    for image in images:
-        if image.passed and image.name in limited:
-            lines.append(
-                f"The picture '{image.name}' claims that {image.share_tested or 0:.1%} of the objects were tested, but "
-                f"the judge found that {listed(wasteful)} spares the rays nothing."
-            )
-            image.passed, image.outcome, image.message = False, "wrong", _MESSAGE
-    for item in hidden:
-        if item.kind == "picture" and item.share > 0:
-            item.share, item.outcome, item.message = 0.0, "wrong", _MESSAGE
+            image.passed, image.outcome, image.message = False, "wrong", MESSAGE
     return lines
 
 
 def contradictions(step: Step, plan: Plan, result: StepResult, tags: Tags) -> list[str]:
     """Takes back the claims that the judge did not see, and says so for the instructor, one line each."""
     lines = _tests(step, result, tags) + _images(plan, result.images, result.hidden)
-    return lines + _shares(step, result.images, result.hidden)
+    return lines + false_shares(step, plan, result.images, result.hidden)

@@ -16,7 +16,7 @@ Make = Callable[[Draw], Inputs]
 @dataclass(frozen=True)
 class Group:
     """One kind of cases. `telling`: a stub, or a function that always answers the same, gets none of them right.
-    `saves`: who gets all of them wrong spares the rays nothing."""
+    `saves`: who is wasteful in all of them spares the rays nothing."""
 
     name: str
     make: Make

@@ -12,11 +12,12 @@ from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.generators import functions_of
 from raysteps.judge.plan import FunctionPlan, Plan
+from raysteps.judge.time_budget import TimeBudget
 from raysteps.judge.worker_client import Ask, Reply, ask_worker
 from raysteps.kit.manifest import Step
 
 ORDINARY_SHARE = 0.9  # of the first kind of cases must be right, or the function earns nothing
-_STEP_FACTOR = 3  # all functions of a step together may take this many times the step's seconds
+_REFERENCE_SECONDS = 600
 _LONGEST = 2000
 
 
@@ -27,6 +28,12 @@ class Judged:
     case: Case
     verdict: Verdict
     outcome: Ending
+    asked: bool = True
+
+    @property
+    def decided(self) -> bool:
+        """Whether it says anything about the function."""
+        return self.asked and self.verdict.decided
 
 
 @lru_cache(maxsize=256)  # a class is asked the same questions
@@ -46,7 +53,7 @@ def make_cases(step: Step, plan: FunctionPlan, seed: int) -> Sequence[Case]:
 
 
 def _reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
-    replies = ask_worker(ask, cases, 600).replies
+    replies = ask_worker(ask, cases, TimeBudget(_REFERENCE_SECONDS, 1)).replies
     bad = next((reply for reply in replies if reply.outcome != "ok" or reply.line.startswith("bad-case")), None)
     if bad is not None:
         raise GraderFault(f"{name}: the reference does not answer the judge: {bad.note or bad.line}")
@@ -57,14 +64,18 @@ def _judge(function: Function, case: Case, expected: str, reply: Reply) -> Judge
     verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
     if reply.outcome != "ok":
         verdict = Verdict(reply.note, verdict.expected, f"no answer: {reply.note}")
-    return Judged(case, verdict, reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong")
+    outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"
+    return Judged(case, verdict, outcome, reply.asked)
+
+
+def _group(name: str, judged: Sequence[Judged]) -> CaseGroup:
+    right = sum(not one.verdict.problem for one in judged)
+    wasteful = sum(one.verdict.wasteful for one in judged)
+    return CaseGroup(name, len(judged), right, sum(not one.decided for one in judged), wasteful)
 
 
 def _groups(plan: FunctionPlan, judged: Sequence[Judged]) -> list[CaseGroup]:
-    return [
-        CaseGroup(name, amount, sum(not one.verdict.problem for one in judged if one.case.group == name))
-        for name, amount in plan.cases.items()
-    ]
+    return [_group(name, [one for one in judged if one.case.group == name]) for name in plan.cases]
 
 
 def _is_right(group: CaseGroup, may_miss: float) -> bool:
@@ -72,11 +83,11 @@ def _is_right(group: CaseGroup, may_miss: float) -> bool:
 
 
 def _first_wrong(judged: Sequence[Judged], wrong: Sequence[CaseGroup]) -> Judged | None:
-    """Of the first kind that is wrong, the case with the fewest numbers."""
+    """Of the first kind that is wrong, the case with the fewest numbers; rather one that was asked."""
     for group in wrong:
         found = [one for one in judged if one.case.group == group.name and one.verdict.problem]
         if found:
-            return min(found, key=lambda one: one.case.size)
+            return min(found, key=lambda one: (not one.asked, one.case.size))
     return None
 
 
@@ -86,7 +97,8 @@ def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup],
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
     text += f"wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}."
     if share == 0 and right:
-        text += f" As long as '{groups[0].name}' is mostly wrong, the other kinds do not count."
+        least = f"at least {ORDINARY_SHARE * 100:.0f} % of '{groups[0].name}'"
+        text += f" Until {least} are right, the other kinds do not count."
     return text
 
 
@@ -118,13 +130,12 @@ def judge_functions(
 ) -> list[HiddenResult]:
     """One result for each function, whatever the student's worker does. `seconds`: the limit of one run of it."""
     results = []
-    left = _STEP_FACTOR * (step.seconds if seconds is None else seconds)
+    budget = TimeBudget(step.seconds if seconds is None else seconds, len(plan.functions))
     for function_plan in plan.functions:
         function = functions_of(step.number)[function_plan.name]
         cases = make_cases(step, function_plan, seed)
         expected = _reference_lines(reference, cases, function.name)
-        replies = ask_worker(student, cases, left)
-        left -= replies.seconds
+        replies = ask_worker(student, cases, budget)
         judged = [_judge(function, *three) for three in zip(cases, expected, replies.replies, strict=True)]
         results.append(_result(function_plan, judged, replies.seconds))
     return results

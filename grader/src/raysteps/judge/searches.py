@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from raysteps.judge.answers import Answer, first
+from raysteps.judge.answers import Answer, Wasteful, first
 from raysteps.judge.hits import MaybeHit, found_problem, found_words, read_hit
 from raysteps.judge.numbers import Number
 from raysteps.judge.surfaces import Surfaces
@@ -71,7 +71,9 @@ def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search,
     problem = first(*(_one_problem(*pair) for pair in zip(expected, actual, strict=True)))
     asked = sum(search.asked for search in actual)
     if not problem and len(actual) > 1 and asked > _MOST_ASKED * len(surfaces.surfaces) * len(actual):
-        return "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
+        return Wasteful(
+            "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
+        )
     return problem
 
 

@@ -3,6 +3,7 @@
 from raysteps.judge.numbers import Vector
 
 _MOST_DIGITS = 40
+_LONGEST = 2_000_000  # characters; the largest tree is half as long
 
 
 class Garbled(Exception):
@@ -13,6 +14,8 @@ class Tokens:
     """The words of one answer, from left to right."""
 
     def __init__(self, line: str) -> None:
+        if len(line) > _LONGEST:
+            raise Garbled("the answer is too long")
         self._words = line.split()
         self._next = 0
 
@@ -30,14 +33,21 @@ class Tokens:
             return _refuse(found)
 
     def whole(self, low: int = 0, high: int = 1 << 31) -> int:
-        found = self.word()
+        return self.wholes(1, low, high)[0]
+
+    def wholes(self, size: int, low: int, high: int) -> tuple[int, ...]:
+        """Many at once."""
+        found = self._words[self._next : self._next + size]
+        if len(found) < size:
+            raise Garbled("the answer is too short")
+        self._next += size
         try:
-            number = int(found) if len(found) <= _MOST_DIGITS else -1
+            numbers = tuple(int(word) if len(word) <= _MOST_DIGITS else low - 1 for word in found)
         except ValueError:
             raise Garbled("the answer holds a word where a whole number belongs") from None
-        if not low <= number <= high:
+        if numbers and not low <= min(numbers) <= max(numbers) <= high:
             raise Garbled("the answer holds a number out of range")
-        return number
+        return numbers
 
     def flag(self) -> bool:
         return self.whole(0, 1) == 1

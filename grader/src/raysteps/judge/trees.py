@@ -7,18 +7,26 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.judge.answers import Answer
-from raysteps.judge.drawing import Draw
-from raysteps.judge.numbers import Vector, add, minus
-from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
+from raysteps.judge.answers import Answer, TooLarge, Wasteful
+from raysteps.judge.boxes import Boxes
+from raysteps.judge.numbers import Vector
+from raysteps.judge.surface_points import points_on
+from raysteps.judge.surfaces import Surface, Surfaces
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Inputs
 
-_Array: TypeAlias = npt.NDArray[np.float64]
+_Table: TypeAlias = npt.NDArray[np.bool_]  # of nodes (rows) and surfaces (columns)
 
-_MOST_NODES = 100000
-_MOST_ENTRIES = 1000000
-_POINTS = 14  # looked for on each surface
+# Whoever writes an answer by hand may write any tree; framework/apps/worker_tree.cpp knows the same numbers.
+MOST_NODES = 5000
+MOST_ENTRIES = 50000
+DEEPEST = 500
+_MOST = {
+    "boxes": f"{MOST_NODES} boxes",
+    "entries": f"{MOST_ENTRIES} entries in its lists",
+    "levels": f"{DEEPEST} levels",
+}
+_MOST_SURFACES = 1000  # of any case
 _MARGIN = 1e-3  # of the scene's size: what stands nearer to a wall may be on either side
 _MANY = 80  # surfaces: so many small ones must be divided
 _MOST_IN_LEAF = 0.5  # of them, on average
@@ -26,88 +34,79 @@ _MOST_IN_LEAF = 0.5  # of them, on average
 
 @dataclass(frozen=True)
 class TreeNode:
-    """One box; `known` are the surfaces in its own list, `above` those in the lists of the boxes around it."""
+    """One box; `known` are the surfaces in its own list. `parent` is the place of the box around it in the tree."""
 
     low: Vector
     high: Vector
-    known: frozenset[int]
-    above: frozenset[int]
+    known: tuple[int, ...]
+    parent: int
     is_leaf: bool
 
 
 @dataclass(frozen=True)
 class Tree:
+    """Parents come before their children. `excess` is what a tree has too much of that was not told."""
+
     nodes: tuple[TreeNode, ...]
+    excess: str = ""
 
 
 def read_tree(tokens: Tokens) -> Tree:
-    """Without recursion: nobody knows how deep it is."""
-    if tokens.word() != "tree":
-        raise Garbled(f"the tree has more than {_MOST_NODES} boxes or {_MOST_ENTRIES} entries in its lists")
+    """Without recursion, and in time and memory that the caps bound."""
+    kind = tokens.word()
+    if kind == "large" and (excess := tokens.word()) in _MOST:
+        return Tree((), excess)
+    if kind != "tree":
+        raise Garbled("the answer is no tree")
     nodes: list[TreeNode] = []
-    open_: list[frozenset[int]] = [frozenset()]
+    entries = 0
+    open_: list[tuple[int, int]] = [(0, 0)]  # parent and depth of a node that is to come
     while open_:
-        above = open_.pop()
+        parent, depth = open_.pop()
         low, high = tokens.vector(), tokens.vector()
-        known = frozenset(tokens.whole(-1) for _ in range(tokens.whole(0, _MOST_ENTRIES)))
-        children = tokens.whole(0, _MOST_NODES)
-        nodes.append(TreeNode(low, high, known, above, children == 0))
-        if len(nodes) + len(open_) + children > _MOST_NODES:
+        size = tokens.whole(0, MOST_ENTRIES - entries)
+        entries += size
+        known = tokens.wholes(size, -1, _MOST_SURFACES)
+        children = tokens.whole(0, MOST_NODES)
+        nodes.append(TreeNode(low, high, known, parent, children == 0))
+        if len(nodes) + len(open_) + children > MOST_NODES or depth > DEEPEST:
             raise Garbled("the tree is too large")
-        open_ += [above | known if known else above] * children
+        open_ += [(len(nodes) - 1, depth + 1)] * children
     return Tree(tuple(nodes))
 
 
+def _tables(tree: Tree, surfaces: int) -> tuple[_Table, _Table]:
+    """Which surfaces are in each node's own list, and which in that or in the lists of the boxes around it."""
+    own = np.zeros((len(tree.nodes), surfaces), dtype=np.bool_)
+    for place, node in enumerate(tree.nodes):
+        own[place, list(node.known)] = True
+    every = own.copy()
+    for place, node in enumerate(tree.nodes):
+        every[place] |= every[node.parent]
+    return own, every
+
+
 def tree_words(tree: Tree) -> str:
-    leaves = [node for node in tree.nodes if node.is_leaf]
-    mean = sum(len(leaf.known | leaf.above) for leaf in leaves) / len(leaves)
-    return f"a tree of {len(tree.nodes)} boxes; {len(leaves)} leaves with {mean:.3g} surfaces on average"
+    if tree.excess:
+        return f"a tree of more than {_MOST[tree.excess]}"
+    lists = {number for node in tree.nodes for number in node.known}
+    leaves = np.array([node.is_leaf for node in tree.nodes])
+    # Unknown surfaces are -1, the last column.
+    mean = _tables(tree, max(lists, default=-1) + 2)[1][leaves].sum(axis=1).mean()
+    return f"a tree of {len(tree.nodes)} boxes; {leaves.sum()} leaves with {mean:.3g} surfaces on average"
 
 
-def _sphere_points(sphere: Sphere, draw: Draw) -> list[Vector]:
-    return [add(sphere.center, draw.direction(), sphere.radius) for _ in range(_POINTS)]
-
-
-def _triangle_points(t: Triangle, draw: Draw) -> list[Vector]:
-    """The corners, and points all over it."""
-    points = [t.a, t.b, t.c]
-    while len(points) < _POINTS:
-        u, v = draw.real(0, 1), draw.real(0, 1)
-        if u + v <= 1:
-            points.append(add(add(t.a, minus(t.b, t.a), u), minus(t.c, t.a), v))
-    return points
-
-
-def _points(surface: Surface, draw: Draw) -> _Array:
-    if isinstance(surface, Sphere):
-        return np.array(_sphere_points(surface, draw))
-    assert isinstance(surface, Triangle)
-    return np.array(_triangle_points(surface, draw))
-
-
-def _inside(points: _Array, nodes: Sequence[TreeNode], margin: float) -> npt.NDArray[np.bool_]:
-    """Which points (rows) lie in which boxes (columns), grown by the margin."""
-    if not nodes:
-        return np.zeros((len(points), 0), dtype=np.bool_)
-    low = np.array([node.low for node in nodes]) - margin
-    high = np.array([node.high for node in nodes]) + margin
-    spread = points[:, np.newaxis, :]
-    inside: npt.NDArray[np.bool_] = np.all((spread >= low) & (spread <= high), axis=2)
-    return inside
-
-
-def _lost(tree: Tree, surfaces: Sequence[Surface]) -> str:
-    draw = Draw("points on surfaces")
-    points = [_points(surface, draw) for surface in surfaces]
-    every = np.concatenate(points)
-    margin = _MARGIN * float((every.max(axis=0) - every.min(axis=0)).max())
-    leaves = [node for node in tree.nodes if node.is_leaf]
+def _lost(tree: Tree, surfaces: Sequence[Surface], own: _Table, every: _Table) -> str:
+    points = points_on(surfaces)
+    together = np.concatenate(points)
+    margin = _MARGIN * float((together.max(axis=0) - together.min(axis=0)).max())
+    boxes = Boxes([node.low for node in tree.nodes], [node.high for node in tree.nodes])
+    leaves = np.array([node.is_leaf for node in tree.nodes])
     for number, mine in enumerate(points):
-        holders = [node for node in tree.nodes if number in node.known or (node.is_leaf and number in node.above)]
-        if not _inside(mine, holders, margin).any(axis=1).all():
+        holders = own[:, number] | (leaves & every[:, number])
+        if not boxes.holding(mine, holders, margin).all():
             return "a part of a surface is in no box that has the surface in its list"
-        others = [leaf for leaf in leaves if number not in leaf.known and number not in leaf.above]
-        if _inside(mine, others, -margin).any():
+        if boxes.holding(mine, leaves & ~every[:, number], -margin).any():
             return "a surface runs through a leaf that does not have it in its list"
     return ""
 
@@ -116,16 +115,19 @@ def _tree_problem(inputs: Inputs, _expected: Tree, actual: Tree) -> str:
     given = inputs["surfaces"]
     assert isinstance(given, Surfaces)
     surfaces = given.surfaces
-    known = frozenset().union(*(node.known for node in actual.nodes))
-    if any(number < 0 or number >= len(surfaces) for number in known):
+    if actual.excess:
+        return TooLarge(f"the tree has more than {_MOST[actual.excess]} for {len(surfaces)} surfaces")
+    if any(node.known and not 0 <= min(node.known) <= max(node.known) < len(surfaces) for node in actual.nodes):
         return "a list holds something that is no surface of the scene"
     if not surfaces:
         return "" if len(actual.nodes) == 1 else "a tree without surfaces is a single leaf"
-    problem = _lost(actual, surfaces)
+    own, every = _tables(actual, len(surfaces))
+    problem = _lost(actual, surfaces, own, every)
     if not problem and len(surfaces) >= _MANY:
-        leaves = [node for node in actual.nodes if node.is_leaf]
-        mean = sum(len(leaf.known | leaf.above) for leaf in leaves) / len(leaves)
-        problem = "the lists are hardly shorter than the whole scene" if mean > _MOST_IN_LEAF * len(surfaces) else ""
+        leaves = np.array([node.is_leaf for node in actual.nodes])
+        mean = every[leaves].sum(axis=1).mean()
+        if mean > _MOST_IN_LEAF * len(surfaces):
+            return Wasteful("the lists are hardly shorter than the whole scene")
     return problem
 
 

@@ -1,0 +1,74 @@
+"""The processes that a worker of a cluster keeps for its jobs."""
+
+import threading
+import time
+from typing import Any
+
+import pytest
+
+from raysteps.classroom import cluster_task
+from raysteps.classroom.messages import Answer, Job
+from raysteps.submission.intake import Submission
+
+_SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
+
+
+class _Slot:
+    """Grades while it is told to wait."""
+
+    made: list["_Slot"] = []  # noqa: RUF012
+
+    def __init__(self) -> None:
+        self.stopped = False
+        self.closed = False
+        self.begun, self.go_on = threading.Event(), threading.Event()
+        self.made.append(self)
+
+    def grade(self, job: Job) -> Answer:
+        self.begun.set()
+        assert self.go_on.wait(20)
+        return Answer(job.submission.name, "fault", fault="none")
+
+    def stop(self) -> None:
+        self.stopped = True
+
+    def close(self) -> None:
+        self.closed = True
+
+
+@pytest.fixture(autouse=True)
+def _slots(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cluster_task, "Slot", _Slot)
+    monkeypatch.setattr(_Slot, "made", [])
+    monkeypatch.setattr(cluster_task, "_free", [])
+    monkeypatch.setattr(cluster_task, "_busy", {})
+
+
+def _job(run: str) -> dict[str, Any]:
+    return Job(Submission("a", {}, {}, {}), _SETTINGS, "a:b", "kit", False, run).to_json()
+
+
+def test_a_slot_that_was_stopped_is_not_used_again() -> None:
+    thread = threading.Thread(target=cluster_task.run_job, args=(_job("one"),))
+    thread.start()
+    end = time.monotonic() + 20
+    while not _Slot.made and time.monotonic() < end:
+        time.sleep(0.01)
+    (slot,) = _Slot.made
+    assert slot.begun.wait(20)
+    cluster_task.stop_run("one")  # just before its answer comes
+    slot.go_on.set()
+    thread.join(20)
+    assert slot.closed
+    assert cluster_task._free == []
+    assert cluster_task._busy == {}
+
+
+def test_a_slot_is_kept_for_the_next_job(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_Slot, "grade", lambda self, job: Answer(job.submission.name, "fault", fault="none"))
+    for run in ("one", "two"):
+        cluster_task.run_job(_job(run))
+    assert len(_Slot.made) == 1
+    assert not _Slot.made[0].closed
+    assert cluster_task._free == _Slot.made
+    assert cluster_task._busy == {}

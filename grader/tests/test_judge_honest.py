@@ -1,0 +1,99 @@
+"""Honest programs with a mistake lose what it costs, and nobody accuses them."""
+
+from pathlib import Path
+
+import pytest
+from conftest import MakeSubmission, Sources
+
+from raysteps.grading.one import grade_one
+from raysteps.grading.results import StepResult
+from raysteps.grading.settings import Settings
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.submission.intake import take_in
+
+# Six levels of boxes, whatever is in them: nothing is lost, and there are 37449 of them.
+_FULL_TREE = """
+#pragma GCC diagnostic ignored "-Wunused-function"
+namespace {
+void divide(Node& node, int level) {
+    if (level == 0) {
+        return;
+    }
+    for (const Box& part : split(node.box)) {
+        Node child;
+        child.box = part;
+        for (const Surface* surface : node.surfaces) {
+            if (surface->overlaps(part)) {
+                child.surfaces.push_back(surface);
+            }
+        }
+        divide(child, level - 1);
+        node.children.push_back(std::move(child));
+    }
+    node.surfaces.clear();
+}
+}  // namespace
+
+Node build_octree(const SurfaceList& surfaces) {
+    if (surfaces.empty()) {
+        return {};
+    }
+    Node root{bounds_of(surfaces), surfaces, {}};
+    root.box.min -= 0.01F;
+    root.box.max += 0.01F;
+    divide(root, 5);
+    return root;
+}
+"""
+
+
+class _Honest:
+    def __init__(self, kit: BuiltKit, make: MakeSubmission, solved: Sources, out: Path) -> None:
+        self._kit = kit
+        self._make = make
+        self._solved = solved
+        self._out = out
+
+    def grade(self, step: Step, old: str, new: str) -> StepResult:
+        """The step as it is solved, but for one change."""
+        source = self._solved[step.id]
+        assert source.count(old) == 1
+        path = self._make("honest", {step.id: source.replace(old, new)})
+        submission, settings = take_in(path, self._kit.steps), Settings(only=(step.id,))
+        return grade_one(self._kit, submission, settings, find_sandbox(), self._out).steps[0]
+
+
+@pytest.fixture
+def honest(kit: BuiltKit, make_submission: MakeSubmission, solved: Sources, tmp_path: Path) -> _Honest:
+    return _Honest(kit, make_submission, solved, tmp_path / "out")
+
+
+def test_a_transmitted_ray_on_the_wrong_side(honest: _Honest, steps: list[Step]) -> None:
+    """Every transmitted ray is wrong by its origin alone; tests of its direction and of its light still count."""
+    result = honest.grade(steps[7], "hit.position - offset", "hit.position + offset")
+    assert result.inconsistent == []
+    assert any(test.passed for test in result.tests if test.name.startswith("transmitted_ray"))
+    assert all(test.passed for test in result.tests if test.name.startswith(("transmitted_light", "refract:")))
+    assert {item.name: item.share for item in result.hidden if item.kind == "function"} == {
+        "refract": 1.0,
+        "transmitted_ray": 0.0,
+        "transmitted_light": 1.0,
+    }
+
+
+def test_a_tree_that_is_too_large_to_be_told(honest: _Honest, steps: list[Step], solved: Sources) -> None:
+    """It costs the kinds in which it is; nobody says that it is wrong."""
+    step = steps[5]
+    source = solved[step.id]
+    start = source.index("Node build_octree(")
+    body = source[start : source.index("\n}\n", start) + 3]
+    result = honest.grade(step, body, _FULL_TREE.strip() + "\n")
+    assert result.inconsistent == []
+    assert all(test.passed for test in result.tests), [test.message for test in result.tests]
+    tree = next(item for item in result.hidden if item.name == "build_octree")
+    assert "more than 5000 boxes for " in tree.message
+    assert tree.groups[0].undecided == tree.groups[0].cases
+    assert tree.groups[-1].right == tree.groups[-1].cases
+    assert next(item for item in result.hidden if item.name == "closest_hit_in").share == 1
