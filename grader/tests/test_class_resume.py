@@ -14,6 +14,7 @@ from class_fakes import grade_class, write_entry
 import raysteps.classroom.command
 import raysteps.classroom.session
 import raysteps.classroom.taking_in
+import raysteps.submission.intake
 from raysteps.classroom.arguments import add_arguments, line_to_go_on, read_order
 from raysteps.classroom.messages import Answer, Job
 from raysteps.classroom.pool import LocalPool
@@ -119,7 +120,7 @@ def test_interrupted_while_the_kit_is_built(
 def test_whatever_one_submission_brings_about_the_class_goes_on(
     tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    known = raysteps.classroom.taking_in.take_in
+    known = raysteps.submission.intake.take_in
 
     def take_in(path: Path, steps: Any) -> Any:
         if path.name == "s2":

@@ -270,10 +270,10 @@ def test_late_policy(tmp_path: Path, handed_in: Path) -> None:
 
 def test_extensions_by_the_name_of_a_submission(tmp_path: Path, handed_in: Path) -> None:
     for number in range(1, 5):
-        os.utime(handed_in / f"s{number}" / "steps" / FIRST, (90_000, 90_000))
+        os.utime(handed_in / f"s{number}" / "steps" / FIRST, (946_774_800, 946_774_800))
     policy = tmp_path / "late.toml"
     policy.write_text(
-        "deadline = 1970-01-01T00:00:00Z\npercent_per_day = 50\n[extensions]\ns1 = 9\ns2 = 9\ns4 = 9\nteam = 9\n"
+        "deadline = 2000-01-01T00:00:00Z\npercent_per_day = 50\n[extensions]\ns1 = 9\ns2 = 9\ns4 = 9\nteam = 9\n"
     )
     (handed_in / "s3").rename(handed_in / "team")
     roster = tmp_path / "roster.csv"

@@ -70,5 +70,6 @@ def test_a_slot_is_kept_for_the_next_job(monkeypatch: pytest.MonkeyPatch) -> Non
         cluster_task.run_job(_job(run))
     assert len(_Slot.made) == 1
     assert not _Slot.made[0].closed
-    assert cluster_task._free == _Slot.made
+    free: list[object] = list(cluster_task._free)
+    assert free == _Slot.made
     assert cluster_task._busy == {}

@@ -1,7 +1,5 @@
 """Whose row it is: the kinds of numbers that platforms and courses give to people are not mixed up."""
 
-from typing import Any
-
 import pytest
 
 from raysteps.common.errors import UsageError
@@ -14,8 +12,8 @@ def _graded(submission: str = "x", id: str = "", name: str = "", email: str = ""
 
 
 def _person(label: str, email: str = "", id: str = "", number: str = "", name: str = "") -> Person:  # noqa: A002
-    words: Any = (frozenset(filter(None, [word])) for word in (email, id, number))
-    return Person(label, *words, name)
+    emails, ids, numbers = (frozenset(filter(None, [word])) for word in (email, id, number))
+    return Person(label, emails, ids, numbers, name)
 
 
 _PEOPLE = [
@@ -29,7 +27,8 @@ _PEOPLE = [
     ("who", "row"),
     [
         (_graded(id="102", name="Ann Lee", email="ann@x"), 0),
-        (_graded(id="102", email="bob@x"), "more than one row: Ann and Bob"),  # the ID number says Ann, the email Bob
+        (_graded(id="102", email="bob@x"), 1),  # an email address is better evidence than a number
+        (_graded(id="s5", email="bob@x"), "more than one row: Bob and Cleo"),  # but not better than a login
         (_graded(id="102", name="Ann"), 0),  # her ID number, and not the number that the platform gave Bob
         (_graded(id="102", name="Bob Ray"), 1),
         (_graded(id="102"), "more than one row: Ann and Bob"),

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,7 +24,14 @@ from raysteps.upkeep.bench_grading import grading
 from raysteps.upkeep.selftest import selftest
 
 _NO_TERMINAL = 10_000  # columns
-_EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault"""
+_EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
+130 interrupted"""
+
+
+def _above_0(word: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,4}", word) or int(word) == 0:
+        raise argparse.ArgumentTypeError(f"{word}: expected a whole number above 0")
+    return int(word)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -52,7 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
     add.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
-    add.add_argument("--jobs", type=int, metavar="N", help="steps at a time (as many as there are processors)")
+    add.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
 
     classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
     exports.add_arguments(commands.add_parser("export", help="for Gradescope, Classroom 50, Canvas and others"))
@@ -126,6 +134,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"raysteps: {error}", file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt:
+        print("raysteps: interrupted", file=sys.stderr)
         return 130
     except Exception:
         if os.environ.get("RAYSTEPS_DEBUG"):

@@ -25,6 +25,11 @@ def number(value: float) -> str:
     return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
+def in_seconds(amount: float) -> str:
+    """`1 second`, `2.5 seconds`."""
+    return f"{number(amount)} second" if amount == 1 else f"{number(amount)} seconds"
+
+
 def count(amount: int, noun: str) -> str:
     """`1 test`, `2 tests`."""
     return f"{amount} {noun}" if amount == 1 else f"{amount} {noun}s"

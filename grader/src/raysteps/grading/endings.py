@@ -1,8 +1,10 @@
 """How a student's program ended, in words."""
 
-from raysteps.common.text import number, printable, shorten
+from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.grading.results import Ending
 from raysteps.sandbox.task import Ran
+
+ENDLESS = "Is there an endless loop? Once a program of a step has hung, the next ones get less time."
 
 
 def ending_of(ran: Ran, what: str) -> tuple[Ending, str]:
@@ -11,7 +13,7 @@ def ending_of(ran: Ran, what: str) -> tuple[Ending, str]:
     if ran.stopped == "memory":
         return "crashed", f"{what} needed more memory than a program may have here."
     if outcome.timed_out or ran.stopped in ("wall", "cpu"):
-        return "timeout", f"{what} was not ready after {number(outcome.seconds)} seconds."
+        return "timeout", f"{what} was not ready after {in_seconds(outcome.seconds)}. {ENDLESS}"
     if outcome.signal_name is not None:
         return "crashed", f"{what} was not made: the program crashed ({outcome.signal_name})."
     if outcome.code != 0:

@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterable
 
 from raysteps.common.catch_report import TestOutcome, parse_report
-from raysteps.common.text import number
-from raysteps.grading.endings import ending_of
+from raysteps.common.text import in_seconds
+from raysteps.grading.endings import ENDLESS, ending_of
 from raysteps.grading.limits import StepLimits
 from raysteps.grading.results import TestResult
 from raysteps.grading.student_build import Program
@@ -15,11 +15,11 @@ _MOST_HANGS = 6  # tests that are waited for; a clock would say something else e
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
-def _run(sandbox: Sandbox, program: Program, limits: StepLimits, seconds: float, only: str | None = None) -> Ran:
+def _run(sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None) -> Ran:
     command: tuple[Word, ...] = (*program.words, "-r", "xml", "-o", Output("report"))
     if only is not None:
         command += (_SPECIAL.sub(r"\\\1", only),)
-    return sandbox.run(Task(command, limits.of_program(seconds)))
+    return sandbox.run(Task(command, limits.of_program(most)))
 
 
 def _complete(ran: Ran, names: Iterable[str]) -> list[TestOutcome] | None:
@@ -53,7 +53,7 @@ def _result_alone(ran: Ran, name: str) -> TestResult:
     if cases is not None:
         return _result(cases[0])
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
-        message = f"The test was stopped after {number(ran.outcome.seconds)} seconds."
+        message = f"The test was stopped after {in_seconds(ran.outcome.seconds)}. {ENDLESS}"
         return TestResult(name, False, message, outcome="timeout")
     if ran.outcome.signal_name is not None or ran.stopped:
         return TestResult(name, False, ending_of(ran, "The test's report")[1], outcome="crashed")

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from raysteps.common.text import number
+from raysteps.common.text import in_seconds
 from raysteps.grading.results import Ending
 from raysteps.judge.functions import Case
 from raysteps.judge.time_budget import TimeBudget
@@ -59,7 +59,7 @@ def _trouble(ran: Ran, *, in_a_line: bool) -> Reply:
     """Why the worker stopped in the middle."""
     outcome = ran.outcome
     if _hung(ran):
-        return Reply("", "timeout", f"stopped after {number(outcome.seconds)} seconds")
+        return Reply("", "timeout", f"stopped after {in_seconds(outcome.seconds)}")
     if ran.stopped == "memory":
         return Reply("", "crashed", "stopped for taking too much memory")
     if outcome.code == 0 and in_a_line:

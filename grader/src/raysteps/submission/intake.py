@@ -126,7 +126,8 @@ def take_in(path: Path, steps: list[Step]) -> Submission:
     try:
         _collect(path, collector)
     except DAMAGED as error:
-        raise UsageError(f"{path}: cannot be read as a folder, zip or tar ({error})") from error
+        why = "an archive may be damaged or cut off"
+        raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({error})") from error
     submission = collector.submission(submission_name(path))
     if not submission.sources and not submission.notes:
         raise UsageError(f"{path}: holds no step; expected files like steps/{steps[0].path.as_posix()}")
