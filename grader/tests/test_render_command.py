@@ -34,3 +34,8 @@ def test_a_crash_of_the_renderer_is_a_failure(tmp_path: Path, capsys: pytest.Cap
 def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "abc")
     assert main(["grade", "/no/such/submission"]) == 2
+
+
+def test_a_picture_of_another_kind_is_refused_before_anything_is_built(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["render", "scene.nff", "-o", "picture.jpg"]) == 2
+    assert "picture.jpg: pictures are written as .png or .ppm" in capsys.readouterr().err

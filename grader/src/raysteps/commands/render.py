@@ -67,10 +67,12 @@ def run_raytrace(program: Path, args: list[str]) -> None:
 def render(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and a name in .png makes a PNG."""
     impl, args = take_impl(args)
+    at = args.index("-o") + 1 if "-o" in args else len(args)
+    if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
+        raise UsageError(f"{args[at]}: pictures are written as .png or .ppm; expected a name that ends so")
     program = (
         build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
     )
-    at = args.index("-o") + 1 if "-o" in args else len(args)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
         run_raytrace(program, args)
         return 0
