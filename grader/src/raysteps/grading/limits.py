@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.kit.manifest import Step
 from raysteps.sandbox.task import Limits
 
@@ -54,13 +54,18 @@ class StepLimits:
 
 def limits_of(step: Step, changes: Mapping[str, float]) -> StepLimits:
     """The manifest's limits with the changes by name (see NAMES)."""
+    given = dict(step.more_limits)
+    unknown = sorted(given.keys() - set(NAMES))
+    if unknown:
+        raise GraderFault(f"{step.id}/step.toml: [limits] {unknown[0]}: expected one of {', '.join(NAMES)}")
+    given = {"seconds": step.seconds, "memory_mb": step.memory_mb, **given, **changes}
     return StepLimits(
-        seconds=changes.get("seconds", step.seconds),
-        memory_mb=int(changes.get("memory_mb", step.memory_mb)),
-        compile_seconds=changes.get("compile_seconds", COMPILE_SECONDS),
-        compile_memory_mb=int(changes.get("compile_memory_mb", COMPILE_MEMORY_MB)),
-        processes=int(changes.get("processes", PROCESSES)),
-        file_mb=int(changes.get("file_mb", FILE_MB)),
+        seconds=given["seconds"],
+        memory_mb=int(given["memory_mb"]),
+        compile_seconds=given.get("compile_seconds", COMPILE_SECONDS),
+        compile_memory_mb=int(given.get("compile_memory_mb", COMPILE_MEMORY_MB)),
+        processes=int(given.get("processes", PROCESSES)),
+        file_mb=int(given.get("file_mb", FILE_MB)),
     )
 
 

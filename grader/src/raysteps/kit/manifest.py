@@ -38,6 +38,7 @@ class Step:
     seconds: float
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
+    more_limits: tuple[tuple[str, float], ...] = ()  # by name, see grading.limits
 
     @property
     def number(self) -> str:
@@ -87,6 +88,9 @@ def read_step(path: Path) -> Step:
             seconds=float(table["limits"]["seconds"]),
             images=tuple(_image(image) for image in table.get("images", [])),
             memory_mb=int(table["limits"].get("memory_mb", 4096)),
+            more_limits=tuple(
+                (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
+            ),
         )
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error

@@ -1,0 +1,38 @@
+"""The limits of a step: its manifest, and what a course changes."""
+
+from dataclasses import replace
+
+import pytest
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.grading.limits import limits_of, parse_limits
+from raysteps.kit.manifest import Step
+
+
+def test_a_course_changes_what_the_manifest_says(steps: list[Step]) -> None:
+    step = replace(steps[0], more_limits=(("compile_seconds", 9.0), ("processes", 5.0)))
+    limits = limits_of(step, {})
+    assert (limits.seconds, limits.memory_mb) == (step.seconds, step.memory_mb)
+    assert (limits.compile_seconds, limits.processes) == (9, 5)
+    changed = limits_of(step, parse_limits(["processes=7", "seconds=0.5", "memory_mb=100"]))
+    assert (changed.processes, changed.seconds, changed.memory_mb, changed.compile_seconds) == (7, 0.5, 100, 9)
+
+
+def test_a_limit_that_there_is_not_is_the_kits_fault(steps: list[Step]) -> None:
+    with pytest.raises(GraderFault, match="patience"):
+        limits_of(replace(steps[0], more_limits=(("patience", 1.0),)), {})
+
+
+@pytest.mark.parametrize(
+    "word", ["seconds", "seconds=", "seconds=0", "seconds=-1", "processes=1.5", "memory_mb=0", "x=1"]
+)
+def test_limits_that_make_no_sense(word: str) -> None:
+    with pytest.raises(UsageError, match="expected one of"):
+        parse_limits([word])
+
+
+def test_a_step_that_hung_gets_less_time_but_never_more(steps: list[Step]) -> None:
+    long = limits_of(steps[0], {"seconds": 8.0})
+    assert long.after_a_timeout().seconds == 2
+    assert long.after_a_timeout().after_a_timeout().seconds == 1
+    assert limits_of(steps[0], {"seconds": 0.5}).after_a_timeout().seconds == 0.5
