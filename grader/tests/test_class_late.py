@@ -5,7 +5,7 @@ from datetime import timedelta
 import pytest
 
 from raysteps.classroom.late_policy import LatePolicy, parse_late_policy
-from raysteps.classroom.lateness import apply_policy
+from raysteps.classroom.lateness import apply_policy, with_zone
 from raysteps.common.errors import UsageError
 
 _POLICY = """
@@ -119,3 +119,17 @@ def test_sums_are_as_on_paper(percent: str, points: float, left: float, words: s
 def test_days_are_counted_in_whole_numbers() -> None:
     policy = parse_late_policy("deadline = 2026-11-20T23:59:00Z\npercent_per_day = 1\nmax_days = 5.0", "late.toml")
     assert "more than 5 days: 0 points" in apply_policy(policy, [], "2026-12-20T23:59:00Z", 50.0).words
+
+
+def test_it_is_said_that_only_a_file_tells_the_time() -> None:
+    late = apply_policy(_policy(), ["s1"], "2026-11-21T10:00:00Z", 85.0, by_file=True)
+    assert "the deadline (2026-11-20 23:59+01:00), by the time of the file: 1 day begun" in late.words
+    assert "by the time of the file" not in apply_policy(_policy(), ["s1"], "2026-11-21T10:00:00Z", 85.0).words
+    assert "by the time of the file" in apply_policy(_policy(), [], "2026-11-20T10:00:00Z", 85.0, by_file=True).words
+
+
+def test_a_zone_for_every_time() -> None:
+    assert with_zone(_policy(), [], "2026-11-20T10:00:00") == "2026-11-20T10:00:00+01:00"
+    assert with_zone(_policy(), [], "2026-11-20T10:00:00-05:00") == "2026-11-20T10:00:00-05:00"
+    assert with_zone(None, [], "2026-11-20T10:00:00") == "2026-11-20T10:00:00+00:00"
+    assert with_zone(None, [], "") == ""

@@ -154,3 +154,23 @@ def test_downloads_of_canvas_and_moodle(entry: str, whose: int | None) -> None:
         _student(7, id="7", name="Jo Twin"),
     ]
     assert match([entry], students).pairs == ([] if whose is None else [(0, whose)])
+
+
+@pytest.mark.parametrize(
+    "entry", ["eva noe_99_file.tar", "Eva Noé", "EVA_NOE\u0301", "noeeva_99_1_a.zip", "noéeva_99_1_a.zip"]
+)
+def test_accents_may_be_left_out(entry: str) -> None:
+    students = [_student(2, id="1", name="Ann Lee"), _student(3, id="2", name="Eva Noé")]
+    assert match([entry], students).pairs == [(0, 1)]
+    assert match([entry], [_student(2, id="2", name="Eva Noe")]).pairs == [(0, 0)]
+
+
+def test_people_whose_names_differ_in_accents_only() -> None:
+    students = [_student(2, id="1", name="Eva Noe"), _student(3, id="2", name="Eva Noé")]
+    matches = match(["eva noe_99_file.tar", "Eva Noé.zip"], students)
+    assert matches.pairs == [(1, 1)]  # nobody writes an accent that is not there, but it may have been left out
+    assert "several students (1, 2)" in matches.entry_notes[0]
+
+
+def test_signs_of_other_scripts_are_no_accents() -> None:
+    assert match(["かき たろう"], [_student(2, name="がき たろう")]).pairs == []

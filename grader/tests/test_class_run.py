@@ -305,7 +305,7 @@ def test_of_a_team_the_latest_time_counts(tmp_path: Path, handed_in: Path) -> No
     one, two = _document(out)["submissions"][:2]
     assert one["submitted_at"] == "2026-11-20T09:30:00+00:00"
     assert "different times in the roster (2026-11-20T10:00:00+01:00, 2026-11-20T09:30:00+00:00)" in one["note"]
-    assert (two["submitted_at"], two["note"]) == ("2026-11-20T10:00:00", "")
+    assert (two["submitted_at"], two["note"]) == ("2026-11-20T10:00:00+00:00", "")
 
 
 def test_usage(tmp_path: Path, handed_in: Path) -> None:

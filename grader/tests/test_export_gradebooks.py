@@ -5,6 +5,7 @@ import csv
 import io
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from rich.console import Console
@@ -301,3 +302,92 @@ def test_entities_begin_no_formula(case: Case, steps: list[Step]) -> None:
     case.results(f"x,101,,,{document['total']['points']},100,,\n")
     cell = list(csv.reader(io.StringIO(case.run("moodle", MOODLE))))[1][10]
     assert "0 &lt; &#45;1 and &#x27;a&#x27;&#61;&#43;&#64;b" in cell
+
+
+def _comment(case: Case, document: dict[str, Any]) -> str:
+    folder = case.graded / "submissions" / "x"
+    folder.mkdir(parents=True)
+    (folder / "results.json").write_text(json.dumps(document))
+    case.results(f"x,101,,,{document['total']['points']},100,,\n")
+    return list(csv.reader(io.StringIO(case.run("moodle", MOODLE))))[1][10]
+
+
+def test_how_to_repeat_a_test_is_not_why_it_failed(case: Case, steps: list[Step]) -> None:
+    document = mixed(steps)
+    repeat = "to repeat these random inputs, set RAYSTEPS_SEED=2026"
+    failed = [test for step in document["steps"] for test in step["tests"] if not test["passed"]]
+    assert len(failed) > 1
+    failed[0]["message"] = f"{repeat}\nthe ray comes from inside"
+    for test in failed[1:]:
+        test["message"] = repeat
+    cell = _comment(case, document)
+    assert "RAYSTEPS_SEED" not in cell
+    assert f"  - test {failed[0]['name']}: the ray comes from inside<br>" in cell
+    assert f"  - test {failed[1]['name']}: expected: a == b, actual: 1 == 2<br>".replace("=", "&#61;") in cell.replace(
+        "=", "&#61;"
+    )
+
+
+def test_one_reason_for_all_steps_is_said_once(case: Case, steps: list[Step]) -> None:
+    document = mixed(steps)
+    for step in document["steps"]:
+        step.update(status="not-started", points=0.0, build_log="", tests=[], images=[], hidden=[])
+        step["messages"] = ["Nothing was taken from this submission: is no zip"]
+    document["total"]["points"] = 0.0
+    cell = _comment(case, document)
+    assert cell.count("is no zip") == 1
+    assert cell.count("not-started") == len(steps)
+
+
+def test_what_a_worksheet_without_names_and_comments_says(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+    heading = 'ID;"Vollständiger Name";"E-Mail-Adresse";Bewertung;"Feedback als Kommentar"'
+    text = f"{heading}\r\nTeilnehmer/in101;Ann;ann@uni.edu;;\r\n"
+    case.results("x,s7,,ann@uni.edu,7,100,,\n")
+    words = ["--points", "as-is", "--column", "identifier=ID", "--column", "grade=Bewertung"]
+    with pytest.raises(UsageError, match="no student in it"):
+        case.run("moodle", text, *words)
+    said = capsys.readouterr().err
+    assert "only the identifier tells whose a row is" in said
+    assert "--column email=HEADING" in said
+    assert "no comments are written" in said
+    assert "--column feedback=HEADING" in said
+    case.run("moodle", text, *words, "--column", "email=E-Mail-Adresse", "--column", "feedback=Feedback als Kommentar")
+    said = capsys.readouterr().err
+    assert "only the identifier" not in said
+    assert "no comments" not in said
+
+
+def test_which_folder_is_wanted(case: Case, tmp_path: Path) -> None:
+    wanted = "--results wants the folder that grade-class wrote"
+    with pytest.raises(UsageError, match=f"graded: holds no results.csv; {wanted}"):
+        case.run("canvas", CANVAS, "--assignment", "12")
+    (case.graded / "results.csv").write_bytes(b"submission,id\n\xff,1\n")
+    with pytest.raises(UsageError, match=r"is not UTF-8, .* --resume, which writes it anew"):
+        case.run("canvas", CANVAS, "--assignment", "12")
+    case.graded = case.graded / "results.csv"
+    with pytest.raises(UsageError, match=f"results.csv: is a file; {wanted}"):
+        case.run("canvas", CANVAS, "--assignment", "12")
+    case.graded = tmp_path / "nowhere"
+    with pytest.raises(UsageError, match=f"nowhere: is not there; {wanted}"):
+        case.run("canvas", CANVAS, "--assignment", "12")
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (None, "is not there"),
+        (b"", "is empty"),
+        (b'{"a": 1', r"is not JSON, or only a part of it \(line 1, column \d+\)"),
+        (b'{"a": "\xff"}', "is not JSON"),
+        (b"[" * 100_000, "is not JSON"),
+    ],
+)
+def test_no_words_of_python_about_results(project: Project, tmp_path: Path, data: bytes | None, words: str) -> None:
+    path = tmp_path / "results.json"
+    if data is not None:
+        path.write_bytes(data)
+    expected = "; expected is a results.json as `./raysteps grade` writes it$"
+    with pytest.raises(UsageError, match=f"results.json: {words}{expected}"):
+        _run(project, "autolab", "--results", path)
+    with pytest.raises(UsageError, match=f"is a folder{expected}"):
+        _run(project, "autolab", "--results", tmp_path)

@@ -33,7 +33,7 @@ def test_other_case_is_taken_and_remarked(tmp_path: Path, steps: list[Step], nam
 def test_the_exact_name_wins_over_another_case(tmp_path: Path, steps: list[Step]) -> None:
     submission = take_in(_folder(tmp_path, "steps/04-shadows/Shadows.cpp", GOOD), steps)
     assert submission.sources["04-shadows"] == f"// {GOOD}\n".encode()
-    assert not submission.remarks
+    assert submission.remarks == {"04-shadows": f"steps/04-shadows/Shadows.cpp was left out beside {GOOD}."}
     assert not submission.notes
 
 
@@ -130,3 +130,44 @@ def test_names_of_ten_megabytes_are_refused(tmp_path: Path, steps: list[Step]) -
             archive.addfile(tarfile.TarInfo("shadows.cpp"), io.BytesIO(b""))
         with pytest.raises(UsageError, match="impossible size"):
             take_in(path, steps)
+
+
+@pytest.mark.parametrize(
+    ("names", "unusual"),
+    [
+        (["step4/shadows.cpp"], ["step4/shadows.cpp"]),
+        (["step1/camera_rays.cpp", "step4/shadows.cpp"], ["step1/camera_rays.cpp", "step4/shadows.cpp"]),
+        ([GOOD, "old/steps/06-octree/octree.cpp"], ["old/steps/06-octree/octree.cpp"]),
+        ([GOOD, "octree.cpp"], ["octree.cpp"]),
+        (["anna/shadows.cpp", "anna/octree.cpp"], []),  # all in a folder of its own
+        (["anna/steps/04-shadows/shadows.cpp"], []),
+        (["shadows.cpp"], []),
+        (["04-shadows/shadows.cpp", "06-octree/octree.cpp"], []),
+    ],
+)
+def test_unusual_places_are_named(tmp_path: Path, steps: list[Step], names: list[str], unusual: list[str]) -> None:
+    submission = take_in(_folder(tmp_path, *names), steps)
+    assert len(submission.sources) == len(names)
+    said = " ".join(submission.remarks.values())
+    assert [name for name in names if f"It was found at {name}; expected is steps/" in said] == unusual
+    assert len(submission.remarks) == len(unusual)
+
+
+@pytest.mark.parametrize(
+    "copies", [["shadows.cpp"], ["old/steps/04-shadows/shadows.cpp", "a/steps/04-shadows/shadows.cpp"]]
+)
+def test_copies_that_were_left_out_are_named(tmp_path: Path, steps: list[Step], copies: list[str]) -> None:
+    for order in ([GOOD, *copies], [*copies, GOOD]):  # in an archive, either may come first
+        path = tmp_path / "a.zip"
+        with zipfile.ZipFile(path, "w") as archive:
+            for name in order:
+                archive.writestr(name, f"// {name}\n")
+        submission = take_in(path, steps)
+        assert submission.sources == {"04-shadows": f"// {GOOD}\n".encode()}
+        left_out = f"{' and '.join(sorted(copies))} {'were' if len(copies) > 1 else 'was'} left out beside {GOOD}."
+        assert submission.remarks == {"04-shadows": left_out}
+
+
+def test_a_crowd_of_copies_makes_no_long_remark(tmp_path: Path, steps: list[Step]) -> None:
+    submission = take_in(_folder(tmp_path, GOOD, *(f"{at}/shadows.cpp" for at in range(50))), steps)
+    assert submission.remarks["04-shadows"].count("shadows.cpp") == 4

@@ -7,9 +7,11 @@ from decimal import Decimal
 from pathlib import Path
 
 from raysteps.classroom.entries import Shard, read_shard
-from raysteps.classroom.plan import Order
+from raysteps.classroom.order import Order
 from raysteps.common.errors import UsageError
 from raysteps.grading.limits import parse_limits
+
+_NONE = "none"  # instead of a file: without one, also where the last run had one
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,11 +19,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per submission")
     add("--out", type=Path, required=True, metavar="OUT", help="where class.sqlite, results.csv and the rest go")
-    add("--roster", type=Path, metavar="CSV", help="the students: id, name, email, submission, submitted_at")
+    add("--roster", metavar="CSV", help="the students: id, name, email, submission, submitted_at; or `none`")
     add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
     add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
     add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
-    add("--late-policy", type=Path, metavar="TOML", help="deadline, grace, percent per day, extensions")
+    add("--late-policy", metavar="TOML", help="deadline, grace, percent per day, extensions; or `none`")
     add("--seed", type=int, default=1, help="of the hidden cases (1)")
     add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
     add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
@@ -45,6 +47,10 @@ def refuse_beside_merge(arguments: argparse.Namespace) -> None:
             raise UsageError(f"--merge brings together what is graded already; {option} is for the shards")
 
 
+def _file(word: str | None) -> Path | None:
+    return None if word is None or word == _NONE else Path(word)
+
+
 def read_order(arguments: argparse.Namespace, grader: str) -> Order:
     if arguments.folder is None:
         raise UsageError("grade-class: expected a folder of submissions (or --merge)")
@@ -58,11 +64,11 @@ def read_order(arguments: argparse.Namespace, grader: str) -> Order:
     return Order(
         arguments.folder,
         arguments.out,
-        arguments.roster,
+        _file(arguments.roster),
         jobs,
         arguments.resume,
         tuple(arguments.only),
-        arguments.late_policy,
+        _file(arguments.late_policy),
         arguments.seed,
         arguments.feedback,
         parse_limits(arguments.limit),
@@ -70,6 +76,8 @@ def read_order(arguments: argparse.Namespace, grader: str) -> Order:
         arguments.scheduler,
         read_shard(arguments.shard),
         grader,
+        no_roster=arguments.roster == _NONE,
+        no_late_policy=arguments.late_policy == _NONE,
     )
 
 
@@ -81,8 +89,12 @@ def _plain(value: float) -> str:
 def line_to_go_on(order: Order) -> str:
     """The line that goes on with the same run."""
     words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
-    for option, path in (("--roster", order.roster), ("--late-policy", order.late_policy)):
-        words += [option, str(path)] if path is not None else []
+    for option, path, dropped in (
+        ("--roster", order.roster, order.no_roster),
+        ("--late-policy", order.late_policy, order.no_late_policy),
+    ):
+        named = f"./{path}" if str(path) == _NONE else str(path)
+        words += [option, named] if path is not None else [option, _NONE] if dropped else []
     if order.scheduler:
         words += ["--scheduler", order.scheduler]
     else:

@@ -16,7 +16,8 @@ from raysteps.classroom.files import withdraw_tables, write_class
 from raysteps.classroom.graders import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.interrupts import terminated_as_interrupted
 from raysteps.classroom.merge import merge
-from raysteps.classroom.plan import Order, Plan, make_plan
+from raysteps.classroom.order import Order
+from raysteps.classroom.plan import Plan, make_plan
 from raysteps.classroom.pool import LocalPool
 from raysteps.classroom.progress import Meter
 from raysteps.classroom.report import class_document
@@ -121,6 +122,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
     plan = make_plan(project, read_order(arguments, grader))
     with _only_one(plan.order.out):
         meter = Meter(console, len(plan.mine()))
+        for words in plan.given.said:
+            meter.say(words)
         try:
             with terminated_as_interrupted():
                 made = _prepare(plan.order, meter)

@@ -49,6 +49,8 @@ class ClassDatabase:
                 "ignored": json.dumps(facts.ignored),
             }
             insert(self.connection, "runs", row)
+            given = {"uid": facts.uid, "roster": facts.roster, "files": json.dumps(facts.files)}
+            insert(self.connection, "given", given)
             (number,) = self.connection.execute("SELECT max(number) FROM runs").fetchone()
             self.connection.execute("UPDATE submissions SET scope = 'gone'")
             self.connection.execute("DELETE FROM students")

@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from decimal import ROUND_CEILING, Decimal
 
 from raysteps.classroom.late_policy import LatePolicy
 from raysteps.classroom.names import folded
 from raysteps.common.text import count, number
 
+BY_FILE = "by the time of the file"
 _DAY = timedelta(days=1)
 
 
@@ -41,22 +42,30 @@ def _left(points: float, percent: Decimal) -> float:
     return float(exact.quantize(Decimal("0.01"), rounding=ROUND_CEILING))
 
 
-def apply_policy(policy: LatePolicy, students: Sequence[str], submitted_at: str, points: float) -> Lateness:
-    """`students` are the ids whose extensions count; a time without a zone is in that of the deadline that
-    counts for them."""
+def with_zone(policy: LatePolicy | None, students: Sequence[str], submitted_at: str) -> str:
+    """A time without a zone is in that of the deadline that counts for these students, else in UTC."""
+    if not submitted_at:
+        return ""
+    moment = datetime.fromisoformat(submitted_at)
+    zone = _deadline(policy, students).tzinfo if policy is not None else UTC
+    return (moment if moment.tzinfo is not None else moment.replace(tzinfo=zone)).isoformat()
+
+
+def apply_policy(
+    policy: LatePolicy, students: Sequence[str], submitted_at: str, points: float, *, by_file: bool = False
+) -> Lateness:
+    """`students` are the ids whose extensions count. `by_file`: nobody but the time of a file says when it was."""
     deadline = _deadline(policy, students)
     extension = ", with an extension" if deadline != policy.deadline else ""
     shown = deadline.isoformat(sep=" ", timespec="minutes")
     if not submitted_at:
         words = f"It is not known when this was handed in, so nothing is taken off: {number(points)} points."
         return Lateness(0, 0.0, points, shown, words)
-    submitted = datetime.fromisoformat(submitted_at)
-    if submitted.tzinfo is None:
-        submitted = submitted.replace(tzinfo=deadline.tzinfo)
-    late = submitted - deadline
+    source = f", {BY_FILE}" if by_file else ""
+    late = datetime.fromisoformat(with_zone(policy, students, submitted_at)) - deadline
     if late <= timedelta():
-        return Lateness(0, 0.0, points, shown, f"Handed in on time{extension}: {number(points)} points.")
-    after = f"Handed in {_span(late)} after the deadline ({shown}{extension})"
+        return Lateness(0, 0.0, points, shown, f"Handed in on time{extension}{source}: {number(points)} points.")
+    after = f"Handed in {_span(late)} after the deadline ({shown}{extension}){source}"
     if late <= policy.grace:
         words = f"{after}, within {_span(policy.grace)} of grace: {number(points)} points."
         return Lateness(0, 0.0, points, shown, words)

@@ -4,10 +4,13 @@ Only the roster and the entry's own name count. The name must be the student's i
 it: the beginning is what a learning platform writes, while the end may be a file name that a student chose."""
 
 import re
+import unicodedata
 from dataclasses import dataclass, field
 
 from raysteps.classroom.names import folded, platform_identity, stem
 from raysteps.classroom.roster import Student
+
+_ACCENTS = re.compile("[\u0300-\u036f]")
 
 
 @dataclass
@@ -19,8 +22,13 @@ class Matches:
     student_notes: dict[int, str] = field(default_factory=dict)
 
 
-def _plain(text: str) -> str:
+def _words(text: str) -> str:
     return re.sub(r"[\W_]+", "_", folded(text)).strip("_")
+
+
+def _plain(text: str) -> str:
+    """Without accents, too: platforms and students leave them out."""
+    return _words(_ACCENTS.sub("", unicodedata.normalize("NFKD", text)))
 
 
 def _squeezed(name: str) -> set[str]:
@@ -62,6 +70,21 @@ def _fit(student: Student, entry: str) -> tuple[bool, int]:
     return best
 
 
+def _is_spelled(student: Student, entry: str) -> bool:
+    """Whether all words of the name stand there with their accents."""
+    return bool(student.name) and all(word in _words(entry) for word in _words(student.name).split("_"))
+
+
+def _best(students: list[Student], open_to: list[int], name: str) -> list[int]:
+    """Who fits best; of people whose names differ in accents only, whom an entry with accents is spelled like."""
+    fits = {number: fit for number in open_to if (fit := _fit(students[number], name)) != (False, 0)}
+    best = [number for number, fit in fits.items() if fit == max(fits.values())]
+    if len(best) > 1 and _words(name) != _plain(name):
+        spelled = [number for number in best if _is_spelled(students[number], name)]
+        best = spelled if len(spelled) == 1 else best
+    return best
+
+
 def _named(entries: list[str], name: str) -> list[int]:
     same = [at for at, entry in enumerate(entries) if entry == name]
     return same or [at for at, entry in enumerate(entries) if stem(entry).casefold() == stem(name).casefold()]
@@ -83,12 +106,7 @@ def match(entries: list[str], students: list[Student]) -> Matches:
         if at in claimed:
             continue
         name = stem(entry)
-        fits = {
-            number: fit
-            for number, student in enumerate(students)
-            if not student.submission and (fit := _fit(student, name)) != (False, 0)
-        }
-        best = [number for number, fit in fits.items() if fit == max(fits.values())]
+        best = _best(students, [number for number, student in enumerate(students) if not student.submission], name)
         if len(best) == 1:
             matches.pairs.append((at, best[0]))
         elif best:

@@ -73,6 +73,9 @@ class _Merge:
     def run(self, source: sqlite3.Connection, row: dict[str, Any], ids: dict[int, int]) -> None:
         """One run with its results and pictures."""
         number = self._run(row)
+        if source.execute("SELECT 1 FROM sqlite_master WHERE name = 'given'").fetchone():
+            for given in rows_of(source, "SELECT * FROM given WHERE uid = ?", row["uid"]):
+                insert(self._target, "given", given, "ON CONFLICT (uid) DO NOTHING")
         for result in rows_of(source, "SELECT * FROM results WHERE run = ?", row["number"]):
             place = {"submission": ids[result["submission"]], "run": number}
             done = insert(self._target, "results", {**result, **place}, "ON CONFLICT (submission, run) DO NOTHING")

@@ -25,11 +25,10 @@ def check_places(folder: Path, out: Path, *, resume: bool) -> None:
         raise UsageError(f"--resume: {out} holds no {FILE} to go on from")
 
 
-def read_text(path: Path | None) -> str:
-    """The late policy; nothing where there is none."""
-    if path is None:
-        return ""
+def read_text(path: Path) -> str:
+    """The late policy."""
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: the late policy cannot be read: {error}") from error
+        why = "is not UTF-8" if isinstance(error, UnicodeDecodeError) else error.strerror
+        raise UsageError(f"{path}: the late policy cannot be read: {why}") from error

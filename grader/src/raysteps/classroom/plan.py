@@ -1,44 +1,23 @@
 """What a run is to do, worked out before anything is built or graded."""
 
+import os
 import uuid
 from collections import defaultdict
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
-from raysteps.classroom.graders import KIT_GRADER
+from raysteps.classroom.entries import Entry, Listing, list_entries, newest_time
+from raysteps.classroom.given import Given, read_given, roster_text
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.matching import Matches, match
 from raysteps.classroom.names import name_entries
-from raysteps.classroom.places import check_places, read_text
+from raysteps.classroom.order import Order
+from raysteps.classroom.places import check_places
 from raysteps.classroom.records import Registered, Registration, RunFacts, Scope
-from raysteps.classroom.roster import Student, read_roster
-from raysteps.judge.feedback import Feedback
+from raysteps.classroom.roster import Student
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
-
-
-@dataclass(frozen=True)
-class Order:
-    """What was asked for on the command line."""
-
-    folder: Path
-    out: Path
-    roster: Path | None = None
-    jobs: int = 1
-    resume: bool = False
-    only: tuple[str, ...] = ()
-    late_policy: Path | None = None
-    seed: int = 1
-    feedback: Feedback = "full"
-    limits: Mapping[str, float] = field(default_factory=dict)
-    require_sandbox: bool = False
-    scheduler: str = ""
-    shard: Shard = field(default_factory=Shard)
-    grader: str = KIT_GRADER
 
 
 @dataclass(frozen=True)
@@ -49,10 +28,17 @@ class Plan:
     steps: list[Step]
     chosen: list[Step]
     listing: Listing
-    students: list[Student]
+    given: Given
     matches: Matches
-    late_policy: str  # the text of the file
     uid: str = field(default_factory=lambda: uuid.uuid4().hex)
+
+    @property
+    def students(self) -> list[Student]:
+        return self.given.students
+
+    @property
+    def late_policy(self) -> str:
+        return self.given.late_policy
 
     @property
     def grading(self) -> dict[str, Any]:
@@ -72,7 +58,12 @@ class Plan:
         ]
         folder = str(self.order.folder.resolve()).encode("utf-8", "backslashreplace").decode()
         shard = str(self.order.shard)
-        return RunFacts(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored)
+        files = [os.path.realpath(path) for path in self.given.files]
+        return RunFacts(
+            *(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored),
+            roster=roster_text(self.students),
+            files=[file.encode("utf-8", "backslashreplace").decode() for file in files],
+        )
 
     def registered(self, known: dict[str, str]) -> list[Registered]:
         """All entries, also those of other shards, so that merging shards shows what is missing."""
@@ -81,17 +72,19 @@ class Plan:
         rows = []
         for at, entry in enumerate(self.listing.entries):
             said = times.get(at, [])
-            when = said[-1] if said else newest_time(entry.path)
+            when = said[-1][0] if said else newest_time(entry.path)
             source = "roster" if said else "files" if when else ""
             scope: Scope = "here" if self.order.shard.holds(entry.label) else "elsewhere"
             note = self.matches.entry_notes.get(at, "")
             if len(said) > 1:
-                note = f"Its students have different times in the roster ({', '.join(said)}); the latest counts."
+                times_said = ", ".join(time for _, time in said)
+                note = f"Its students have different times in the roster ({times_said}); the latest counts."
             rows.append(Registered(entry.label, names[entry.label], scope, when, source, note))
         return rows
 
-    def _times(self) -> dict[int, list[str]]:
-        """What the roster says of when an entry was handed in: of a team perhaps several times, the latest last."""
+    def _times(self) -> dict[int, list[tuple[str, str]]]:
+        """What the roster says of when an entry was handed in, and that with a zone: of a team perhaps several times,
+        the latest last."""
         zone = parse_late_policy(self.late_policy, "").deadline.tzinfo if self.late_policy else UTC
 
         def moment(text: str) -> datetime:
@@ -103,7 +96,7 @@ class Plan:
             text = self.students[number].submitted_at
             if text:
                 times[at][moment(text)] = text
-        return {at: [said[when] for when in sorted(said)] for at, said in times.items()}
+        return {at: [(said[when], when.isoformat()) for when in sorted(said)] for at, said in times.items()}
 
     def registrations(self) -> list[Registration]:
         entries: dict[int, list[str]] = defaultdict(list)
@@ -126,11 +119,7 @@ def make_plan(project: Project, order: Order) -> Plan:
     check_places(order.folder, order.out, resume=order.resume)
     steps = read_steps(project)
     chosen = choose(steps, list(order.only))
-    policy = read_text(order.late_policy)
-    if order.late_policy is not None:
-        parse_late_policy(policy, str(order.late_policy))
-    students = read_roster(order.roster) if order.roster is not None else []
-    files = [path for path in (order.roster, order.late_policy) if path is not None]
-    listing = list_entries(order.folder, files)
-    matches = match([entry.label for entry in listing.entries], students)
-    return Plan(order, steps, chosen, listing, students, matches, policy)
+    given = read_given(order)
+    listing = list_entries(order.folder, given.files)
+    matches = match([entry.label for entry in listing.entries], given.students)
+    return Plan(order, steps, chosen, listing, given, matches)

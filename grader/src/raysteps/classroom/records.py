@@ -1,7 +1,7 @@
 """What the database is told at the beginning of a run."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 Scope = Literal["here", "elsewhere", "gone"]  # "elsewhere": it belongs to another shard
@@ -42,3 +42,5 @@ class RunFacts:
     steps: list[dict[str, Any]]
     late_policy: str
     ignored: list[str]
+    roster: str = "[]"  # JSON: its lines as they were read
+    files: list[str] = field(default_factory=list)  # where roster and late policy lay

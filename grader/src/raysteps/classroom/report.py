@@ -64,7 +64,7 @@ class _Report:
             "(SELECT student FROM handed_in GROUP BY student HAVING count(*) > 1) ORDER BY id, name, email"
         )
         students = self._query("SELECT count(*) AS amount FROM students").fetchone()["amount"]
-        finals = [one["final"] for one in submissions if one["final"] is not None]
+        finals = [one["final"] for one in submissions if one["status"] == "graded"]
         return {
             "schema": "raysteps/class/v1",
             "run": self._run(self._last),

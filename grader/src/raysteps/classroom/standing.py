@@ -8,7 +8,7 @@ from typing import Any
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.late_policy import LatePolicy
-from raysteps.classroom.lateness import apply_policy
+from raysteps.classroom.lateness import apply_policy, with_zone
 from raysteps.classroom.names import folded, stem
 
 Document = dict[str, Any]
@@ -84,9 +84,10 @@ class Standings:
         students = self._students(row["id"])
         result = _result(current)
         late = None
+        ids = self.extended(row, students)
         if self._policy is not None and result["points"] is not None:
-            ids = self.extended(row, students)
-            late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"]))
+            by_file = row["submitted_from"] == "files"
+            late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"], by_file=by_file))
         return {
             "name": row["name"],
             "entry": row["entry"],
@@ -94,7 +95,7 @@ class Standings:
             **result,
             "final": late["points"] if late is not None else result["points"],
             "late": late,
-            "submitted_at": row["submitted_at"],
+            "submitted_at": with_zone(self._policy, ids, row["submitted_at"]),
             "submitted_from": row["submitted_from"],
             "outdated": self._is_outdated(row, result["run"]),
             "before": self._before(row["id"], result["run"]),

@@ -8,6 +8,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.classroom.files import SUBMISSIONS
+from raysteps.classroom.lateness import BY_FILE
 from raysteps.classroom.progress import first_line
 from raysteps.common.text import count, number
 
@@ -30,9 +31,14 @@ def _total(one: dict[str, Any]) -> str:
     return number(one["points"]) + (" !" if one["inconsistent"] else "")
 
 
+def _is_late(document: dict[str, Any]) -> bool:
+    """Whether there is anything to say about days: else the final points are the total."""
+    return any(one["late"] is not None and one["late"]["days"] for one in document["submissions"])
+
+
 def _table(document: dict[str, Any]) -> Table:
     steps = document["steps"]
-    late = document["late_policy"] is not None
+    late = _is_late(document)
     table = Table()
     table.add_column("submission", overflow="fold")
     for step in steps:
@@ -66,12 +72,33 @@ def _who(student: dict[str, str]) -> str:
     return f"{words}: {student['note']}" if student["note"] else words
 
 
+def _late_by_file(document: dict[str, Any]) -> list[str]:
+    """Copying or unpacking may have set that time: it should not cost points unseen."""
+    return [
+        f"{one['name']}: {one['submitted_at']}, {count(one['late']['days'], 'day')} begun, "
+        f"{number(one['late']['percent'])} % off"
+        for one in document["submissions"]
+        if one["submitted_from"] == "files" and one["late"] is not None and one["late"]["days"]
+    ]
+
+
+def _mean(document: dict[str, Any]) -> str:
+    """How the class stands, and what that counts."""
+    facts = document["statistics"]
+    lateness = " after lateness" if document["late_policy"] is not None else ""
+    points = f"mean {number(facts['mean'])}, median {number(facts['median'])} points{lateness}"
+    unread = len(document["unreadable"])
+    others = f"; without the {unread} from which nothing could be taken" if unread else ""
+    return f"{count(facts['graded'], 'submission')} graded: {points}{others}"
+
+
 def _print_apart(console: Console, document: dict[str, Any]) -> None:
     """What a table cannot say."""
     by_name = {one["name"]: one for one in document["submissions"]}
     faults = [f"{name}: {first_line(by_name[name]['fault'])}" for name in document["faults"]]
     _print_list(console, "Not graded because of a fault of the grader; --resume tries again", faults)
-    _print_list(console, "Not graded yet; --resume goes on, or a shard is missing", document["not_graded"])
+    missing = ", or a shard is missing" if any(run["shard"] != "1/1" for run in document["runs"]) else ""
+    _print_list(console, f"Not graded yet; --resume goes on{missing}", document["not_graded"])
     _print_list(console, "With an earlier result, because the last run was interrupted", document["outdated"])
     unread = [f"{name} (results.json says why)" for name in document["unreadable"]]
     _print_list(console, "Nothing could be taken from these", unread)
@@ -82,6 +109,7 @@ def _print_apart(console: Console, document: dict[str, Any]) -> None:
         for claim in found
     ]
     _print_list(console, "Inconsistent (!): the program claims what the judge did not see; look at the code", claims)
+    _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
     changed = [
         f"{one['name']}: {_points(one['before'])} before, {_points(one['after'])} now" for one in document["changed"]
     ]
@@ -103,11 +131,11 @@ def print_summary(console: Console, document: dict[str, Any], out: Path) -> None
     console.print(_table(document))
     console.print(f"[dim]{_LEGEND}; * bonus[/dim]")
     _print_apart(console, document)
-    facts = document["statistics"]
     console.print()
-    if facts["graded"]:
-        mean, median = number(facts["mean"]), number(facts["median"])
-        console.print(f"{count(facts['graded'], 'submission')} graded: mean {mean}, median {median} points")
+    if document["statistics"]["graded"]:
+        console.print(_mean(document))
+    if document["late_policy"] is not None and not _is_late(document):
+        console.print("Nobody was late")
     reused = document["run"]["reused"]
     if reused:
         console.print(f"{count(reused, 'result')} of an earlier run still hold and were not made anew")

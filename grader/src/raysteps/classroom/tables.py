@@ -86,6 +86,13 @@ CREATE TABLE IF NOT EXISTS reused (       -- earlier results that a run found to
     PRIMARY KEY (submission, run)
 )
 """
+_GIVEN = """
+CREATE TABLE IF NOT EXISTS given (        -- what a run was given beside the submissions
+    uid TEXT PRIMARY KEY REFERENCES runs (uid),
+    roster TEXT NOT NULL,                 -- JSON: the lines of the roster
+    files TEXT NOT NULL                   -- JSON: where roster and late policy lay
+)
+"""
 
 
 @contextmanager
@@ -131,6 +138,7 @@ def open_database(path: Path) -> sqlite3.Connection:
                     connection.execute(f"PRAGMA application_id = {_APPLICATION}")
                     connection.execute(f"PRAGMA user_version = {VERSION}")
                 connection.execute(_REUSED)
+                connection.execute(_GIVEN)
         except BaseException:
             connection.close()
             raise

@@ -75,13 +75,29 @@ def _graded(path: Path, line: int, row: dict[str, str]) -> Graded:
     return Graded(**who, in_time=points, points=points if late is None else late, most=most or 0.0)
 
 
+def _why_not(folder: Path, error: OSError) -> str:
+    wanted = "--results wants the folder that grade-class wrote (its --out)"
+    if folder.is_file():
+        return f"{folder}: is a file; {wanted}"
+    if not folder.exists():
+        return f"{folder}: is not there; {wanted}"
+    if isinstance(error, FileNotFoundError):
+        return f"{folder}: holds no results.csv; {wanted}, after grade-class has come to its end"
+    return f"{folder / 'results.csv'}: cannot be read: {error.strerror}; {wanted}"
+
+
 def read_class(folder: Path) -> list[Graded]:
     """The rows of FOLDER/results.csv."""
     path = folder / "results.csv"
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, ValueError) as error:
-        raise UsageError(f"{path}: cannot be read ({error}); expected the output folder of grade-class") from error
+    except OSError as error:
+        raise UsageError(_why_not(folder, error)) from error
+    except ValueError as error:
+        raise UsageError(
+            f"{path}: is not UTF-8, as when another program has saved it; run grade-class with --resume, "
+            "which writes it anew"
+        ) from error
     reader = csv.DictReader(io.StringIO(text, newline=""), restval="")
     try:
         missing = [name for name in _NEEDED if name not in (reader.fieldnames or [])]

@@ -77,10 +77,13 @@ def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Con
 
     # Moodle leaves a grade above the maximum out without a word.
     filled = fill(sheet, book, graded, feedback, points=arguments.points, clip=is_moodle)
-    for note in filled.notes:
+    for note in (*book.notes, *filled.notes):
         print(f"raysteps: {clean(note)}", file=sys.stderr)
     if not filled.graded:
-        raise UsageError(f"{arguments.template}: no student in it is in {arguments.results / 'results.csv'}")
+        raise UsageError(
+            f"{arguments.template}: no student in it is in {arguments.results / 'results.csv'}; nothing was written. "
+            "Expected are the same ids, email addresses or names in both, such as by a --roster for grade-class"
+        )
     write_out(arguments.out, sheet.filled(filled.changes))
     console.print(f"{escape(str(arguments.out))}: {count(filled.graded, 'grade')}", soft_wrap=True, highlight=False)
     return 0

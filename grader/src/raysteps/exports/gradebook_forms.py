@@ -40,6 +40,7 @@ class Gradebook:
     grade: int
     feedback: int | None
     students: list[Student]
+    notes: tuple[str, ...] = ()  # what cannot be done for want of a column
 
 
 def _headers(sheet: Sheet) -> dict[str, int]:
@@ -111,6 +112,22 @@ def canvas(sheet: Sheet, assignment: str | None) -> Gradebook:
     return Gradebook(grade, None, students)
 
 
+def _not_there(columns: Mapping[str, int]) -> tuple[str, ...]:
+    notes = []
+    if not columns.keys() & {"email", "name", "id"}:
+        notes.append(
+            "only the identifier tells whose a row is, because the worksheet has none of the columns "
+            f"{_MOODLE['email']}, {_MOODLE['name']} and {_MOODLE['id']}; name them with --column email=HEADING, "
+            "--column name=HEADING or --column id=HEADING"
+        )
+    if "feedback" not in columns:
+        notes.append(
+            f"no comments are written, because the worksheet has no column {_MOODLE['feedback']}; "
+            "name it with --column feedback=HEADING"
+        )
+    return tuple(notes)
+
+
 def moodle(sheet: Sheet, renamed: Mapping[str, str]) -> Gradebook:
     """A grading worksheet; `renamed` gives the headings where Moodle speaks another language."""
     headers = _headers(sheet)
@@ -119,7 +136,10 @@ def moodle(sheet: Sheet, renamed: Mapping[str, str]) -> Gradebook:
     unknown = [name for name in renamed.values() if name not in headers]
     missing = [names[kind] for kind in ("identifier", "grade") if kind not in columns]
     if unknown or missing:
-        hint = "if Moodle speaks another language, name them with --column, as in --column grade=Bewertung"
+        hint = (
+            "if Moodle speaks another language, name all of identifier, grade, max, email or name, and feedback with "
+            "--column, as in --column grade=Bewertung"
+        )
         raise UsageError(f"{sheet.path}: has no column {', '.join([*unknown, *missing])}; {hint}")
     students = []
     for row in sheet.rows[1:]:
@@ -134,4 +154,4 @@ def moodle(sheet: Sheet, renamed: Mapping[str, str]) -> Gradebook:
         most = row.text(columns["max"]).strip() if "max" in columns else ""
         locked = "locked" in columns and folded(row.text(columns["locked"])) == "no"
         students.append(Student(row, person, most, "has a locked grade" if locked else ""))
-    return Gradebook(columns["grade"], columns.get("feedback"), students)
+    return Gradebook(columns["grade"], columns.get("feedback"), students, _not_there(columns))

@@ -9,6 +9,7 @@ from raysteps.exports.wording import one_line
 from raysteps.kit.manifest import Step
 
 Document = Mapping[str, Any]
+_HOW_TO_REPEAT = "to repeat these random inputs, set RAYSTEPS_SEED="  # what a failed test of the kit says first
 
 
 def title(result: Document, steps: Mapping[str, Step]) -> str:
@@ -36,22 +37,36 @@ def _visible(result: Document) -> str:
 
 
 def _failed_checks(result: Document, step: Step | None) -> list[str]:
-    """What failed, with the first line of why."""
-    failed = [(item, item.text.partition("\n")[0]) for item in items_of(result, step) if not item.passed]
+    """What failed, and why."""
+    failed = [(item, _why(item.text)) for item in items_of(result, step) if not item.passed]
     return [f"  - {item.kind} {item.name}: {one_line(why, 300)}" for item, why in failed]
+
+
+def _why(text: str) -> str:
+    """The first line that tells what is wrong; an expression alone does not, without what came of it."""
+    lines = [line for line in text.splitlines() if not line.startswith(_HOW_TO_REPEAT)] or ["failed"]
+    return ", ".join(lines[:2]) if lines[0].startswith("expected: ") else lines[0]
+
+
+def _same_for_all(document: Document) -> str:
+    """What is said of every step alike, such as that nothing could be read."""
+    said = {step_text(result) for result in document["steps"]}
+    return said.pop() if len(said) == 1 and len(document["steps"]) > 1 else ""
 
 
 def summary(document: Document, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
     """One line per step with what there is to say about it, on request with the checks that failed; without points,
     nothing that hidden checks decide."""
     lines = [f"{total_line(document)}."] if points else []
+    same = _same_for_all(document)
+    lines += same.splitlines()
     for result in document["steps"]:
         name = one_line(title(result, steps))
         if points:
             lines.append(f"{name}: {number(result['points'])} of {number(result['max'])}, {result['status']}")
         else:
             lines.append(f"{name}: {_visible(result)}")
-        if points or result["status"] in ("not-started", "does-not-build"):
+        if not same and (points or result["status"] in ("not-started", "does-not-build")):
             lines += [f"  {line}" for line in step_text(result).splitlines()]
         if checks:
             lines += _failed_checks(result, steps.get(result["id"]))

@@ -6,13 +6,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import printable
+from raysteps.common.text import listed, printable
 from raysteps.kit.manifest import Step
 from raysteps.submission.archives import DAMAGED, archive_entries
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import Entry, NotTaken, shown
 from raysteps.submission.folders import FolderReader
-from raysteps.submission.places import Place, Places
+from raysteps.submission.places import Place, Places, unusual_places
+
+_MOST_COPIES = 3  # that are named
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,7 @@ class _Collector:
         self._places = Places(steps)
         self._found: dict[str, _Found] = {}
         self._problems: dict[str, str] = {}  # why something at an accepted place was not taken
+        self._copies: dict[str, list[str]] = {}  # what was left out because the same lay at a more explicit place
         self._near: dict[str, str] = {}  # what looks like a step's file but lies elsewhere or is called otherwise
 
     def take(self, entries: Iterator[Entry]) -> None:
@@ -58,10 +61,12 @@ class _Collector:
 
     def _take_at(self, place: Place, entry: Entry) -> None:
         best = self._found.get(place.step)
-        if best is not None and place.rank > best.place.rank:
-            return
         path = shown(entry.parts)
+        if best is not None and place.rank > best.place.rank:
+            self._leave_out(place.step, path)
+            return
         if best is not None and place.rank == best.place.rank:
+            self._leave_out(place.step, path)  # should there be a better one yet
             best.data, best.problem = b"", "is there more than once, so none of them was taken."
             return
         found = _Found(place, path)
@@ -70,7 +75,14 @@ class _Collector:
         except NotTaken as problem:  # a file at a lesser place is better than none
             self._problems.setdefault(place.step, f"{path} {problem}")
             return
+        if best is not None:
+            self._leave_out(place.step, best.path)
         self._found[place.step] = found
+
+    def _leave_out(self, step: str, path: str) -> None:
+        copies = self._copies.setdefault(step, [])
+        if path not in copies and len(copies) < _MOST_COPIES:
+            copies.append(path)
 
     def cannot_look_into(self, folders: list[tuple[str, ...]]) -> None:
         for folder in folders:
@@ -79,6 +91,7 @@ class _Collector:
 
     def submission(self, name: str) -> Submission:
         result = Submission(name, {}, self._near | self._problems)
+        unusual = unusual_places({step: found.place for step, found in self._found.items()})
         for step, found in self._found.items():
             result.notes.pop(step, None)
             problem = found.problem
@@ -91,11 +104,23 @@ class _Collector:
                 continue
             result.sources[step] = decoded.source
             remarks = [self._problems.get(step, ""), decoded.remark(self._steps[step].file)]
-            if not found.place.exact:
-                remarks.append(f"{found.path} was taken for steps/{self._steps[step].path.as_posix()}.")
+            remarks += self._of_place(step, found, unusual)
             if any(remarks):
                 result.remarks[step] = " ".join(filter(None, remarks))
         return result
+
+    def _of_place(self, step: str, found: _Found, unusual: set[str]) -> list[str]:
+        """Where a source lay, and what was left out beside it."""
+        remarks = []
+        expected = f"steps/{self._steps[step].path.as_posix()}"
+        if not found.place.exact:
+            remarks.append(f"{found.path} was taken for {expected}.")
+        elif step in unusual:
+            remarks.append(f"It was found at {found.path}; expected is {expected}.")
+        copies = sorted(self._copies.get(step, []))
+        if copies:
+            remarks.append(f"{listed(copies)} {'was' if len(copies) == 1 else 'were'} left out beside {found.path}.")
+        return remarks
 
 
 def submission_name(path: Path) -> str:

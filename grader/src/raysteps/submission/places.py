@@ -1,10 +1,12 @@
 """Where the files of a submission are expected, and which names are close to an expected one."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from raysteps.kit.manifest import Step
 
+_BARE = 2
 _ENDINGS = (".txt", ".bak", ".orig", "~", ".cpp", ".cc", ".cxx", ".c++", ".cp", ".c")
 _WORDS_OF_COPIES = re.compile(r"\b(?:copy|kopie|copia|copie|of|von|de|final|new|old|v)\b")
 
@@ -16,6 +18,8 @@ class Place:
     step: str
     rank: int
     exact: bool  # not only but for upper and lower case
+    home: str = ""  # the top folder that it lies below
+    form: int = 0  # 0 steps/step/file, 1 step/file, 2 file
 
 
 def _lower(text: str) -> str:
@@ -50,11 +54,11 @@ class Places:
 
     def find(self, parts: tuple[str, ...]) -> Place | None:
         """The place that this path is, perhaps below one single top folder."""
-        for tail, below in ((parts, 0), (parts[1:], 3)):
+        for tail, below, home in ((parts, 0, ""), (parts[1:], 3, parts[0])):
             for known, worse in ((self._wanted, 0), (self._lower, 1)):
                 found = known.get(tuple(map(_lower, tail)) if worse else tail)
                 if found is not None:
-                    return Place(found[1], 2 * (found[0] + below) + worse, worse == 0)
+                    return Place(found[1], 2 * (found[0] + below) + worse, worse == 0, home, found[0])
         return None
 
     def near(self, parts: tuple[str, ...]) -> str | None:
@@ -71,6 +75,20 @@ class Places:
             step for parts, (_, step) in self._lower.items() for head in (lower, lower[1:]) if _is_head(head, parts)
         ]
         return sorted(set(found))
+
+
+def unusual_places(places: Mapping[str, Place]) -> set[str]:
+    """The steps that do not lie where the others do: that may be an old copy, or a name that went wrong.
+
+    A whole submission in a folder of its own is usual; a single file in some folder says nothing about it."""
+    if not places:
+        return set()
+    best = min(places.values(), key=lambda place: place.rank)
+    usual = (best.home, best.form)
+    alike = {step for step, place in places.items() if (place.home, place.form) == usual}
+    if best.home and best.form == _BARE and len(alike) == 1:
+        return set(places)
+    return set(places) - alike
 
 
 def _is_head(head: tuple[str, ...], parts: tuple[str, ...]) -> bool:
