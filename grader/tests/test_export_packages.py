@@ -202,7 +202,7 @@ def test_the_command_packs(project: Project, tmp_path: Path) -> None:
         (["gradescope", "--out", "/nowhere/there/x.zip"], "cannot be written"),
         (["classroom50"], "--workflow FILE"),
         (["classroom50", "--workflow", "x.yaml"], "--kit"),
-        (["gradescope", "--results", "none.json", "--out", "x"], "cannot be read"),
+        (["gradescope", "--results", "none.json", "--out", "x"], "is not there"),
     ],
 )
 def test_what_makes_no_sense_is_said(

@@ -138,6 +138,7 @@ def test_a_folder_that_turns_into_a_link_is_not_followed(
 
 def test_a_folder_that_changes_all_the_time(tmp_path: Path, steps: list[Step]) -> None:
     path = _good(tmp_path) / GOOD
+    path.write_bytes(b"x")
     stop = threading.Event()
 
     def change() -> None:
