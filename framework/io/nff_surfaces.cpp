@@ -32,7 +32,9 @@ glm::vec3 read_normal(TokenScanner& scanner) {
     if (!(length > 0.0)) {
         scanner.fail(token, "a vertex normal with a length above 0", "a zero vector");
     }
-    return glm::vec3(normal / length);
+    // A unit vector in float is a little off 1; to divide it once more would change it at each writing and reading.
+    constexpr double k_rounding = 1e-6;
+    return std::abs(length - 1.0) < k_rounding ? glm::vec3(normal) : glm::vec3(normal / length);
 }
 
 // The list grows with the file and not with the count that the file claims.

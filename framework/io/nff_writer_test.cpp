@@ -33,3 +33,11 @@ TEST_CASE("a scene made in code can be written", "[nff]") {
     CHECK(again.lights.at(0).color == scene.lights[0].color);
     CHECK(again.surfaces().size() == 1);
 }
+
+TEST_CASE("a normal of unit length stays as it is, however often it is written and read", "[nff]") {
+    const std::string text =
+        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0\nresolution 4 4\nb 0 0 0\nf 1 1 1 1 0 1 0 0\n"
+        "pp 3\n0 0 0 0 0 1\n1 0 0 0 .1 1\n0 1 0 0 64 43\n";
+    const std::string once = write_nff(read_nff(text, "once"));
+    CHECK(write_nff(read_nff(once, "twice")) == once);
+}
