@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.names import ARCHIVE_ENDINGS
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import number, shorten
@@ -16,7 +15,7 @@ from raysteps.exports.wording import clean
 from raysteps.grading.results import Results, StepResult
 from raysteps.kit.manifest import Step, choose
 from raysteps.kit.project import Project
-from raysteps.submission.intake import take_in
+from raysteps.submission.intake import ARCHIVE_ENDINGS, take_in
 
 _GRADED = (0, 1, 3)  # all passed, checks failed, some step does not build
 _MOST_FILES = 200

@@ -1,16 +1,12 @@
 """The results of a grading and their JSON form, raysteps/results/v1."""
 
-import json
 from dataclasses import asdict, dataclass, field
-from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
-import jsonschema
-
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_json
+from raysteps.common.schemas import complaint, read_schema
 from raysteps.sandbox.isolation import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
@@ -158,17 +154,11 @@ class Results:
         }
 
 
-@cache
-def _schema() -> Any:
-    return json.loads(files("raysteps.grading").joinpath("results.schema.json").read_text(encoding="utf-8"))
-
-
 def validate(document: Any) -> None:
     """A document against the schema is the kit's fault."""
-    try:
-        jsonschema.validate(document, _schema())
-    except jsonschema.ValidationError as error:
-        raise GraderFault(f"results.json would break its schema: {error.json_path}: {error.message}") from error
+    problem = complaint(document, read_schema("raysteps.grading", "results.schema.json"))
+    if problem:
+        raise GraderFault(f"results.json would break its schema: {problem}")
 
 
 def write_document(document: dict[str, Any], folder: Path) -> Path:

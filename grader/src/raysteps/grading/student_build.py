@@ -1,15 +1,14 @@
 """Compiles and links one step of a student, in the sandbox. The commands are the kit's; only the source is not."""
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.files import write_bytes
 from raysteps.grading.limits import StepLimits
 from raysteps.kit.built_kit import BuiltKit, Kind
-from raysteps.kit.linking import KNOWN_TO_COMPILER, library_name
+from raysteps.kit.linking import library_name
 from raysteps.kit.manifest import Step
-from raysteps.kit.symbols import nm_arguments, of_somebody, parse_symbols
+from raysteps.kit.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
 from raysteps.sandbox.task import Input, Output, Ran, Sandbox, Task, Word
 
 _MOST_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand
@@ -51,9 +50,8 @@ class StudentBuild:
         write_bytes(path, source)
         description = self._kit.description
         include: list[Word] = ["-I", Input(self._kit.include)]
-        for folder in description.system_includes:
-            if str(folder) not in KNOWN_TO_COMPILER:
-                include += ["-isystem", Input(folder)]
+        for folder in description.more_includes:
+            include += ["-isystem", Input(folder)]
         words = [description.compiler, *description.compile_flags]
         ran = self._run(limits, *words, *include, "-c", Input(path, step.file), "-o", Output("object"))
         data = ran.outputs.get("object")
@@ -96,13 +94,10 @@ class StudentBuild:
         tools = self._kit.description.seal
         if not names or tools is None:
             return ()
-        lists = []
-        for option in ((), ("--demangle",)):
-            words = (tools.nm, *nm_arguments(), "--undefined-only", "--no-sort", *option, Input(raw, "step.o"))
-            lists.append(self._run(limits, *words).outcome.stdout.splitlines())
-        shown = {
-            plain.split()[0]: re.sub(r" [Uwv]\s*[0-9a-f ]*$", "", text) for plain, text in zip(*lists, strict=False)
-        }
+        words = (tools.nm, *nm_arguments(), "--undefined-only", "--no-sort")
+        plain = self._run(limits, *words, Input(raw, "step.o")).outcome.stdout
+        readable = self._run(limits, *words, "--demangle", Input(raw, "step.o")).outcome.stdout
+        shown = parse_readable(plain, readable)
         return tuple(shown.get(name, name) for name in names)
 
     def program(

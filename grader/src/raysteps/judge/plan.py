@@ -1,17 +1,14 @@
 """What the judge asks of a step: solutions/NN-name/cases.toml."""
 
-import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache, lru_cache
-from importlib.resources import files
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
-import jsonschema
-
 from raysteps.common.errors import GraderFault
+from raysteps.common.schemas import complaint, read_schema
 from raysteps.judge.generators import functions_of
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -62,11 +59,6 @@ class Plan:
     random_scenes: tuple[RandomPlan, ...]
 
 
-@cache
-def _schema() -> Any:
-    return json.loads(files("raysteps.judge").joinpath("cases.schema.json").read_text(encoding="utf-8"))
-
-
 def _function(name: str, table: dict[str, Any]) -> FunctionPlan:
     return FunctionPlan(name, float(table["weight"]), float(table.get("may_miss", 0.01)), table["cases"])
 
@@ -106,10 +98,11 @@ def _check_names(plan: Plan, step: Step) -> None:
 def _parse(text: str, step: Step, path: Path) -> Plan:
     try:
         table = tomllib.loads(text)
-        jsonschema.validate(table, _schema())
-    except (ValueError, jsonschema.ValidationError) as error:
-        said = f"{error.json_path}: {error.message}" if isinstance(error, jsonschema.ValidationError) else str(error)
-        raise GraderFault(f"{path}: not a plan of hidden cases: {said}") from error
+    except ValueError as error:
+        raise GraderFault(f"{path}: not a plan of hidden cases: {error}") from error
+    problem = complaint(table, read_schema("raysteps.judge", "cases.schema.json"))
+    if problem:
+        raise GraderFault(f"{path}: not a plan of hidden cases: {problem}")
     plan = Plan(
         tuple(_function(name, function) for name, function in table["functions"].items()),
         tuple(_twin(twin) for twin in table.get("twins", [])),

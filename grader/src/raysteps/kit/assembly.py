@@ -33,6 +33,7 @@ class Assembly:
         self._description = description
         self._objects: dict[str, Path] = {}
         self._kept: dict[str, list[str]] = {}  # linker names of the functions of each step
+        self._core_names: set[str] = set()  # what every step may ask for
         for part in _FOLDERS:
             (folder / part).mkdir()
         self._core = self._copy(description.libraries["core"])
@@ -45,6 +46,9 @@ class Assembly:
         if self._description.compiler_version.startswith("GNU"):
             for step in self._steps:
                 precompile(self._description, self._folder / "include", step.id)
+        if self._description.seal is not None:
+            defined = symbols_of(self._description.seal.nm, self._core).defined
+            self._core_names = {name for name in defined if _NOT_FOR_STEPS not in name}
         for step in self._steps:
             self._add_step(step)
         self._write_known()
@@ -99,9 +103,8 @@ class Assembly:
         write_bytes(steps / f"{step.number}.map", version_script(kept))
         names = readable_names(tools.nm, self._objects[step.number])
         write_json(steps / f"{step.number}.names.json", {name: names[name] for name in kept})
-        core = {name for name in symbols_of(tools.nm, self._core).defined if _NOT_FOR_STEPS not in name}
         earlier = [other.number for other in self._steps if other.index <= step.index]
-        allowed = core.union(*(self._kept[number] for number in earlier))
+        allowed = self._core_names.union(*(self._kept[number] for number in earlier))
         write_json(steps / f"{step.number}.allowed.json", sorted(allowed))
         write_bytes(steps / f"{step.number}.dynamic", dynamic_list(sorted(allowed)))
         link_placeholder(self._description, kept, self._folder / "placeholders" / library_name(step.number))

@@ -72,7 +72,7 @@ class BuildTree:
         if outcome.code != 0:
             raise GraderFault("CMake cannot configure the kit:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
 
-    def build(self, targets: list[str], *, seconds: float = _BUILD_SECONDS) -> Outcome:
+    def build(self, targets: list[str]) -> Outcome:
         """Builds the targets (all of them when there are none)."""
         self.configure()
         command: list[str | Path] = ["cmake", "--build", self.folder]
@@ -80,7 +80,7 @@ class BuildTree:
             command.append("--parallel")
         if targets:
             command += ["--target", *targets]
-        return run(command, seconds=seconds, cwd=self.project.root)
+        return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root)
 
     @contextmanager
     def locked(self) -> Iterator[None]:

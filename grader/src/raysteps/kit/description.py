@@ -7,6 +7,8 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault
 
+_KNOWN_TO_COMPILER = ("/usr/include", "/usr/local/include")
+
 
 @dataclass(frozen=True)
 class SealTools:
@@ -33,6 +35,11 @@ class Description:
     raytrace: list[Path]
     worker: list[Path]
     tests: dict[str, list[Path]]
+
+    @property
+    def more_includes(self) -> list[Path]:
+        """Folders of libraries' headers that the compiler does not look into by itself."""
+        return [folder for folder in self.system_includes if str(folder) not in _KNOWN_TO_COMPILER]
 
 
 def _words(values: list[Any]) -> list[str]:

@@ -10,7 +10,6 @@ from raysteps.common.process import run
 from raysteps.kit.description import Description
 
 _SECONDS = 300
-KNOWN_TO_COMPILER = ("/usr/include", "/usr/local/include")
 
 
 def _run(words: Sequence[str | Path]) -> str:
@@ -52,11 +51,10 @@ def link_placeholder(description: Description, names: Sequence[str], library: Pa
 def precompile(description: Description, include: Path, step: str) -> None:
     """The step's contract as g++ keeps it in memory. It is taken where a file includes the contract first, as all stubs
     do, and saves half of the time; whatever else a file does, it is compiled as if there were none."""
+    folders: list[str | Path] = ["-I", include]
+    for folder in description.more_includes:
+        folders += ["-isystem", folder]
     for header in (include / "steps" / step).glob("*.hpp"):
-        folders: list[str | Path] = ["-I", include]
-        for folder in description.system_includes:
-            if str(folder) not in KNOWN_TO_COMPILER:
-                folders += ["-isystem", folder]
         words = [description.compiler, *description.compile_flags, *folders, "-w", "-x", "c++-header", header]
         _run([*words, "-o", f"{header}.gch"])
 

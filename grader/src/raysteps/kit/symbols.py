@@ -8,6 +8,8 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
 
 _SECONDS = 60
+_MOST_OUTPUT = 64 << 20
+_KIND_AND_PLACE = re.compile(r" [A-Za-z]( [0-9a-f]*)*\s*$")
 
 
 @dataclass(frozen=True)
@@ -45,19 +47,24 @@ def nm_arguments() -> tuple[str, ...]:
     return ("--extern-only", "--format=posix")
 
 
+def parse_readable(plain: str, readable: str) -> dict[str, str]:
+    """Linker names and how C++ writes them, of two outputs of nm for the same symbols in the same order."""
+    lists = [[_KIND_AND_PLACE.sub("", line) for line in text.splitlines()] for text in (plain, readable)]
+    return dict(zip(*lists, strict=False))
+
+
 def readable_names(nm: str, path: Path) -> dict[str, str]:
     """Linker names of one of the kit's own objects, and how C++ writes them."""
-    lists = []
-    for option in ((), ("--demangle",)):
-        words = [nm, *nm_arguments(), "--defined-only", "--no-sort", *option, path]
-        outcome = run(words, seconds=_SECONDS, cap=64 << 20)
-        lists.append([re.sub(r" [A-Za-z]( [0-9a-f]*)*\s*$", "", line) for line in outcome.stdout.splitlines()])
-    return dict(zip(*lists, strict=True))
+    words = [nm, *nm_arguments(), "--defined-only", "--no-sort"]
+    plain, readable = (
+        run([*words, *option, path], seconds=_SECONDS, cap=_MOST_OUTPUT).stdout for option in ((), ("--demangle",))
+    )
+    return parse_readable(plain, readable)
 
 
 def symbols_of(nm: str, path: Path) -> Symbols:
     """Of one of the kit's own files."""
-    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, cap=64 << 20)
+    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, cap=_MOST_OUTPUT)
     if outcome.code != 0:
         raise GraderFault(f"{path}: its symbols cannot be read: {outcome.stderr}")
     return parse_symbols(outcome.stdout)

@@ -16,6 +16,8 @@ from raysteps.submission.places import Place, Places, unusual_places
 
 _MOST_COPIES = 3  # that are named
 
+ARCHIVE_ENDINGS = (".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar", ".zip")
+
 
 @dataclass(frozen=True)
 class Submission:
@@ -127,7 +129,7 @@ def submission_name(path: Path) -> str:
     """The name of the folder, or of the archive without its ending."""
     # A name that is not UTF-8 carries halves of surrogates, which neither JSON nor a terminal takes.
     name = printable(path.resolve().name.encode("utf-8", "replace").decode("utf-8")).strip()
-    for ending in (".tar.gz", ".tgz", ".tar.xz", ".tar.bz2", ".tar", ".zip"):
+    for ending in ARCHIVE_ENDINGS:
         if name.lower().endswith(ending) and os.path.isfile(path):  # noqa: PTH113  # Path.is_file may raise
             name = name[: -len(ending)]
             break
