@@ -19,9 +19,10 @@ from rich.console import Console
 from raysteps.classroom.command import add_arguments, run
 from raysteps.classroom.graders import Say
 from raysteps.common.errors import GraderFault, RaystepsError
-from raysteps.grading.results import ImageResult, Results, StepResult, Timing, write_document
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import here
+from raysteps.results.document import write_document
+from raysteps.results.model import ImageResult, Results, StepResult, Timing
 from raysteps.sandbox.isolation import Isolation
 from raysteps.submission.intake import Submission
 

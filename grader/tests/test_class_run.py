@@ -16,7 +16,7 @@ from rich.console import Console
 
 from raysteps.classroom.keys import without_times
 from raysteps.common.errors import UsageError
-from raysteps.grading.results import validate
+from raysteps.results.document import validate
 
 
 @pytest.fixture(autouse=True)

@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from raysteps.grading.results import (
+from raysteps.kit.manifest import Step
+from raysteps.results.document import validate
+from raysteps.results.model import (
     CaseGroup,
     Cumulative,
     HiddenResult,
@@ -14,9 +16,7 @@ from raysteps.grading.results import (
     StepResult,
     TestResult,
     Timing,
-    validate,
 )
-from raysteps.kit.manifest import Step
 
 HOSTILE = "<script>alert(1)</script>\x1b[31m\x00\u202eevil\n::error::done\nfine ##[error]done"
 

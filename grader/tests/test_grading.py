@@ -6,11 +6,11 @@ import pytest
 from conftest import MakeSubmission, Sources
 
 from raysteps.grading.one import grade_one
-from raysteps.grading.results import Results
 from raysteps.grading.settings import Settings
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
+from raysteps.results.model import Results
 from raysteps.sandbox.choice import find_sandbox
 from raysteps.submission.intake import take_in
 

@@ -4,8 +4,9 @@ from typing import Any
 
 import pytest
 
-from raysteps.grading.results import CaseGroup, HiddenResult, Results, StepResult, validate
 from raysteps.judge.feedback import Feedback, withhold
+from raysteps.results.document import validate
+from raysteps.results.model import CaseGroup, HiddenResult, Results, StepResult
 
 _SECRETS = ("given-secret", "expected-secret", "actual-secret")
 _DIAGNOSIS = ("message-secret", "group-secret", "name-secret")

@@ -7,7 +7,8 @@ import pytest
 
 from raysteps.commands.check_and_grade import exit_code
 from raysteps.common.errors import GraderFault
-from raysteps.grading.results import ImageResult, Results, StepResult, TestResult, validate, write_document
+from raysteps.results.document import validate, write_document
+from raysteps.results.model import ImageResult, Results, StepResult, TestResult
 
 
 def _step(**changes: object) -> StepResult:

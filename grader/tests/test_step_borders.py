@@ -6,9 +6,9 @@ import pytest
 from conftest import MakeSubmission, Sources
 
 from raysteps.grading.one import grade_one
-from raysteps.grading.results import StepResult
 from raysteps.grading.settings import Settings
 from raysteps.kit.built_kit import BuiltKit
+from raysteps.results.model import StepResult
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.submission.intake import take_in
 

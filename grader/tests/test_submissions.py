@@ -8,8 +8,8 @@ from raysteps.commands.check_and_grade import clear
 from raysteps.commands.demo import complain_about
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
-from raysteps.grading.results import Results, StepResult
 from raysteps.kit.manifest import Step
+from raysteps.results.model import Results, StepResult
 
 
 def test_only_old_results_are_deleted(tmp_path: Path, steps: list[Step]) -> None:

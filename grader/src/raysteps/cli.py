@@ -15,10 +15,10 @@ from raysteps.commands.demo import demo
 from raysteps.commands.render import render
 from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
-from raysteps.grading.limits import parse_limits
 from raysteps.grading.settings import Settings
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project, here
+from raysteps.programs.limits import parse_limits
 from raysteps.upkeep import bench, maintenance
 from raysteps.upkeep.bench_grading import grading
 from raysteps.upkeep.selftest import selftest

@@ -12,11 +12,11 @@ from hostile.build import Attack, Facts, lay_out
 from hostile.planting import Listener, Planted
 from raysteps.common.errors import UsageError
 from raysteps.grading.one import grade_one
-from raysteps.grading.rendering import reference_picture
-from raysteps.grading.results import Results
 from raysteps.grading.settings import Settings
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
+from raysteps.programs.rendering import reference_picture
+from raysteps.results.model import Results
 from raysteps.sandbox.isolation import Isolation
 from raysteps.sandbox.task import Ran, Sandbox, Task
 from raysteps.submission.intake import take_in

@@ -9,7 +9,7 @@ from pathlib import Path
 from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.order import Order
 from raysteps.common.errors import UsageError
-from raysteps.grading.limits import parse_limits
+from raysteps.programs.limits import parse_limits
 
 _NONE = "none"  # instead of a file: without one, also where the last run had one
 

@@ -13,7 +13,7 @@ from typing import Any
 from raysteps.classroom.graders import Grader, Say, make_grader
 from raysteps.classroom.messages import Answer, Job
 from raysteps.common.errors import GraderFault, RaystepsError
-from raysteps.grading.results import validate
+from raysteps.results.document import validate
 
 _MOST_DETAILS = 8000
 

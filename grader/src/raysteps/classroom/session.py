@@ -15,7 +15,7 @@ from raysteps.classroom.progress import Meter, first_line
 from raysteps.classroom.taking_in import take_in_as
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
-from raysteps.grading.results import validate
+from raysteps.results.document import validate
 
 
 class Runner(Protocol):

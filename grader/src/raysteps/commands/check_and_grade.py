@@ -14,11 +14,11 @@ from raysteps.commands.report import print_details, print_files, print_isolation
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, usable_folder
 from raysteps.grading.one import grade_one
-from raysteps.grading.results import Results
 from raysteps.grading.settings import Settings
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
+from raysteps.results.model import Results
 from raysteps.sandbox.choice import find_sandbox
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.submission.intake import submission_name, take_in

@@ -11,12 +11,12 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.files import usable_folder
 from raysteps.common.process import run
 from raysteps.common.text import number
-from raysteps.grading.pictures import read_ppm, write_png
-from raysteps.grading.results import Results
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.kit.scenes import generated
+from raysteps.programs.pictures import read_ppm, write_png
+from raysteps.results.model import Results
 
 _SIZE = "512x512"
 _SECONDS = 600

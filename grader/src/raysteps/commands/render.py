@@ -9,10 +9,10 @@ from pathlib import Path
 
 from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.common.text import printable, shorten
-from raysteps.grading.pictures import PictureError, read_ppm, write_png
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
+from raysteps.programs.pictures import PictureError, read_ppm, write_png
 
 
 def take_impl(args: list[str]) -> tuple[str, list[str]]:

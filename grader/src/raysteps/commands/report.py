@@ -7,8 +7,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.text import number
-from raysteps.grading.results import HiddenResult, ImageResult, Results, StepResult, TestResult
 from raysteps.kit.manifest import Step
+from raysteps.results.model import HiddenResult, ImageResult, Results, StepResult, TestResult
 
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 

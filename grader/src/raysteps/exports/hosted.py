@@ -12,9 +12,9 @@ from raysteps.common.process import Outcome, run
 from raysteps.common.text import number, shorten
 from raysteps.exports.reading import read_results
 from raysteps.exports.wording import clean
-from raysteps.grading.results import Results, StepResult
 from raysteps.kit.manifest import Step, choose
 from raysteps.kit.project import Project
+from raysteps.results.model import Results, StepResult
 from raysteps.submission.intake import ARCHIVE_ENDINGS, take_in
 
 _GRADED = (0, 1, 3)  # all passed, checks failed, some step does not build

@@ -14,9 +14,9 @@ from raysteps.exports.autograders import (
     prairielearn_folder,
 )
 from raysteps.exports.formats import write_out
-from raysteps.grading.limits import parse_limits
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project
+from raysteps.programs.limits import parse_limits
 
 
 def package(project: Project, arguments: argparse.Namespace) -> list[Path]:

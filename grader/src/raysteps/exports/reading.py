@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.grading.results import validate
+from raysteps.results.document import validate
 
 _MAX_BYTES = 64 << 20
 _WANTED = "expected is a results.json as `./raysteps grade` writes it"

@@ -15,11 +15,8 @@ from raysteps.grading.build_messages import (
     undefined_message,
 )
 from raysteps.grading.hidden import ask_functions, render_scenes
-from raysteps.grading.limits import StepLimits
-from raysteps.grading.results import Cumulative, StepResult
 from raysteps.grading.scoring import most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
-from raysteps.grading.student_build import Compiled, Program, StudentBuild
 from raysteps.grading.visible_images import Gallery, judge, judge_together
 from raysteps.grading.visible_tests import run_tests
 from raysteps.judge.consistency import contradictions
@@ -27,6 +24,9 @@ from raysteps.judge.plan import read_plan
 from raysteps.kit.built_kit import BuiltKit, Kind
 from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
+from raysteps.programs.limits import StepLimits
+from raysteps.programs.student_build import Compiled, Program, StudentBuild
+from raysteps.results.model import Cumulative, StepResult
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.intake import Submission
 

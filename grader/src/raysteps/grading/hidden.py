@@ -7,16 +7,16 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
-from raysteps.grading.pictures import compare
-from raysteps.grading.rendering import reference_picture
-from raysteps.grading.results import HiddenResult
-from raysteps.grading.student_build import Program
 from raysteps.grading.visible_images import Gallery, too_many_tests, trouble
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.judging import judge_functions
 from raysteps.judge.plan import Plan
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
+from raysteps.programs.pictures import compare
+from raysteps.programs.rendering import reference_picture
+from raysteps.programs.student_build import Program
+from raysteps.results.model import HiddenResult
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Input, Limits, Ran, Task
 

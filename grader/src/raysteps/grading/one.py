@@ -8,13 +8,14 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.grading.grader import StepGrader, Work
-from raysteps.grading.limits import limits_of
-from raysteps.grading.results import Results, StepResult, Timing, write_document
 from raysteps.grading.settings import Settings
-from raysteps.grading.student_build import Compiled, StudentBuild
 from raysteps.judge.feedback import withhold
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
+from raysteps.programs.limits import limits_of
+from raysteps.programs.student_build import Compiled, StudentBuild
+from raysteps.results.document import write_document
+from raysteps.results.model import Results, StepResult, Timing
 from raysteps.sandbox.counting import Counted
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.intake import Submission

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from raysteps.common.text import count
-from raysteps.grading.results import Status, StepResult
 from raysteps.kit.manifest import Step
+from raysteps.results.model import Status, StepResult
 
 
 def most_points(step: Step, *, judged: bool) -> float:

@@ -13,5 +13,5 @@ class Settings:
     seed: int = 1
     only: tuple[str, ...] = ()  # step ids; all steps when there are none
     feedback: Feedback = "full"
-    limits: Mapping[str, float] = field(default_factory=dict)  # changes by name, see grading.limits
+    limits: Mapping[str, float] = field(default_factory=dict)  # changes by name, see programs.limits
     jobs: int = 1  # steps at a time; changes a grade only where a step is near its time limit

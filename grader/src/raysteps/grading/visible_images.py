@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.grading.endings import ending_of
-from raysteps.grading.limits import StepLimits
-from raysteps.grading.pictures import compare, difference, write_png
-from raysteps.grading.rendering import Rendered, reference_picture, render
-from raysteps.grading.results import Cumulative, Ending, ImageResult
-from raysteps.grading.student_build import Program
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
+from raysteps.programs.endings import ending_of
+from raysteps.programs.limits import StepLimits
+from raysteps.programs.pictures import compare, difference, write_png
+from raysteps.programs.rendering import Rendered, reference_picture, render
+from raysteps.programs.student_build import Program
+from raysteps.results.model import Cumulative, Ending, ImageResult
 from raysteps.sandbox.task import Sandbox
 
 

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 
 from raysteps.common.catch_report import TestOutcome, parse_report
 from raysteps.common.text import in_seconds
-from raysteps.grading.endings import ENDLESS, ending_of
-from raysteps.grading.limits import StepLimits
-from raysteps.grading.results import TestResult
-from raysteps.grading.student_build import Program
+from raysteps.programs.endings import ENDLESS, ending_of
+from raysteps.programs.limits import StepLimits
+from raysteps.programs.student_build import Program
+from raysteps.results.model import TestResult
 from raysteps.sandbox.task import Output, Ran, Sandbox, Task, Word
 
 _MOST_HANGS = 6  # tests that are waited for; a clock would say something else each time

@@ -22,13 +22,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from raysteps.common.text import listed
-from raysteps.grading.results import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.judge.functions import Function
 from raysteps.judge.generators import functions_of
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan
 from raysteps.judge.share_claims import MESSAGE, false_shares
 from raysteps.kit.manifest import Step
+from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 ANY = "any"
 PART = "part"

@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 Feedback = Literal["full", "diagnosis", "score"]
 
-_CASES = ("given", "expected", "actual")
+_CASES = ("given", "expected", "actual", "case")
 _HIDDEN_ITEM = "hidden item"  # of the line that counts them
 
 

@@ -6,7 +6,6 @@ from functools import lru_cache
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import count, shorten
-from raysteps.grading.results import CaseGroup, Ending, HiddenResult
 from raysteps.judge.answers import Verdict
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Case, Function
@@ -15,6 +14,7 @@ from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.time_budget import TimeBudget
 from raysteps.judge.worker_client import Ask, Reply, ask_worker
 from raysteps.kit.manifest import Step
+from raysteps.results.model import CaseGroup, Ending, HiddenResult
 
 ORDINARY_SHARE = 0.9  # of the first kind of cases must be right, or the function earns nothing
 _REFERENCE_SECONDS = 600

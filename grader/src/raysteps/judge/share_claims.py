@@ -7,12 +7,12 @@ counts by surfaces of its own.
 from collections.abc import Sequence
 
 from raysteps.common.text import listed
-from raysteps.grading.results import HiddenResult, ImageResult
 from raysteps.judge.functions import Function
 from raysteps.judge.generators import functions_of
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan
 from raysteps.kit.manifest import Step
+from raysteps.results.model import HiddenResult, ImageResult
 
 MESSAGE = "The program says that this passes, but the judge's own inputs say otherwise; it does not count."
 _MOST = 0.5

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from raysteps.common.text import in_seconds
-from raysteps.grading.results import Ending
 from raysteps.judge.functions import Case
 from raysteps.judge.time_budget import TimeBudget
+from raysteps.results.model import Ending
 from raysteps.sandbox.task import Ran
 
 Ask: TypeAlias = Callable[[bytes, float], Ran]  # the worker's stdin, and how many seconds it may take

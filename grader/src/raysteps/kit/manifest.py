@@ -38,7 +38,7 @@ class Step:
     seconds: float
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
-    more_limits: tuple[tuple[str, float], ...] = ()  # by name, see grading.limits
+    more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
 
     @property
     def number(self) -> str:

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.files import write_bytes
-from raysteps.grading.limits import StepLimits
 from raysteps.kit.built_kit import BuiltKit, Kind
 from raysteps.kit.linking import library_name
 from raysteps.kit.manifest import Step
 from raysteps.kit.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
+from raysteps.programs.limits import StepLimits
 from raysteps.sandbox.task import Input, Output, Ran, Sandbox, Task, Word
 
 _MOST_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand

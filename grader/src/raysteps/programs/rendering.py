@@ -10,9 +10,9 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import run
-from raysteps.grading.pictures import PictureError, Pixels, parse_ppm, read_ppm
-from raysteps.grading.student_build import Program
 from raysteps.kit.built_kit import BuiltKit
+from raysteps.programs.pictures import PictureError, Pixels, parse_ppm, read_ppm
+from raysteps.programs.student_build import Program
 from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
 
 _REFERENCE_SECONDS = 600

@@ -1,12 +1,8 @@
-"""The results of a grading and their JSON form, raysteps/results/v1."""
+"""What came of a grading; `to_json` gives the form raysteps/results/v1."""
 
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 from typing import Any, Literal
 
-from raysteps.common.errors import GraderFault
-from raysteps.common.files import write_json
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.sandbox.isolation import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
@@ -77,12 +73,28 @@ class HiddenResult:
     given: str = ""  # the input of the first wrong case, in words and numbers
     expected: str = ""
     actual: str = ""
+    case: str = ""  # file with that input, for `replay`; relative to the folder of results.json
     seconds: float = 0.0
     outcome: Ending = "ok"
 
     @property
     def passed(self) -> bool:
         return self.share >= 1
+
+
+@dataclass
+class Diagnosis:
+    """What explains a wrong answer or picture: a known mistake, a picture that was turned or recoloured, or where it is
+    wrong and in what."""
+
+    kind: Literal["mistake", "transformation", "finding"]
+    id: str  # of the mistake in mutants.toml, or what happened to the picture, such as `upside-down`
+    title: str  # ends the sentence "this is what you get when ..."; a sentence of its own for a finding
+    sees: str = ""
+    cause: str = ""
+    hint: str = ""
+    seen_in: list[str] = field(default_factory=list)  # functions and pictures that it explains
+    alike: list[str] = field(default_factory=list)  # titles of mistakes that cannot be told from it here
 
 
 @dataclass
@@ -106,6 +118,7 @@ class StepResult:
     images: list[ImageResult] = field(default_factory=list)
     hidden: list[HiddenResult] = field(default_factory=list)
     inconsistent: list[str] = field(default_factory=list)  # claims of the program that the judge did not see
+    diagnoses: list[Diagnosis] = field(default_factory=list)  # the likeliest first
     build_log: str = ""  # all that the compiler said
     cumulative: Cumulative = field(default_factory=lambda: Cumulative(False))
     messages: list[str] = field(default_factory=list)
@@ -152,18 +165,3 @@ class Results:
             },
             "steps": [asdict(step) for step in self.steps],
         }
-
-
-def validate(document: Any) -> None:
-    """A document against the schema is the kit's fault."""
-    problem = complaint(document, read_schema("raysteps.grading", "results.schema.json"))
-    if problem:
-        raise GraderFault(f"results.json would break its schema: {problem}")
-
-
-def write_document(document: dict[str, Any], folder: Path) -> Path:
-    """Checks and writes FOLDER/results.json."""
-    validate(document)
-    path = folder / "results.json"
-    write_json(path, document)
-    return path

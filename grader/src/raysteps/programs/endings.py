@@ -1,7 +1,7 @@
 """How a student's program ended, in words."""
 
 from raysteps.common.text import in_seconds, printable, shorten
-from raysteps.grading.results import Ending
+from raysteps.results.model import Ending
 from raysteps.sandbox.task import Ran
 
 ENDLESS = "Is there an endless loop? Once a program of a step has hung, the next ones get less time."

@@ -1,0 +1,79 @@
+"""The known mistakes of a step: solutions/NN-name/mutants.toml."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.schemas import complaint, read_schema
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import without_markers
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One mistake that students make, as a small change of the reference.
+
+    `name` ends the sentence "this is what you get when ..."; `hint` helps without giving the line away.
+    """
+
+    id: str
+    step: str
+    function: str
+    name: str
+    sees: str
+    cause: str
+    hint: str
+    find: str
+    replace: str
+
+    def applied(self, reference: str) -> str:
+        """The reference's source with the mistake in it."""
+        if reference.count(self.find) != 1:
+            times = reference.count(self.find)
+            raise GraderFault(f"{self.step}/mutants.toml: {self.id}: `find` occurs {times} times, expected once")
+        return reference.replace(self.find, self.replace)
+
+
+def reference_source(project: Project, step: Step) -> str:
+    """The reference's file without the marks of the stub's regions."""
+    return without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
+
+
+def _mutant(step: Step, table: dict[str, Any]) -> Mutant:
+    if table["function"] not in step.functions:
+        raise GraderFault(f"{step.id}/mutants.toml: {table['id']}: {table['function']} is no function of the step")
+    words = {key: " ".join(str(table[key]).split()) for key in ("name", "sees", "cause", "hint")}
+    return Mutant(table["id"], step.id, table["function"], **words, find=table["find"], replace=table["replace"])
+
+
+@lru_cache(maxsize=64)
+def _parse(text: str, step: Step, path: Path) -> tuple[Mutant, ...]:
+    try:
+        table = tomllib.loads(text)
+    except ValueError as error:
+        raise GraderFault(f"{path}: not a catalogue of mistakes: {error}") from error
+    problem = complaint(table, read_schema("raysteps.mistakes", "mutants.schema.json"))
+    if problem:
+        raise GraderFault(f"{path}: not a catalogue of mistakes: {problem}")
+    mutants = tuple(_mutant(step, entry) for entry in table["mutants"])
+    names = [mutant.id for mutant in mutants]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise GraderFault(f"{path}: the id {twice} occurs twice")
+    return mutants
+
+
+def read_mutants(project: Project, step: Step) -> tuple[Mutant, ...]:
+    """In the file's order; none in a student's kit, which has no solutions."""
+    path = project.solutions / step.id / "mutants.toml"
+    if not path.is_file():
+        return ()
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraderFault(f"{path}: cannot be read: {error}") from error
+    return _parse(text, step, path)

@@ -1,0 +1,1 @@
+"""A student's programs: built, limited, run, and the pictures they make."""

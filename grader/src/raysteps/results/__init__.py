@@ -1,0 +1,1 @@
+"""What came of a grading, in memory and as results.json."""
