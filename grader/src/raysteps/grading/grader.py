@@ -6,6 +6,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import listed
+from raysteps.diagnosis.diagnosing import Diagnostician
 from raysteps.grading.build_messages import (
     build_log,
     compile_message,
@@ -14,14 +15,14 @@ from raysteps.grading.build_messages import (
     missing_message,
     undefined_message,
 )
-from raysteps.grading.hidden import ask_functions, render_scenes
+from raysteps.grading.hidden import ask_functions, render_scenes, student_worker
 from raysteps.grading.scoring import most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, judge, judge_together
 from raysteps.grading.visible_tests import run_tests
 from raysteps.judge.consistency import contradictions
 from raysteps.judge.plan import read_plan
-from raysteps.kit.built_kit import BuiltKit, Kind
+from raysteps.kit.built_kit import BuiltKit, Kind, Say
 from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
 from raysteps.programs.limits import StepLimits
@@ -43,6 +44,7 @@ class Work:
     sandbox: Sandbox
     folder: Path
     out: Path
+    say: Say = lambda text: None
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
@@ -65,6 +67,7 @@ class StepGrader:
         self._gallery = Gallery(work.kit, work.sandbox, limits, work.out)
         self._plan = read_plan(work.kit.project, step)
         most = most_points(step, judged=self._plan is not None)
+        self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, most, step.bonus)
 
     def grade(self) -> StepResult:
@@ -79,7 +82,7 @@ class StepGrader:
             return result
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
-        left = unfinished_functions(source, step)
+        left = self._unfinished = unfinished_functions(source, step)
         if left:
             result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
         compiled = self._compiled[step.id]
@@ -147,8 +150,19 @@ class StepGrader:
             result.inconsistent = contradictions(step, self._plan, result, tags)
         result.status, result.points = status_and_points(result, step)
         result.messages += sum_up(result)
+        if result.status != "passed":
+            self._diagnose(worker)
         wrong = Cumulative(False, "This step itself is not right yet.")
         result.cumulative = self._together() if result.status == "passed" else wrong
+
+    def _diagnose(self, worker: Program | None) -> None:
+        """In words why it is not right. Whatever a student's program says, it costs no grade."""
+        ask = student_worker(self._gallery, worker) if worker is not None else None
+        doctor = Diagnostician(self._work.kit, self._step, self._plan, ask, self._work.say)
+        try:
+            self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
+        except (ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
+            self._work.say(f"no diagnosis of {self._step.number}: {error!r}")
 
     def _together(self) -> Cumulative:
         step, work = self._step, self._work
