@@ -4,6 +4,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from raysteps.diagnosis.matching import Match
+from raysteps.diagnosis.pairs import best_pair
 from raysteps.mistakes.catalogue import Mutant
 from raysteps.results.model import Diagnosis
 
@@ -63,4 +64,13 @@ def name_mistakes(matches: Sequence[Match]) -> list[Named]:
         ]
         named.append(Named(best.mutant, tuple(explained), tuple(alike)))
         open_ -= set(explained)
-    return named
+    return named + _pairs(matches, open_)[: _MOST - len(named)]
+
+
+def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[Named]:
+    """For functions that no single mistake explains."""
+    found: list[Named] = []
+    for function in dict.fromkeys(name for match in matches for name in match.functions if name in open_):
+        pair = best_pair(function, matches)
+        found += [Named(match.mutant, (function,), ()) for match in pair or ()]
+    return found
