@@ -59,7 +59,7 @@ class Diagnostician:
             name
             for one in named
             for name, picture in evidence.pictures.items()
-            if spoils(known[one.mutant.id].pictures.get(name), picture)
+            if name in one.explains or spoils(known[one.mutant.id].pictures.get(name), picture)
         }
         return [one.diagnosis() for one in named], spoilt
 

@@ -10,7 +10,11 @@ from raysteps.diagnosis.sameness import likeness
 from raysteps.mistakes.catalogue import Mutant
 from raysteps.programs.pictures import Pixels
 
-GOOD = 0.8  # a score from which on a mistake explains something
+GOOD = 0.7  # of the wrong cases of a function: from there on a mistake explains it
+_GOOD_PICTURE = 0.8  # of the wrong pixels
+_GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictures that are wrong
+_GOOD_YES_OR_NO = 0.95  # of the cases, where all wrong answers are the same and no picture is explained
+_NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures name
 _FEWEST_CASES = 2.0
 _FEWEST_YES_OR_NO = 4.0  # where all wrong answers are the same
 _FEWEST_PIXELS = 12
@@ -19,36 +23,55 @@ _FEWEST_PIXELS = 12
 @dataclass(frozen=True)
 class Agreement:
     """Of a mistake and the student in one function: the cases in which either is wrong, and how alike they are where
-    both are. `fewest`: agreeing cases below this prove nothing."""
+    both are."""
 
     mine: frozenset[int]
     mistake: frozenset[int]
     alike: Mapping[int, float]
-    fewest: float = _FEWEST_CASES
+    yes_or_no: bool = False
 
     @property
     def score(self) -> float:
         """The share of the cases where one of the two is wrong in which both are, in the same way."""
         whole = sum(self.alike.values())
-        return whole / len(self.mine | self.mistake) if whole >= self.fewest else 0.0
+        enough = whole >= (_FEWEST_YES_OR_NO if self.yes_or_no else _FEWEST_CASES)
+        return whole / len(self.mine | self.mistake) if enough else 0.0
 
 
 @dataclass
 class Match:
     """What a mistake has to do with what is wrong, by the name of a function or picture.
 
-    `against`: what the mistake spoils, and is right.
+    `telling`: the pictures that are not of one colour, which may have any cause. `against`: what the mistake spoils and
+    is right.
     """
 
     mutant: Mutant
     functions: dict[str, Agreement] = field(default_factory=dict)
     pictures: dict[str, float] = field(default_factory=dict)
+    telling: set[str] = field(default_factory=set)
     against: list[str] = field(default_factory=list)
 
     def explains(self) -> dict[str, float]:
         """With a score from 0 to 1."""
-        scores = {name: agreement.score for name, agreement in self.functions.items()} | self.pictures
-        return {name: score for name, score in scores.items() if score >= GOOD}
+        scores = {name: one.score for name, one in self.functions.items() if one.score >= self._least(one)}
+        return scores | self._drawn()
+
+    def _drawn(self) -> dict[str, float]:
+        return {name: score for name, score in self.pictures.items() if score >= _GOOD_PICTURE}
+
+    def _least(self, one: Agreement) -> float:
+        drawn = self._drawn()
+        if one.yes_or_no:
+            return GOOD if drawn.keys() & self.telling else _GOOD_YES_OR_NO
+        return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD
+
+    def named_by_pictures(self) -> bool:
+        """Whether it explains all pictures that say something, and its own function does not speak against it."""
+        own = self.functions.get(self.mutant.function)
+        if not self.telling or not self.telling <= self._drawn().keys():
+            return False
+        return not self.functions or (own is not None and own.score >= _NOT_AGAINST)
 
 
 def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[int, Said]) -> Agreement:
@@ -60,8 +83,8 @@ def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[i
         number: likeness(questions.function, cases[number], right[number], mistake[number], mine[number])
         for number in both
     }
-    fewest = _FEWEST_YES_OR_NO if questions.function.yes_or_no else _FEWEST_CASES
-    return Agreement(frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown), alike, fewest)
+    wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
+    return Agreement(wrong, other, alike, questions.function.yes_or_no)
 
 
 def picture_score(mistake: Pixels | None, picture: Picture) -> float:
@@ -93,7 +116,8 @@ def match(mutant: Mutant, fingerprint: Fingerprint, evidence: Evidence) -> Match
     for name, picture in evidence.pictures.items():
         drawn = fingerprint.pictures.get(name)
         if picture.is_wrong:
-            found.pictures[name] = picture_score(drawn, picture) if picture.says_something else 0.0
+            found.pictures[name] = picture_score(drawn, picture)
+            found.telling |= {name} if picture.says_something else set()
         elif spoils(drawn, picture):
             found.against.append(name)
     return found

@@ -9,7 +9,7 @@ from raysteps.mistakes.catalogue import Mutant
 from raysteps.results.model import Diagnosis
 
 _MOST = 3
-_HAIR = 0.03  # mistakes whose worth differs by less cannot be told apart
+_HAIR = 0.01  # mistakes whose worth differs by less cannot be told apart
 _PICTURE = 0.5  # what a picture counts beside a function
 _AGAINST = 0.25
 _NOT_ITS_OWN = 0.3  # the function in which the mistake sits is right here
@@ -38,10 +38,9 @@ def _worth(match: Match, open_: Collection[str]) -> float:
 
 
 def _is_named_by(match: Match, open_: set[str]) -> bool:
-    """Pictures name a mistake only where no function does better."""
-    explained = {name for name in match.explains() if name in open_}
-    functions = explained & match.functions.keys()
-    return bool(functions or (explained and not open_ & match.functions.keys()))
+    """By a function, or by pictures alone."""
+    explained = match.explains().keys() & open_
+    return bool(explained & match.functions.keys()) or (bool(explained) and match.named_by_pictures())
 
 
 def name_mistakes(matches: Sequence[Match]) -> list[Named]:
