@@ -8,7 +8,7 @@ from rich.table import Table
 
 from raysteps.common.text import number
 from raysteps.kit.manifest import Step
-from raysteps.results.model import HiddenResult, ImageResult, Results, StepResult, TestResult
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
 
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 
@@ -20,6 +20,18 @@ def _status(result: StepResult) -> str:
 
 def _points(result: StepResult) -> str:
     return f"{number(result.points)} of {number(result.max)}" + (" bonus" if result.bonus else "")
+
+
+def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
+    """The word before it says how sure one can be."""
+    word = {"mistake": "most likely", "transformation": "it looks as if", "finding": "where"}[diagnosis.kind]
+    where = f" (seen in {', '.join(diagnosis.seen_in)})" if diagnosis.seen_in else ""
+    console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
+    for other in diagnosis.alike:
+        console.print(f"             or  {escape(other)}")
+    for label, text in (("you see", diagnosis.sees), ("cause", diagnosis.cause), ("hint", diagnosis.hint)):
+        if text:
+            console.print(f"             {label:<9} {escape(text)}")
 
 
 def _print_test(console: Console, test: TestResult) -> None:
@@ -70,6 +82,8 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for message in result.messages:
             for line in message.splitlines():
                 console.print(f"  {escape(line)}")
+        for diagnosis in result.diagnoses:
+            _print_diagnosis(console, diagnosis)
         for test in result.tests:
             if not test.passed:
                 _print_test(console, test)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import listed
+from raysteps.diagnosis.diagnosing import Diagnostician
 from raysteps.grading.build_messages import (
     build_log,
     compile_message,
@@ -15,14 +16,14 @@ from raysteps.grading.build_messages import (
     missing_message,
     undefined_message,
 )
-from raysteps.grading.hidden import ask_functions, render_scenes
-from raysteps.grading.scoring import most_points, status_and_points, sum_up
+from raysteps.grading.hidden import ask_functions, render_scenes, student_worker
+from raysteps.grading.scoring import is_right, most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, judge, judge_together
 from raysteps.grading.visible_tests import run_tests
 from raysteps.judge.consistency import contradictions
 from raysteps.judge.plan import read_plan
-from raysteps.kit.built_kit import BuiltKit, Kind
+from raysteps.kit.built_kit import BuiltKit, Kind, Say
 from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
 from raysteps.programs.limits import StepLimits
@@ -44,6 +45,7 @@ class Work:
     sandbox: Sandbox
     folder: Path
     out: Path
+    say: Say = lambda text: None
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
@@ -66,6 +68,7 @@ class StepGrader:
         self._gallery = Gallery(work.kit, work.sandbox, limits, work.out)
         self._plan = read_plan(work.kit.project, step)
         most = most_points(step, judged=self._plan is not None)
+        self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, most, step.bonus)
         self._ran = False
 
@@ -82,7 +85,7 @@ class StepGrader:
             return result
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
-        left = unfinished_functions(source, step)
+        left = self._unfinished = unfinished_functions(source, step)
         if left:
             result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
         compiled = self._compiled[step.id]
@@ -149,7 +152,18 @@ class StepGrader:
             result.hidden += scenes
             result.inconsistent = contradictions(step, self._plan, result, tags)
         result.messages += sum_up(result)
+        if not is_right(result):
+            self._diagnose(worker)
         self._ran = True
+
+    def _diagnose(self, worker: Program | None) -> None:
+        """In words why it is not right. Whatever a student's program says, it costs no grade."""
+        ask = student_worker(self._gallery, worker) if worker is not None else None
+        doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
+        try:
+            self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
+        except (ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
+            self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
 
     def finish(self, right: Collection[str]) -> StepResult:
         """After all steps were graded alone: does this one work with those before it that are right, by their ids?"""

@@ -51,7 +51,7 @@ def grade_one(
     start = time.monotonic()
     counted = Counted(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = Work(kit, submission, settings, counted, Path(folder), out)
+        work = Work(kit, submission, settings, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
         with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
             say("building the steps")

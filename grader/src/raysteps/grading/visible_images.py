@@ -1,7 +1,7 @@
 """The pictures of a step, made with the student's code and compared."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.common.text import listed
@@ -9,7 +9,7 @@ from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.programs.endings import ending_of
 from raysteps.programs.limits import StepLimits
-from raysteps.programs.pictures import compare, difference, write_png
+from raysteps.programs.pictures import Pixels, compare, difference, write_png
 from raysteps.programs.rendering import Rendered, reference_picture, render
 from raysteps.programs.student_build import Program
 from raysteps.results.model import Cumulative, Ending, ImageResult
@@ -24,6 +24,7 @@ class Gallery:
     sandbox: Sandbox
     limits: StepLimits
     out: Path
+    made: dict[str, Pixels] = field(default_factory=dict)  # the step's own pictures, by name
 
     def hung(self) -> None:
         self.limits = self.limits.after_a_timeout()
@@ -66,6 +67,7 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     if rendered.pixels is None:
         result.outcome, result.message = trouble(rendered)
         return result
+    gallery.made[case.name] = rendered.pixels
     if rendered.pixels.shape == reference.shape:
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(rendered.pixels, gallery.out / result.mine)
