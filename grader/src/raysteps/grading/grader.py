@@ -141,7 +141,7 @@ class StepGrader:
         result.images = [judge(self._gallery, raytrace, step, case) for case in step.images]
         if self._plan is not None and worker is not None:
             seed = work.settings.seed
-            result.hidden = ask_functions(self._gallery, worker, step, self._plan, seed)
+            result.hidden = ask_functions(self._gallery, worker, step, self._plan, work.settings)
             scenes = render_scenes(self._gallery, raytrace, step, self._plan, seed, work.folder / step.number)
             result.hidden += scenes
             result.inconsistent = contradictions(step, self._plan, result, tags)

@@ -91,12 +91,16 @@ def _sine(eta: float, cosine: float) -> float:
 
 def _directions(draw: Draw, eta: float, *, total: bool) -> tuple[Vector, Vector]:
     """Ray and normal, on this or that side of the critical angle."""
-    while True:
+
+    def make() -> tuple[Vector, Vector]:
         normal = draw.direction()
-        ray = rounded(times(-1.0, draw.above(normal, 0.05)))
-        sine = _sine(eta, dot(ray, normal))
-        if sine > 1 + _CLEAR if total else sine < 1 - _CLEAR:
-            return ray, normal
+        return rounded(times(-1.0, draw.above(normal, 0.05))), normal
+
+    def clear(found: tuple[Vector, Vector]) -> bool:
+        sine = _sine(eta, dot(*found))
+        return sine > 1 + _CLEAR if total else sine < 1 - _CLEAR
+
+    return draw.until(clear, make)
 
 
 def _refract(draw: Draw, eta: float, *, total: bool = False) -> Inputs:
