@@ -30,7 +30,7 @@ ViewFrame view_frame(const Camera& camera) {
 Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y) {
     const glm::mat3 camera_to_world(frame.right, frame.up, -frame.forward);
     const glm::vec2 size(camera.width, camera.height);
-    const glm::vec2 center = (glm::vec2(x, y) + 0.5F) / size;     // (0, 0) upper left, (1, 1) lower right
+    const glm::vec2 center = (glm::vec2(x, y) + 0.5F) / size;  // (0, 0) upper left, (1, 1) lower right
     const glm::vec2 screen = center * glm::vec2(2.0F, -2.0F) + glm::vec2(-1.0F, 1.0F);
     const glm::vec3 in_camera(screen * glm::vec2(frame.half_width, frame.half_height), -1.0F);
     return {camera.from, camera_to_world * glm::normalize(in_camera)};
