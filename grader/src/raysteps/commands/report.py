@@ -24,7 +24,7 @@ def _points(result: StepResult) -> str:
 
 def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
     """The word before it says how sure one can be."""
-    word = {"mistake": "most likely", "transformation": "it looks as if", "finding": "where"}[diagnosis.kind]
+    word = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}[diagnosis.kind]
     where = f" (seen in {', '.join(diagnosis.seen_in)})" if diagnosis.seen_in else ""
     console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
     for other in diagnosis.alike:

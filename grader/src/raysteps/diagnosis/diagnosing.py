@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from raysteps.diagnosis.answers import Answers, listen
 from raysteps.diagnosis.evidence import Evidence, Picture
+from raysteps.diagnosis.findings import findings, transformations
 from raysteps.diagnosis.learning import known_mistakes
-from raysteps.diagnosis.matching import match
+from raysteps.diagnosis.matching import match, spoils
 from raysteps.diagnosis.naming import name_mistakes
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker_client import Ask
@@ -32,15 +33,33 @@ class Diagnostician:
 
     def diagnose(self, result: StepResult, mine: Mapping[str, Pixels], unfinished: Collection[str]) -> list[Diagnosis]:
         """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs."""
-        mutants = read_mutants(self.kit.project, self.step)
         pictures = self._pictures(mine) if not unfinished else {}
-        if not mutants:
-            return []
+        named, spoilt = self._mistakes(Evidence(self._answers(result, unfinished), pictures))
+        open_ = {
+            name: picture
+            for name, picture in pictures.items()
+            if picture.is_wrong and picture.says_something and name not in spoilt
+        }
+        found = list(transformations(self.kit, self.step, open_))
+        told = {name for one in found for name in one.seen_in}
+        rest = {name: picture for name, picture in open_.items() if name not in told}
+        return [*named, *found, *findings(self.kit, self.step, rest)]
+
+    def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
+        """Known mistakes, and the pictures that they spoil."""
+        mutants = read_mutants(self.kit.project, self.step)
+        if not mutants or not evidence.is_wrong:
+            return [], set()
         known = known_mistakes(self.kit, self.step, self.plan, mutants, self.say)
-        evidence = Evidence(self._answers(result, unfinished), pictures)
         matches = [match(mutant, known[mutant.id], evidence, self.step, self.plan) for mutant in mutants]
-        named, _ = name_mistakes(matches)
-        return [one.diagnosis() for one in named]
+        named = name_mistakes(matches)
+        spoilt = {
+            name
+            for one in named
+            for name, picture in evidence.pictures.items()
+            if spoils(known[one.mutant.id].pictures.get(name), picture)
+        }
+        return [one.diagnosis() for one in named], spoilt
 
     def _pictures(self, mine: Mapping[str, Pixels]) -> dict[str, Picture]:
         found = {}

@@ -48,3 +48,8 @@ class Evidence:
 
     answers: Answers
     pictures: Mapping[str, Picture]
+
+    @property
+    def is_wrong(self) -> bool:
+        """Whether there is anything to explain."""
+        return any(self.answers.values()) or any(picture.is_wrong for picture in self.pictures.values())

@@ -64,7 +64,7 @@ def picture_score(mistake: Pixels | None, picture: Picture) -> float:
     return float((wrong & ~differing(mistake, picture.mine)).sum() / wrong.sum())
 
 
-def _spoils(mistake: Pixels | None, picture: Picture) -> bool:
+def spoils(mistake: Pixels | None, picture: Picture) -> bool:
     """Whether the mistake shows in a picture that is right."""
     if mistake is None or mistake.shape != picture.reference.shape:
         return True
@@ -88,6 +88,6 @@ def match(mutant: Mutant, fingerprint: Fingerprint, evidence: Evidence, step: St
         drawn = fingerprint.pictures.get(name)
         if picture.is_wrong:
             found.pictures[name] = picture_score(drawn, picture) if picture.says_something else 0.0
-        elif _spoils(drawn, picture):
+        elif spoils(drawn, picture):
             found.against.append(name)
     return found

@@ -43,8 +43,8 @@ def _is_named_by(match: Match, open_: set[str]) -> bool:
     return bool(functions or (explained and not open_ & match.functions.keys()))
 
 
-def name_mistakes(matches: Sequence[Match]) -> tuple[list[Named], set[str]]:
-    """The likeliest first, and what stays unexplained. `matches`: of all known mistakes, in the catalogue's order."""
+def name_mistakes(matches: Sequence[Match]) -> list[Named]:
+    """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
     open_ = {name for match in matches for name in (*match.functions, *match.pictures)}
     named: list[Named] = []
     while len(named) < _MOST:
@@ -63,4 +63,4 @@ def name_mistakes(matches: Sequence[Match]) -> tuple[list[Named], set[str]]:
         ]
         named.append(Named(best.mutant, tuple(explained), tuple(alike)))
         open_ -= set(explained)
-    return named, open_
+    return named
