@@ -16,6 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name, made in (("stubs", "the stubs in steps/"), ("samples", "the samples in grader/samples/")):
         add = commands.add_parser(name, help=f"make {made} from the solutions")
         add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    add = commands.add_parser("mistakes", help="make docs/mistakes/ from the catalogue of mistakes")
+    add.add_argument("--check", action="store_true", help="only tell what is out of date")
     add = commands.add_parser(
         "check", help="grade stubs, references, known mistakes and alternatives, and judge the grades"
     )
@@ -31,6 +33,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return maintenance.stubs(project, check=arguments.check)
         case "samples":
             return maintenance.samples(project, check=arguments.check)
+        case "mistakes":
+            with console.status("starting") as status:
+                return maintenance.mistakes(project, progress(console, status), check=arguments.check)
         case _:
             with console.status("starting") as status:
                 say = progress(console, status)
