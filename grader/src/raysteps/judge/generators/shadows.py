@@ -3,7 +3,7 @@
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.generators.shadow_scenes import IS_LIT, any_hit, hit_at, light_above
-from raysteps.judge.numbers import add
+from raysteps.judge.numbers import add, rounded
 from raysteps.judge.rays import SHADOW_RAY
 from raysteps.judge.values import Hit, Inputs, Light
 
@@ -19,6 +19,13 @@ def _simple_ray(draw: Draw) -> Inputs:
     return {"hit": hit, "light": Light(add(add(hit.position, hit.normal, up), side, across))}
 
 
+def _light_behind(draw: Draw) -> Inputs:
+    """The ray runs through the surface, and starts on the normal's side of it all the same."""
+    hit = any_hit(draw)
+    way = draw.above(hit.normal, -1.0, -0.25)
+    return {"hit": hit, "light": Light(rounded(add(hit.position, way, draw.real(2, 30))))}
+
+
 def _far_from_origin(draw: Draw) -> Inputs:
     return _ray_case(draw, hit_at(add((100.0, 100.0, 100.0), draw.point(3)), draw.direction()))
 
@@ -31,6 +38,7 @@ _SHADOW_RAY = Function(
         Group("simple numbers", _simple_ray),
         Group("a light close by", lambda d: _ray_case(d, any_hit(d), 0.5, 1.0)),
         Group("far from the centre of the world", _far_from_origin),
+        Group("a light behind the surface", _light_behind),
     ),
 )
 
