@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_levels = 3;
 
-/// One boundary of Liang and Barsky: the ray is inside where p t <= q. Shortens the interval; false when nothing is left.
+/// One boundary of Liang and Barsky: the ray is inside where p t <= q. Shortens the interval; false: nothing is left.
 bool clip_boundary(float p, float q, Interval& part) {
     if (p == 0.0F) {
         return q >= 0.0F;  // parallel: inside for ever or never
