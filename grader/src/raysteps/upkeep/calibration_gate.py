@@ -1,4 +1,4 @@
-"""Where the limit of a picture belongs: midway, in ratio, between the worst correct solution and the mildest mistake."""
+"""Where the limit of a picture belongs: midway between the worst correct solution and the mildest mistake."""
 
 import math
 from collections.abc import Mapping, Sequence
