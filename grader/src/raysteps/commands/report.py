@@ -96,8 +96,8 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
                 _print_hidden(console, item)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
-        if result.cumulative.message and result.status == "passed":
-            console.print(f"  together with your earlier steps: {escape(result.cumulative.message)}")
+        if result.cumulative.message and result.tests:
+            console.print(f"  together  {escape(result.cumulative.message)}")
 
 
 def print_table(console: Console, results: Results) -> None:
@@ -117,7 +117,9 @@ def print_table(console: Console, results: Results) -> None:
             "yes" if result.cumulative.passed else "no",
         )
     console.print(table)
-    console.print("together: all your steps up to this one, without the reference's", style="dim")
+    console.print(
+        "together: the step's first picture with your own steps before it, as far as they are right", style="dim"
+    )
     total = results.to_json()["total"]
     bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
     console.print(f"{number(total['points'])} points of {number(total['max'])}{bonus}")

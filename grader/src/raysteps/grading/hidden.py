@@ -5,13 +5,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from raysteps.common.files import write_bytes
+from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, too_many_tests, trouble
+from raysteps.judge.examples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.judging import judge_functions
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker_client import Ask
 from raysteps.kit.manifest import Step
-from raysteps.programs.asking import ANSWERS_KB, reference_answers
+from raysteps.programs.asking import ANSWERS_KB, reference_answers, reference_unkept
 from raysteps.programs.pictures import compare
 from raysteps.programs.rendering import reference_picture
 from raysteps.programs.student_build import Program
@@ -29,13 +31,19 @@ def student_worker(gallery: Gallery, worker: Program) -> Ask:
     return ask
 
 
-def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, seed: int) -> list[HiddenResult]:
+def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, settings: Settings) -> list[HiddenResult]:
     """What the judge makes of the student's functions."""
+    student = student_worker(gallery, worker)
 
     def reference(cases: bytes, _seconds: float) -> Ran:
         return reference_answers(gallery.kit, cases)
 
-    return judge_functions(step, plan, student_worker(gallery, worker), reference, seed, gallery.limits.seconds)
+    def unkept(cases: bytes, _seconds: float) -> Ran:
+        return reference_unkept(gallery.kit, cases)
+
+    shown = settings.feedback == "full"  # else the cases are withheld, and nobody needs a small one
+    examples = Examples(student, unkept, gallery.out) if shown else None
+    return judge_functions(step, plan, student, reference, settings.seed, gallery.limits.seconds, examples)
 
 
 def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
