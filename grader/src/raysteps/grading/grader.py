@@ -6,14 +6,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import listed
-from raysteps.grading.build_messages import (
-    build_log,
-    compile_message,
-    forbidden_message,
-    link_message,
-    missing_message,
-    undefined_message,
-)
+from raysteps.grading.build_messages import build_log, link_message, why_not_built
 from raysteps.grading.hidden import ask_functions, render_scenes
 from raysteps.grading.scoring import most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
@@ -85,27 +78,10 @@ class StepGrader:
         compiled = self._compiled[step.id]
         result.build_log = build_log(compiled.ran)
         if compiled.binary is None:
-            return self._does_not_build(self._compile_message(compiled, source))
+            self._expect_room()
+            return self._does_not_build(why_not_built(self._work.kit, step, compiled, source))
         self._run(compiled.binary)
         return result
-
-    def _compile_message(self, compiled: Compiled, source: str) -> str:
-        self._expect_room()
-        if compiled.forbidden:
-            owners = {
-                name: step.id
-                for step in self._work.kit.steps
-                if step.index > self._step.index
-                for name in self._work.kit.functions(step)
-            }
-            return forbidden_message(compiled.forbidden, owners)
-        if compiled.unreadable:
-            return "It does not build: its object holds more names than a step can have, or cannot be read."
-        if compiled.undefined:
-            return undefined_message(compiled.undefined)
-        if compiled.missing:
-            return missing_message(compiled.missing)
-        return compile_message(self._step, source, compiled.ran)
 
     def _expect_room(self) -> None:
         """A full disk is nobody's fault. The disk is asked, not the compiler, whose words a source can shape."""
