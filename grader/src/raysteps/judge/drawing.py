@@ -2,20 +2,34 @@
 
 import math
 import random
+from collections.abc import Callable
+from typing import TypeVar
 
 from raysteps.judge.numbers import Vector, add, cross, dot, f32, length, minus, rounded, times, unit
 from raysteps.judge.surfaces import Sphere, Triangle
 from raysteps.judge.values import Fill, Light, Ray
 
+T = TypeVar("T")
+
+
+def circle(turn: float) -> tuple[float, float]:
+    """Cosine and sine of so many turns; a quarter turn is exact."""
+    if turn * 4 == (quarters := round(turn * 4)):
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
+    angle = 2 * math.pi * turn
+    return math.cos(angle), math.sin(angle)
+
 
 class Draw:
-    """A source of random values."""
+    """A source of random values. The first five are the choices that all others are made of: who changes these has
+    another source (judge/choices.py)."""
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 - cases, not secrets
 
-    def real(self, low: float, high: float) -> float:
-        return f32(low + (high - low) * self._random.random())
+    def fine(self, low: float, high: float) -> float:
+        """Not rounded to float32: for what is only computed with."""
+        return low + (high - low) * self._random.random()
 
     def whole(self, low: int, high: int) -> int:
         """From low to high, both included."""
@@ -23,6 +37,23 @@ class Draw:
 
     def chance(self, share: float) -> bool:
         return self._random.random() < share
+
+    def direction(self) -> Vector:
+        """A unit vector; all directions are equally likely."""
+        z = 2 * self._random.random() - 1
+        angle = 2 * math.pi * self._random.random()
+        radius = math.sqrt(1 - z * z)
+        return rounded((radius * math.cos(angle), radius * math.sin(angle), z))
+
+    def until(self, good: Callable[[T], bool], make: Callable[[], T]) -> T:
+        """The first that is good."""
+        while True:
+            found = make()
+            if good(found):
+                return found
+
+    def real(self, low: float, high: float) -> float:
+        return f32(self.fine(low, high))
 
     def sign(self) -> float:
         return 1.0 if self.chance(0.5) else -1.0
@@ -37,19 +68,9 @@ class Draw:
     def simple_point(self, reach: float) -> Vector:
         return self.eighths(-reach, reach), self.eighths(-reach, reach), self.eighths(-reach, reach)
 
-    def direction(self) -> Vector:
-        """A unit vector; all directions are equally likely."""
-        z = 2 * self._random.random() - 1
-        angle = 2 * math.pi * self._random.random()
-        radius = math.sqrt(1 - z * z)
-        return rounded((radius * math.cos(angle), radius * math.sin(angle), z))
-
     def slanted(self, least: float = 0.05) -> Vector:
         """A direction that is parallel to no axis and to no plane of the axes."""
-        while True:
-            found = self.direction()
-            if min(abs(x) for x in found) >= least:
-                return found
+        return self.until(lambda found: min(abs(x) for x in found) >= least, self.direction)
 
     def axis(self) -> Vector:
         """Along x, y or z, either way."""
@@ -61,17 +82,14 @@ class Draw:
         """A direction whose cosine with the normal lies between low and high."""
         side = unit(cross(normal, self.across(normal)))
         other = cross(normal, side)
-        cosine, angle = low + (high - low) * self._random.random(), 2 * math.pi * self._random.random()
+        cosine, turn = self.fine(low, high), circle(self.fine(0, 1))
         sine = math.sqrt(max(0.0, 1 - cosine * cosine))
-        found = add(times(cosine, normal), side, sine * math.cos(angle))
-        return rounded(unit(add(found, other, sine * math.sin(angle))))
+        found = add(times(cosine, normal), side, sine * turn[0])
+        return rounded(unit(add(found, other, sine * turn[1])))
 
     def across(self, normal: Vector) -> Vector:
         """Some direction that is not along the normal."""
-        while True:
-            found = self.direction()
-            if abs(dot(found, normal)) < 0.9:
-                return found
+        return self.until(lambda found: abs(dot(found, normal)) < 0.9, self.direction)
 
     def ray_towards(self, target: Vector, distance: float) -> Ray:
         direction = self.direction()
@@ -93,9 +111,10 @@ class Draw:
 
     def triangle(self, reach: float = 4.0) -> Triangle:
         """No sliver: wide in every direction."""
-        while True:
-            a, b, c = self.point(reach), self.point(reach), self.point(reach)
-            area = length(cross(minus(b, a), minus(c, a)))
-            longest = max(length(minus(b, a)), length(minus(c, b)), length(minus(a, c)))
-            if area > 0.35 * longest * longest and longest > 0.3 * reach:
-                return Triangle(a, b, c)
+
+        def wide(t: Triangle) -> bool:
+            area = length(cross(minus(t.b, t.a), minus(t.c, t.a)))
+            longest = max(length(minus(t.b, t.a)), length(minus(t.c, t.b)), length(minus(t.a, t.c)))
+            return area > 0.35 * longest * longest and longest > 0.3 * reach
+
+        return self.until(wide, lambda: Triangle(self.point(reach), self.point(reach), self.point(reach)))

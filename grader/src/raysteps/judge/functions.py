@@ -16,12 +16,14 @@ Make = Callable[[Draw], Inputs]
 @dataclass(frozen=True)
 class Group:
     """One kind of cases. `telling`: a stub, or a function that always answers the same, gets none of them right.
-    `saves`: who is wasteful in all of them spares the rays nothing."""
+    `saves`: who is wasteful in all of them spares the rays nothing. `exact`: the numbers are, and a little beside
+    them the right answer may be another."""
 
     name: str
     make: Make
     telling: bool = True
     saves: bool = False
+    exact: bool = False
 
 
 @dataclass(frozen=True)
@@ -56,9 +58,10 @@ class Case:
         """As the worker reads it."""
         return f"{number} {self._words}"
 
-    @property
-    def size(self) -> int:
-        return sum(len(value.numbers()) for value in self.inputs.values())
-
     def given(self) -> str:
         return "; ".join(f"{name}: {value.words()}" for name, value in self.inputs.items())
+
+
+def seed_of(step: str, function: str, kind: str, seed: int | str) -> str:
+    """Every kind of every function draws from a source of its own."""
+    return f"{seed}/{step}/{function}/{kind}"

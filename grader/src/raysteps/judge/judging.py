@@ -1,53 +1,38 @@
 """Asks the functions of a step, compares with the reference, and says what is wrong."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import count, shorten
-from raysteps.judge.answers import Verdict
 from raysteps.judge.drawing import Draw
-from raysteps.judge.functions import Case, Function
+from raysteps.judge.examples import LONGEST, Examples
+from raysteps.judge.functions import Case, seed_of
 from raysteps.judge.generators import functions_of
+from raysteps.judge.judged import Judged, judge_reply
 from raysteps.judge.plan import FunctionPlan, Plan
+from raysteps.judge.simplicity import complexity
 from raysteps.judge.time_budget import TimeBudget
-from raysteps.judge.worker_client import Ask, Reply, ask_worker
+from raysteps.judge.worker_client import Ask, ask_worker
 from raysteps.kit.manifest import Step
 from raysteps.results.model import CaseGroup, Ending, HiddenResult
 
 ORDINARY_SHARE = 0.9  # of the first kind of cases must be right, or the function earns nothing
 _REFERENCE_SECONDS = 600
-_LONGEST = 2000
-
-
-@dataclass(frozen=True)
-class Judged:
-    """One case with what came of it."""
-
-    case: Case
-    verdict: Verdict
-    outcome: Ending
-    asked: bool = True
-
-    @property
-    def decided(self) -> bool:
-        """Whether it says anything about the function."""
-        return self.asked and self.verdict.decided
 
 
 @lru_cache(maxsize=256)  # a class is asked the same questions
-def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed: int) -> tuple[Case, ...]:
+def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed: int | str) -> tuple[Case, ...]:
     known = functions_of(step[:2])[function]
     cases: list[Case] = []
     for name, amount in amounts:
-        draw = Draw(f"{seed}/{step}/{function}/{name}")
+        draw = Draw(seed_of(step, function, name, seed))
         make = known.by_name[name].make
         cases += [Case(function, name, make(draw)) for _ in range(amount)]
     return tuple(cases)
 
 
-def make_cases(step: Step, plan: FunctionPlan, seed: int) -> Sequence[Case]:
+def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case]:
     """The same seed makes the same cases on every machine."""
     return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
 
@@ -58,14 +43,6 @@ def _reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
     if bad is not None:
         raise GraderFault(f"{name}: the reference does not answer the judge: {bad.note or bad.line}")
     return [reply.line for reply in replies]
-
-
-def _judge(function: Function, case: Case, expected: str, reply: Reply) -> Judged:
-    verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
-    if reply.outcome != "ok":
-        verdict = Verdict(reply.note, verdict.expected, f"no answer: {reply.note}")
-    outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"
-    return Judged(case, verdict, outcome, reply.asked)
 
 
 def _group(name: str, judged: Sequence[Judged]) -> CaseGroup:
@@ -83,11 +60,11 @@ def _is_right(group: CaseGroup, may_miss: float) -> bool:
 
 
 def _first_wrong(judged: Sequence[Judged], wrong: Sequence[CaseGroup]) -> Judged | None:
-    """Of the first kind that is wrong, the case with the fewest numbers; rather one that was asked."""
+    """Of the first kind that is wrong, the simplest case; rather one that was asked."""
     for group in wrong:
         found = [one for one in judged if one.case.group == group.name and one.verdict.problem]
         if found:
-            return min(found, key=lambda one: (not one.asked, one.case.size))
+            return min(found, key=lambda one: (not one.asked, complexity(one.case.inputs)))
     return None
 
 
@@ -108,27 +85,38 @@ def _outcome(judged: Sequence[Judged]) -> Ending:
     return next((outcome for outcome in bad if outcome in outcomes), "ok")
 
 
-def _result(plan: FunctionPlan, judged: Sequence[Judged], seconds: float) -> HiddenResult:
+def _result(
+    step: Step, plan: FunctionPlan, judged: Sequence[Judged], seed: int, examples: Examples | None
+) -> HiddenResult:
     groups = _groups(plan, judged)
     wrong = [group for group in groups if not _is_right(group, plan.may_miss)]
     ordinary = groups[0].right >= ORDINARY_SHARE * groups[0].cases
     share = (len(groups) - len(wrong)) / len(groups) if ordinary else 0.0
     result = HiddenResult(plan.name, "function", round(share, 6), plan.weight, groups=groups)
-    result.seconds = round(seconds, 3)
     found = _first_wrong(judged, wrong)
     if found is not None:
-        result.message = shorten(_message(plan.name, groups, wrong, found, share), _LONGEST)
-        result.given = shorten(found.case.given(), _LONGEST)
-        result.expected = shorten(found.verdict.expected, _LONGEST)
-        result.actual = shorten(found.verdict.actual, _LONGEST)
+        result.message = shorten(_message(plan.name, groups, wrong, found, share), LONGEST)
+        if examples is not None:
+            place = [one.case for one in judged if one.case.group == found.case.group].index(found.case)
+            found, result.case = examples.smallest(step, found, place, seed)
+        result.given = shorten(found.case.given(), LONGEST)
+        result.expected = shorten(found.verdict.expected, LONGEST)
+        result.actual = shorten(found.verdict.actual, LONGEST)
         result.outcome = _outcome(judged)
     return result
 
 
 def judge_functions(
-    step: Step, plan: Plan, student: Ask, reference: Ask, seed: int, seconds: float | None = None
+    step: Step,
+    plan: Plan,
+    student: Ask,
+    reference: Ask,
+    seed: int,
+    seconds: float | None = None,
+    examples: Examples | None = None,
 ) -> list[HiddenResult]:
-    """One result for each function, whatever the student's worker does. `seconds`: the limit of one run of it."""
+    """One result for each function, whatever the student's worker does. `seconds`: the limit of one run of it.
+    Without `examples`, wrong cases are shown as they were asked."""
     results = []
     budget = TimeBudget(step.seconds if seconds is None else seconds, len(plan.functions))
     for function_plan in plan.functions:
@@ -136,6 +124,8 @@ def judge_functions(
         cases = make_cases(step, function_plan, seed)
         expected = _reference_lines(reference, cases, function.name)
         replies = ask_worker(student, cases, budget)
-        judged = [_judge(function, *three) for three in zip(cases, expected, replies.replies, strict=True)]
-        results.append(_result(function_plan, judged, replies.seconds))
+        judged = [judge_reply(function, *three) for three in zip(cases, expected, replies.replies, strict=True)]
+        result = _result(step, function_plan, judged, seed, examples)
+        result.seconds = round(replies.seconds, 3)
+        results.append(result)
     return results

@@ -68,7 +68,7 @@ def _trouble(ran: Ran, *, in_a_line: bool) -> Reply:
     return Reply("", "crashed", f"the program ended ({how})")
 
 
-def _ask_once(ask: Ask, cases: Sequence[Case], first: int, seconds: float) -> tuple[Ran, list[Reply], Reply | None]:
+def ask_once(ask: Ask, cases: Sequence[Case], first: int, seconds: float) -> tuple[Ran, list[Reply], Reply | None]:
     """How it ran, the answers that came, and what became of the next case; None where nobody knows."""
     stdin = "".join(f"{case.line(i)}\n" for i, case in enumerate(cases[first:], first))
     ran = ask(stdin.encode(), seconds)
@@ -90,7 +90,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
     while len(replies) < len(cases):
         if not seconds:
             return _give_up(replies, cases, used, Reply("", "timeout", "there was no time left for it", asked=False))
-        ran, answers, trouble = _ask_once(ask, cases, len(replies), seconds)
+        ran, answers, trouble = ask_once(ask, cases, len(replies), seconds)
         used += ran.outcome.seconds
         budget.spend(ran.outcome.seconds, hung=_hung(ran))
         seconds = budget.next_run()
@@ -110,3 +110,11 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
 
 def _give_up(replies: list[Reply], cases: Sequence[Case], seconds: float, rest: Reply) -> Replies:
     return Replies(replies + [rest] * (len(cases) - len(replies)), seconds)
+
+
+def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Replies:
+    """One run. The last reply may be the trouble that ended it, if the function was called; the rest is not known."""
+    ran, replies, trouble = ask_once(ask, cases, 0, seconds)
+    if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
+        replies = [*replies, trouble]
+    return Replies(replies[: len(cases)], ran.outcome.seconds)

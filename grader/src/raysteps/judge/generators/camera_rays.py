@@ -48,9 +48,7 @@ def _simple_ray(draw: Draw) -> Ray:
 
 def _any_camera(draw: Draw) -> Camera:
     origin, view = draw.point(10), draw.direction()
-    up = draw.direction()
-    while length(cross(up, view)) < 0.25:
-        up = draw.direction()
+    up = draw.until(lambda found: length(cross(found, view)) >= 0.25, draw.direction)
     return Camera(
         origin,
         rounded(add(origin, view, draw.real(0.5, 20))),
@@ -69,9 +67,8 @@ def _upright(draw: Draw, camera: Camera) -> Camera:
 
 def _simple_camera(draw: Draw) -> Camera:
     """Looks along an axis, another axis is up, and the picture is square; never as a fresh ViewFrame does."""
-    origin, view, up = draw.simple_point(5), draw.axis(), draw.axis()
-    while length(cross(view, up)) == 0 or (view, up) == _FRESH:
-        view, up = draw.axis(), draw.axis()
+    origin = draw.simple_point(5)
+    view, up = draw.until(lambda axes: length(cross(*axes)) > 0 and axes != _FRESH, lambda: (draw.axis(), draw.axis()))
     size = 2 * draw.whole(2, 100)
     at = add(origin, view, float(draw.whole(1, 8)))
     angle = (45.0, 60.0, 90.0)[draw.whole(0, 2)]

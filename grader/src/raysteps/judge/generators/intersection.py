@@ -12,10 +12,9 @@ from raysteps.judge.values import Inputs, Ray
 def _distances(draw: Draw, count: int) -> list[float]:
     """Well apart, in random order."""
     found: list[float] = []
-    while len(found) < count:
-        distance = draw.real(0.5, 30)
-        if all(abs(distance - other) > 0.2 for other in found):
-            found.append(distance)
+    for _ in range(count):
+        apart = draw.until(lambda new: all(abs(new - other) > 0.2 for other in found), lambda: draw.real(0.5, 30))
+        found.append(apart)
     return found
 
 

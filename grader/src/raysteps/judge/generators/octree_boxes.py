@@ -115,10 +115,8 @@ def _through(draw: Draw) -> Inputs:
 
 def _past(draw: Draw) -> Inputs:
     box = _box(draw)
-    while True:
-        ray = Ray(draw.point(9), draw.slanted())
-        if _misses(box, ray, _NEAR):
-            return {"box": box, "ray": ray}
+    ray = draw.until(lambda found: _misses(box, found, _NEAR), lambda: Ray(draw.point(9), draw.slanted()))
+    return {"box": box, "ray": ray}
 
 
 def _through_or_past(draw: Draw) -> Inputs:
@@ -201,9 +199,9 @@ CLIP = Function(
     (
         Group("through or past the box", _through_or_past, telling=False),
         Group("origin inside", _from_inside),
-        Group("along an axis", _along_axis, telling=False),
-        Group("along a face or an edge", _along_face),
-        Group("flat boxes", _flat),
+        Group("along an axis", _along_axis, telling=False, exact=True),
+        Group("along a face or an edge", _along_face, exact=True),
+        Group("flat boxes", _flat, exact=True),
         Group("behind the origin", _box_behind, telling=False),
         Group("past the box", _past, telling=False),
     ),

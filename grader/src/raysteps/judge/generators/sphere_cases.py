@@ -68,7 +68,7 @@ SPHERE_INTERSECT = Function(
     HIT,
     (
         Group("hit or missed from outside", _any_sphere, telling=False),
-        Group("simple numbers", _simple_sphere),
+        Group("simple numbers", _simple_sphere, exact=True),
         Group("origin inside", _inside_sphere),
         Group("origin in the centre", _from_center),
         Group("far away", _far_sphere),

@@ -37,10 +37,11 @@ def _known(draw: Draw) -> Inputs:
 
 def _each_one_of(draw: Draw, values: tuple[float, ...]) -> Vector:
     """Each channel one of the values, not all 0."""
-    while True:
-        r, g, b = (values[draw.whole(0, len(values) - 1)] for _ in range(3))
-        if r + g + b > 0:
-            return r, g, b
+
+    def one() -> float:
+        return values[draw.whole(0, len(values) - 1)]
+
+    return draw.until(lambda rgb: sum(rgb) > 0, lambda: (one(), one(), one()))
 
 
 _INFINITE = (math.inf,)
@@ -79,11 +80,11 @@ FUNCTIONS = (
         _COLOR,
         (
             Group("any colour", lambda d: _color((d.real(0.05, 8), d.real(0.05, 8), d.real(0.05, 8)))),
-            Group("known values", _known),
+            Group("known values", _known, exact=True),
             Group("very bright", lambda d: _color((d.real(100, 1e4), d.real(1e4, 1e6), f32(1e30)))),
             Group("very dark", lambda d: _color((d.real(0, 0.01), d.real(0, 0.01), d.real(0, 0.01)))),
             Group("infinite", lambda d: _color(_one_of(d, _INFINITE))),
-            Group("negative or NaN", lambda d: _color(_one_of(d, _NO_COLOR)), telling=False),
+            Group("negative or NaN", lambda d: _color(_one_of(d, _NO_COLOR)), telling=False, exact=True),
         ),
     ),
     Function(
@@ -94,7 +95,7 @@ FUNCTIONS = (
             Group("simple numbers", _simple_byte),
             Group("rounded up", _rounded_up),
             Group("1 and brighter", _bright_byte, telling=False),
-            Group("negative or NaN", _odd_byte, telling=False),
+            Group("negative or NaN", _odd_byte, telling=False, exact=True),
         ),
     ),
 )

@@ -121,14 +121,14 @@ TRIANGLE_INTERSECT = Function(
     HIT,
     (
         Group("hit or missed from any side", _any_triangle, telling=False),
-        Group("simple numbers", _simple_triangle),
+        Group("simple numbers", _simple_triangle, exact=True),
         Group("seen from the front", lambda d: _from_side(d, 1.0)),
         Group("seen from behind", lambda d: _from_side(d, -1.0)),
         Group("small triangles", _small_triangle),
         Group("on an edge", _on_edge),
         Group("beside an edge", _beside_edge, telling=False),
         Group("behind the origin", _triangle_behind, telling=False),
-        Group("along the plane", _in_plane, telling=False),
-        Group("origin on the triangle", _on_triangle, telling=False),
+        Group("along the plane", _in_plane, telling=False, exact=True),
+        Group("origin on the triangle", _on_triangle, telling=False, exact=True),
     ),
 )
