@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 LEAST_MARGIN = 2.0
+_LEAST_WRONG = 2.0  # pixels: so many may differ in a correct solution of which nobody has thought
 _NOISE = 1.5  # factor by which other processors and compilers may move a limit
 
 
@@ -55,10 +56,9 @@ def plain(value: float) -> str:
 def gate_between(
     correct: Mapping[str, float], mistakes: Mapping[str, Sequence[float]], pixels: int, written: float
 ) -> Gate:
-    """`correct`: the worst share of each; `mistakes`: one share for each seed, of which the least counts. A correct
-    solution counts as half a pixel wrong at least: more pixels would tell."""
+    """`correct`: the worst share of each; `mistakes`: one share for each seed, of which the least counts."""
     whose = max(correct, key=lambda name: correct[name])
-    worst = Share(max(correct[whose], 0.5 / pixels), whose if correct[whose] else "")
+    worst = Share(max(correct[whose], _LEAST_WRONG / pixels), whose if correct[whose] else "")
     least = {name: min(shares) for name, shares in mistakes.items()}
     seen = {name: share for name, share in least.items() if share > worst.value}
     unseen = tuple(name for name in least if name not in seen)
