@@ -18,7 +18,7 @@ from raysteps.upkeep.calibration.measuring import Calibrated, correct_candidates
 from raysteps.upkeep.calibration.report import calibration_page, complaints
 from raysteps.upkeep.calibration.scenes import Limited, View, limited_pictures
 from raysteps.upkeep.calibration.settings import KIT, all_settings, fused_flags, own_setting
-from raysteps.upkeep.calibration.shares import Candidate, Measuring
+from raysteps.upkeep.calibration.shares import Candidate, PictureShares
 
 _PIXELS = 20_000
 
@@ -121,7 +121,7 @@ def test_every_step_has_other_correct_solutions(project: Project, steps: list[St
 def test_one_picture_from_end_to_end(kit: BuiltKit, project: Project, steps: list[Step]) -> None:
     step = steps[6]
     image = read_step(project.steps / step.id / "step.toml").images[0]
-    measuring = Measuring(kit, step, [View(project.root / image.scene, image.args)])
+    measuring = PictureShares(kit, step, [View(project.root / image.scene, image.args)])
     own = own_setting(kit)
     reference, other = correct_candidates(project, step)[:2]
     assert measuring.shares(reference, own) == (0.0,)

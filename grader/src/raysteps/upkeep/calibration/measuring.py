@@ -14,7 +14,7 @@ from raysteps.mistakes.catalogue import read_mutants, reference_source
 from raysteps.upkeep.calibration.gate import Gate, gate_between
 from raysteps.upkeep.calibration.scenes import Limited, limited_pictures
 from raysteps.upkeep.calibration.settings import Setting, own_setting
-from raysteps.upkeep.calibration.shares import Candidate, Measuring, patient
+from raysteps.upkeep.calibration.shares import Candidate, PictureShares, patient
 
 SEEDS = range(1, 4)
 _EVERY = 25  # measurements between two lines of progress
@@ -60,7 +60,9 @@ def counted(say: Say, what: str, total: int) -> Callable[[], None]:
     return one_more
 
 
-def _measure(measuring: Measuring, work: Sequence[tuple[Candidate, Setting]], jobs: int, say: Say) -> list[Measured]:
+def _measure(
+    measuring: PictureShares, work: Sequence[tuple[Candidate, Setting]], jobs: int, say: Say
+) -> list[Measured]:
     one_more = counted(say, "measured", len(work))
 
     def one(item: tuple[Candidate, Setting]) -> Measured:
@@ -91,7 +93,7 @@ def calibrate_step(kit: BuiltKit, step: Step, settings: Sequence[Setting], jobs:
             f"{step.id}: {len(correct)} correct solutions in {len(settings) + 1} settings and {len(mistaken)} mistakes "
             f"on {sum(len(limited.views) for limited in limits)} pictures"
         )
-        measuring = Measuring(kit, patient(step), [view for limited in limits for view in limited.views])
+        measuring = PictureShares(kit, patient(step), [view for limited in limits for view in limited.views])
         measured = _measure(measuring, work, jobs, say)
         say(f"{step.id}: {measuring.binaries} different binaries")
     found, start = [], 0

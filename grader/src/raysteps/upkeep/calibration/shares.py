@@ -31,7 +31,7 @@ class Candidate:
     correct: bool
 
 
-class Measuring:
+class PictureShares:
     """Renders the same binary once only: many settings give the same one. Used from several threads."""
 
     def __init__(self, kit: BuiltKit, step: Step, views: Sequence[View]) -> None:
