@@ -7,6 +7,7 @@ from rich.console import Console
 from raysteps.commands.progress import progress
 from raysteps.kit.project import Project
 from raysteps.upkeep import maintenance
+from raysteps.upkeep.calibration.command import calibrate
 from raysteps.upkeep.truth.command import check_truth
 
 
@@ -18,6 +19,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         add.add_argument("--check", action="store_true", help="only tell what is out of date")
     add = commands.add_parser("mistakes", help="make docs/mistakes/ from the catalogue of mistakes")
     add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    add = commands.add_parser("calibrate", help="measure how many pixels of each picture may be wrong (15 minutes)")
+    add.add_argument("--check", action="store_true", help="only tell which limits are out of date")
+    add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
+    add.add_argument("--marks", action="store_true", help="grade every correct solution in every setting instead")
     add = commands.add_parser(
         "check", help="grade stubs, references, known mistakes and alternatives, and judge the grades"
     )
@@ -36,6 +41,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         case "mistakes":
             with console.status("starting") as status:
                 return maintenance.mistakes(project, progress(console, status), check=arguments.check)
+        case "calibrate":
+            with console.status("starting") as status:
+                say = progress(console, status)
+                return calibrate(project, arguments.only, console, say, check=arguments.check, grades=arguments.marks)
         case _:
             with console.status("starting") as status:
                 say = progress(console, status)

@@ -16,8 +16,8 @@ from raysteps.programs.pictures import compare
 from raysteps.programs.rendering import reference_picture, render
 from raysteps.programs.student_build import Compiled, Program, StudentBuild
 from raysteps.sandbox.open_air import OpenAir
-from raysteps.upkeep.calibration_scenes import View
-from raysteps.upkeep.calibration_settings import Setting
+from raysteps.upkeep.calibration.scenes import View
+from raysteps.upkeep.calibration.settings import Setting
 
 _NO_PICTURE = 1.0
 
@@ -31,7 +31,7 @@ class Candidate:
     correct: bool
 
 
-class Measuring:
+class PictureShares:
     """Renders the same binary once only: many settings give the same one. Used from several threads."""
 
     def __init__(self, kit: BuiltKit, step: Step, views: Sequence[View]) -> None:
@@ -46,6 +46,11 @@ class Measuring:
     def pixels(self) -> list[int]:
         """How many each picture has."""
         return [picture.shape[0] * picture.shape[1] for picture in self._reference]
+
+    @property
+    def binaries(self) -> int:
+        """How many different ones were rendered."""
+        return len(self._known)
 
     def shares(self, candidate: Candidate, setting: Setting) -> tuple[float, ...]:
         """One for each view; a program that makes no picture has every pixel wrong."""

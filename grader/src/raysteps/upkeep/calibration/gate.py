@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 LEAST_MARGIN = 2.0
+_LEAST_WRONG = 2.0  # pixels: so many may differ in a correct solution of which nobody has thought
+_HANDFUL = 10.0  # pixels: a mistake that changes no more of a picture is not what the picture shows
 _NOISE = 1.5  # factor by which other processors and compilers may move a limit
 
 
@@ -19,7 +21,7 @@ class Share:
 
 @dataclass(frozen=True)
 class Gate:
-    """What one picture can tell apart. `unseen` are mistakes that it shows no better than correct solutions."""
+    """What one picture can tell apart. `unseen` are mistakes that it hardly shows."""
 
     worst: Share
     mildest: Share | None
@@ -55,12 +57,11 @@ def plain(value: float) -> str:
 def gate_between(
     correct: Mapping[str, float], mistakes: Mapping[str, Sequence[float]], pixels: int, written: float
 ) -> Gate:
-    """`correct`: the worst share of each; `mistakes`: one share for each seed, of which the least counts. A correct
-    solution counts as half a pixel wrong at least: more pixels would tell."""
+    """`correct`: the worst share of each; `mistakes`: one share for each seed, of which the least counts."""
     whose = max(correct, key=lambda name: correct[name])
-    worst = Share(max(correct[whose], 0.5 / pixels), whose if correct[whose] else "")
+    worst = Share(max(correct[whose], _LEAST_WRONG / pixels), whose if correct[whose] else "")
     least = {name: min(shares) for name, shares in mistakes.items()}
-    seen = {name: share for name, share in least.items() if share > worst.value}
+    seen = {name: share for name, share in least.items() if share > max(worst.value, _HANDFUL / pixels)}
     unseen = tuple(name for name in least if name not in seen)
     if not seen:
         return Gate(worst, None, unseen, written if written > worst.value else rounded(4 * worst.value), written)
