@@ -125,7 +125,7 @@ TRIANGLE_INTERSECT = Function(
         Group("seen from the front", lambda d: _from_side(d, 1.0)),
         Group("seen from behind", lambda d: _from_side(d, -1.0)),
         Group("small triangles", _small_triangle),
-        Group("on an edge", _on_edge),
+        Group("on an edge", _on_edge, exact=True),
         Group("beside an edge", _beside_edge, telling=False),
         Group("behind the origin", _triangle_behind, telling=False),
         Group("along the plane", _in_plane, telling=False, exact=True),
