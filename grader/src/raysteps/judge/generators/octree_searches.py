@@ -49,6 +49,8 @@ def _along_axis(draw: Draw) -> Inputs:
 _SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
 _BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16) - 6), 0.75) for i in range(64))
 
+_EDGE = 6.75  # of the box around the balls
+
 
 def _later_box(draw: Draw) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
@@ -65,13 +67,21 @@ def _ball_before_the_slope(draw: Draw) -> Inputs:
             return _search((_SLOPE, *_BALLS), [Ray(rounded(add(ball.center, direction, -25)), direction)], own=False)
 
 
+def _eighth(point: Vector) -> int:
+    """Of the space around 0, numbered as split does it."""
+    return sum(1 << axis for axis, x in enumerate(point) if x > 0)
+
+
 def _balls_in_a_row(draw: Draw) -> Inputs:
-    """Through two of the balls, the near one anywhere beside the far one: above it or below, left or right."""
+    """Through two of the balls, in any direction. The boxes along the ray come in another order than their numbers: who
+    searches by number and stops at the first box behind a hit never comes to the near ball."""
     while True:
         far, near = (_BALLS[draw.whole(0, 63)].center for _ in range(2))
-        way = minus(far, near)
-        if min(abs(x) for x in way) > 0:
-            direction = rounded(unit(add(way, draw.point(0.3))))
+        if far == near:
+            continue
+        direction = rounded(unit(add(minus(far, near), draw.point(0.3))))
+        beyond = add(far, direction, draw.real(1, 5))
+        if max(abs(x) for x in beyond) < _EDGE and _eighth(far) < _eighth(beyond) < _eighth(near):
             return _search(_BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
 
 
