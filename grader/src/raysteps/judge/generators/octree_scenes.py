@@ -57,6 +57,22 @@ def _large_and_small(draw: Draw) -> Inputs:
     return _scene((Sphere((0.0, 0.0, 0.0), 12.0), ground, *small_scene(draw, 25, 2)))
 
 
+def _far_away(draw: Draw) -> Inputs:
+    """All on one side of the centre of the world."""
+    sign = draw.sign()
+    away = (sign * 64.0, sign * 80.0, sign * 100.0)
+    moved = [Sphere(add(s.center, away), s.radius) for s in (_sphere(draw, 0.1, 0.6) for _ in range(25))]
+    return _scene(tuple(moved))
+
+
+def _on_walls(draw: Draw) -> Inputs:
+    """A grid of balls whose middle ones are cut by the walls between the boxes; the box of all is a cube."""
+    radius = draw.whole(8, 40) / 64
+    row = (-3.0, -1.5, 0.0, 1.5, 3.0)
+    column = row[:: draw.whole(1, 2)]
+    return _scene(tuple(Sphere((x, y, z), radius) for x in row for y in row for z in column))
+
+
 def _target(draw: Draw, surface: Surface) -> Vector:
     """A point well within the surface's outline."""
     if isinstance(surface, Sphere):
@@ -94,6 +110,18 @@ def _along_axis(draw: Draw) -> Inputs:
     return _search(surfaces, [Ray(rounded(add(target, direction, -16)), direction)], own=draw.chance(0.5))
 
 
+def _looking_away(draw: Draw) -> Inputs:
+    """Everything is behind the ray."""
+    surfaces = small_scene(draw, 25, 6)
+    direction = draw.direction()
+    return _search(surfaces, [Ray(rounded(times(draw.real(10, 20), direction)), direction)], own=draw.chance(0.5))
+
+
+def _from_far(draw: Draw) -> Inputs:
+    surfaces = small_scene(draw, 25, 6)
+    return _search(surfaces, [_aimed(draw, surfaces, 100)], own=draw.chance(0.5))
+
+
 def _later_box(draw: Draw) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
     slope = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
@@ -115,6 +143,8 @@ BUILD_OCTREE = Function(
         Group("large ones among small ones", _large_and_small),
         Group("all in one place", _in_one_place),
         Group("all in one plane", _in_one_plane),
+        Group("far from the centre of the world", _far_away),
+        Group("on the walls between the boxes", _on_walls),
         Group("a single surface", lambda d: _scene(small_scene(d, 1, 0) if d.chance(0.5) else small_scene(d, 0, 1))),
         Group("no surfaces", lambda d: _scene(()), telling=False),
     ),
@@ -129,6 +159,8 @@ CLOSEST_HIT_IN = Function(
         Group("from inside", _from_inside),
         Group("along an axis", _along_axis),
         Group("a nearer hit in a later box", _later_box, telling=False),
+        Group("from far away", _from_far),
+        Group("everything behind the ray", _looking_away, telling=False),
         Group("few surfaces are asked", _many_rays, saves=True),
         Group("no surfaces", lambda d: _search((), [d.ray_towards((0.0, 0.0, 0.0), 5)], own=True), telling=False),
     ),
