@@ -13,6 +13,7 @@ from raysteps.classroom import command as classroom
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.demo import demo
 from raysteps.commands.render import render
+from raysteps.commands.replay import replay
 from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
@@ -49,6 +50,10 @@ def _parser() -> argparse.ArgumentParser:
 
     add = commands.add_parser("check", help="check your own steps")
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
+
+    add = commands.add_parser("replay", help="ask a hidden case again, as `check` or `grade` wrote it")
+    add.add_argument("case", type=Path, help="such as cases/02-sphere-intersect.json")
+    add.add_argument("--submission", type=Path, metavar="FOLDER", help="whose steps (your own)")
 
     add = commands.add_parser("grade", help="grade a submission: a folder, zip or tar")
     add.add_argument("submission", type=Path)
@@ -92,6 +97,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
     match arguments.command:
         case "check":
             return check(project, arguments.steps, console)
+        case "replay":
+            return replay(project, arguments.case, arguments.submission, console)
         case "grade":
             return exit_code(grade(project, _wish(project, arguments), console))
         case "grade-class":

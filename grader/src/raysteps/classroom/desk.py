@@ -23,19 +23,20 @@ def this_worker() -> str:
     return f"{platform.node()}:{os.getpid()}"
 
 
-def _named_pictures(document: dict[str, Any]) -> Iterator[str]:
+def _named_files(document: dict[str, Any]) -> Iterator[str]:
     for step in document["steps"]:
+        yield from (item["case"] for item in step["hidden"] if item.get("case"))
         for image in step["images"]:
             yield from (image[kind] for kind in ("mine", "reference", "difference") if image[kind])
 
 
 def _read_answer(job: Job, out: Path, seconds: float) -> Answer:
-    """Only pictures that the results name: what they withhold stays here."""
+    """Only pictures and cases that the results name: what they withhold stays here."""
     document = json.loads((out / "results.json").read_text(encoding="utf-8"))
     validate(document)
     if document["submission"] != job.submission.name:
         raise GraderFault(f"these are the results of {document['submission']}")
-    pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_pictures(document)))}
+    pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_files(document)))}
     return Answer(job.submission.name, "graded", document, pictures, seconds=seconds, worker=this_worker())
 
 

@@ -1,27 +1,35 @@
-"""The files that are made from the database: results.json and pictures per submission, results.csv, class.json."""
+"""The files that are made from the database: of each submission results.json, pictures and cases; and two tables."""
 
 import json
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.spreadsheet import Cell, csv_bytes
 from raysteps.common.files import write_bytes, write_if_changed, write_json
+from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.feedback import withhold
 
 SUBMISSIONS = "submissions"
 _TABLES = ("results.csv", "class.json")
 
 
-def _forget_pictures(folder: Path, kept: set[str]) -> None:
-    """Pictures of an earlier result must not be taken for those of this one."""
-    pictures = folder / "pictures"
-    if pictures.is_symlink() or not pictures.is_dir():
-        return
-    for path in list(pictures.rglob("*.png")):
-        if path.relative_to(folder).as_posix() not in kept and path.resolve().is_relative_to(pictures.resolve()):
-            path.unlink(missing_ok=True)
+def _forget_files(folder: Path, kept: set[str]) -> None:
+    """Pictures and cases of an earlier result must not be taken for those of this one."""
+    for room, ending in ((folder / "pictures", "*.png"), (folder / CASES, "*.json")):
+        if room.is_symlink() or not room.is_dir():
+            continue
+        for path in list(room.rglob(ending)):
+            if path.relative_to(folder).as_posix() not in kept and path.resolve().is_relative_to(room.resolve()):
+                path.unlink(missing_ok=True)
+
+
+def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> set[str]:
+    """Cases that were kept, but that the results for students do not name."""
+    steps = document.get("steps", []) if document else []
+    named = {item.get("case", "") for step in steps for item in step["hidden"]}
+    return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
 
 
 def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
@@ -30,12 +38,13 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     folder = out / SUBMISSIONS / name
     if row is None:
         return
-    pictures = database.pictures(row["submission"], row["run"])
-    _forget_pictures(folder, set(pictures))
-    for path, data in pictures.items():
-        write_if_changed(folder / path, data)
-    if row["document"]:
-        document = withhold(json.loads(row["document"]), database.feedback())
+    document = withhold(json.loads(row["document"]), database.feedback()) if row["document"] else None
+    files = database.pictures(row["submission"], row["run"])
+    shown = set(files) - _withheld_cases(document, files)
+    _forget_files(folder, shown)
+    for path in sorted(shown):
+        write_if_changed(folder / path, files[path])
+    if document is not None:
         text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
         write_if_changed(folder / "results.json", text.encode())
         (folder / "fault.txt").unlink(missing_ok=True)

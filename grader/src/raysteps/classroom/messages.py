@@ -59,7 +59,7 @@ class Answer:
     name: str
     status: Literal["graded", "fault"]
     document: Document | None = None
-    pictures: Mapping[str, bytes] = field(default_factory=dict)  # by path below the folder of results.json
+    pictures: Mapping[str, bytes] = field(default_factory=dict)  # and cases; by path below the folder of results.json
     fault: str = ""
     details: str = ""
     seconds: float = 0.0

@@ -2,17 +2,20 @@
 
 import hashlib
 import os
+import shlex
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rich.console import Console
 
 from raysteps.commands.progress import progress
-from raysteps.commands.report import print_details, print_files, print_isolation, print_table
+from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, usable_folder
 from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
+from raysteps.judge.case_files import FOLDER as CASES
+from raysteps.judge.case_files import place_of
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
@@ -46,9 +49,12 @@ def clear(out: Path, steps: list[Step]) -> None:
                     picture.unlink()
             if not any(folder.iterdir()):
                 folder.rmdir()
-        pictures = out / "pictures"
-        if pictures.is_dir() and not pictures.is_symlink() and not any(pictures.iterdir()):
-            pictures.rmdir()
+        if not (out / CASES).is_symlink():
+            for name in (place_of(step.number, function) for step in steps for function in step.functions):
+                (out / name).unlink(missing_ok=True)
+        for room in (out / "pictures", out / CASES):
+            if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
+                room.rmdir()
     except OSError as error:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
@@ -64,7 +70,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
-    print_details(console, results, kit.steps, out)
+    print_details(console, results, kit.steps, out, lambda case: f"./raysteps replay {case}")
     console.print()
     print_table(console, results)
     print_files(console, out / "results.json")
@@ -95,8 +101,12 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         clear(out, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
+
+    def again(case: str) -> str:
+        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+
     if wish.details:
-        print_details(console, results, kit.steps, out)
+        print_details(console, results, kit.steps, out, again)
         console.print()
     print_table(console, results)
     print_isolation(console, results)

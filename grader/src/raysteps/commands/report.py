@@ -1,5 +1,6 @@
 """Prints results for people."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
@@ -9,6 +10,8 @@ from rich.table import Table
 from raysteps.common.text import number
 from raysteps.kit.manifest import Step
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
+
+Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 
@@ -54,19 +57,21 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
         console.print(f"             {escape(image.message)}")
         if image.difference or image.mine:
             shown = out / (image.difference or image.mine or "")
-            console.print(f"             see {escape(_short(shown))}")
+            console.print(f"             see {escape(short_path(shown))}")
 
 
-def _print_hidden(console: Console, item: HiddenResult) -> None:
+def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {item.share:.0%} of its points")
     if item.message:
         console.print(f"             {escape(item.message)}")
     for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
         if text:
             console.print(f"             {label:<9} {escape(text)}")
+    if item.case:
+        console.print(f"             {'again':<9} {escape(again(item.case))}", soft_wrap=True)
 
 
-def _short(path: Path) -> str:
+def short_path(path: Path) -> str:
     """Relative to where the person is, when that is shorter."""
     try:
         return str(path.relative_to(Path.cwd()))
@@ -74,8 +79,9 @@ def _short(path: Path) -> str:
         return str(path)
 
 
-def print_details(console: Console, results: Results, steps: list[Step], out: Path) -> None:
-    """What happened in each step: what failed, in full, and what passed in one line."""
+def print_details(console: Console, results: Results, steps: list[Step], out: Path, again: Again) -> None:
+    """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
+    case once more."""
     titles = {step.id: step.title for step in steps}
     for result in results.steps:
         console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
@@ -93,7 +99,7 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
             _print_image(console, image, out)
         for item in result.hidden:
             if not item.passed:
-                _print_hidden(console, item)
+                _print_hidden(console, item, again)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
         if result.cumulative.message and result.tests:
@@ -137,4 +143,4 @@ def print_isolation(console: Console, results: Results) -> None:
 
 def print_files(console: Console, path: Path) -> None:
     """Where the results are."""
-    console.print(f"Results: {escape(_short(path))}, pictures beside it", soft_wrap=True)
+    console.print(f"Results: {escape(short_path(path))}, pictures beside it", soft_wrap=True)

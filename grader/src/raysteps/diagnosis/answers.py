@@ -13,7 +13,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.generators import functions_of
 from raysteps.judge.judging import make_cases
-from raysteps.judge.plan import FunctionPlan, Plan
+from raysteps.judge.plan import Plan
 from raysteps.judge.time_budget import TimeBudget
 from raysteps.judge.worker_client import Ask, Reply, ask_worker
 from raysteps.kit.built_kit import BuiltKit
@@ -38,12 +38,16 @@ class Said:
 Answers: TypeAlias = Mapping[str, Mapping[int, Said]]  # by function, then by number of the case; only what is not right
 
 
-def cases_of(step: Step, plan: FunctionPlan) -> Sequence[Case]:
-    """The same for everybody."""
-    return make_cases(step, plan, _SEED)
+@dataclass(frozen=True)
+class Questions:
+    """To one function, with what the reference answers."""
+
+    function: Function
+    cases: Sequence[Case]
+    right: Sequence[str]
 
 
-def _expected(kit: BuiltKit, function: str, cases: Sequence[Case]) -> list[str]:
+def _right_answers(kit: BuiltKit, function: str, cases: Sequence[Case]) -> list[str]:
     def ask(stdin: bytes, _seconds: float) -> Ran:
         return reference_answers(kit, stdin)
 
@@ -53,30 +57,38 @@ def _expected(kit: BuiltKit, function: str, cases: Sequence[Case]) -> list[str]:
     return [reply.line for reply in replies]
 
 
-def _said(function: Function, case: Case, expected: str, reply: Reply) -> Said | None:
+def questions_of(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str]) -> dict[str, Questions]:
+    """By function, in the order of the step; the same for everybody."""
+    found = {}
+    for function in plan.functions:
+        if function.name in names:
+            cases = make_cases(step, function, _SEED)
+            known = functions_of(step.number)[function.name]
+            found[function.name] = Questions(known, cases, _right_answers(kit, function.name, cases))
+    return found
+
+
+def _said(function: Function, case: Case, right: str, reply: Reply) -> Said | None:
     """None for a right answer."""
     if not reply.asked:
         return Said("", "", known=False)
     if reply.outcome != "ok":
         return Said("", reply.outcome)
-    if reply.line == expected:
+    if reply.line == right:
         return None
-    problem = function.answer.verdict(case.function, case.inputs, expected, reply.line).problem
+    problem = function.answer.verdict(case.function, case.inputs, right, reply.line).problem
     if not problem:
         return None
     long = len(reply.line) > _LONGEST
     return Said("#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line, str(problem))
 
 
-def listen(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str], ask: Ask, seconds: float) -> Answers:
-    """Asks these functions. `seconds`: the limit of one run of the worker."""
-    chosen = [function for function in plan.functions if function.name in names]
-    budget = TimeBudget(seconds, len(chosen))
+def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float) -> Answers:
+    """Asks a program. `seconds`: the limit of one run of its worker."""
+    budget = TimeBudget(seconds, len(questions))
     heard: dict[str, dict[int, Said]] = {}
-    for function_plan in chosen:
-        function, cases = functions_of(step.number)[function_plan.name], cases_of(step, function_plan)
-        expected = _expected(kit, function.name, cases)
-        replies = ask_worker(ask, cases, budget).replies
-        said = [_said(function, *three) for three in zip(cases, expected, replies, strict=True)]
-        heard[function.name] = {number: one for number, one in enumerate(said) if one is not None}
+    for name, known in questions.items():
+        replies = ask_worker(ask, known.cases, budget).replies
+        said = [_said(known.function, *three) for three in zip(known.cases, known.right, replies, strict=True)]
+        heard[name] = {number: one for number, one in enumerate(said) if one is not None}
     return heard

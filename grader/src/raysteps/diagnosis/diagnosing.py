@@ -3,7 +3,7 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from raysteps.diagnosis.answers import Answers, listen
+from raysteps.diagnosis.answers import Questions, listen, questions_of
 from raysteps.diagnosis.evidence import Evidence, Picture
 from raysteps.diagnosis.findings import findings, transformations
 from raysteps.diagnosis.learning import known_mistakes
@@ -34,7 +34,9 @@ class Diagnostician:
     def diagnose(self, result: StepResult, mine: Mapping[str, Pixels], unfinished: Collection[str]) -> list[Diagnosis]:
         """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs."""
         pictures = self._pictures(mine) if not unfinished else {}
-        named, spoilt = self._mistakes(Evidence(self._answers(result, unfinished), pictures))
+        questions = self._questions(result, unfinished)
+        answers = listen(questions, self.ask, _MOST_SECONDS) if self.ask is not None else {}
+        named, spoilt = self._mistakes(Evidence(questions, answers, pictures))
         open_ = {
             name: picture
             for name, picture in pictures.items()
@@ -51,13 +53,13 @@ class Diagnostician:
         if not mutants or not evidence.is_wrong:
             return [], set()
         known = known_mistakes(self.kit, self.step, self.plan, mutants, self.say)
-        matches = [match(mutant, known[mutant.id], evidence, self.step, self.plan) for mutant in mutants]
+        matches = [match(mutant, known[mutant.id], evidence) for mutant in mutants]
         named = name_mistakes(matches)
         spoilt = {
             name
             for one in named
             for name, picture in evidence.pictures.items()
-            if spoils(known[one.mutant.id].pictures.get(name), picture)
+            if name in one.explains or spoils(known[one.mutant.id].pictures.get(name), picture)
         }
         return [one.diagnosis() for one in named], spoilt
 
@@ -69,11 +71,11 @@ class Diagnostician:
                 found[case.name] = Picture(case, mine[case.name], reference)
         return found
 
-    def _answers(self, result: StepResult, unfinished: Collection[str]) -> Answers:
-        """Of the functions that the judge found wrong; of all where it found none."""
-        if self.plan is None or self.ask is None:
+    def _questions(self, result: StepResult, unfinished: Collection[str]) -> dict[str, Questions]:
+        """To the functions that the judge found wrong; to all where it found none."""
+        if self.plan is None:
             return {}
         judged = [item for item in result.hidden if item.kind == "function"]
         hung = {item.name for item in judged if item.outcome == "timeout"}
         wrong = {item.name for item in judged if not item.passed} or {item.name for item in judged}
-        return listen(self.kit, self.step, self.plan, wrong - hung - set(unfinished), self.ask, _MOST_SECONDS)
+        return questions_of(self.kit, self.step, self.plan, wrong - hung - set(unfinished))

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.diagnosis.answers import Answers
+from raysteps.diagnosis.answers import Answers, Questions
 from raysteps.kit.manifest import ImageCase
 from raysteps.programs.pictures import TOLERANCE, Pixels, is_flat
 
@@ -44,8 +44,9 @@ class Picture:
 
 @dataclass(frozen=True)
 class Evidence:
-    """`answers` holds the functions that were asked, `pictures` those that came out."""
+    """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out."""
 
+    questions: Mapping[str, Questions]
     answers: Answers
     pictures: Mapping[str, Picture]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import one_at_a_time
 from raysteps.common.text import shorten
-from raysteps.diagnosis.answers import Answers, listen
+from raysteps.diagnosis.answers import Answers, listen, questions_of
 from raysteps.diagnosis.fingerprints import Fingerprint, Known, read_known, write_known
 from raysteps.judge.plan import Plan
 from raysteps.kit.built_kit import BuiltKit, Kind, Say
@@ -35,7 +35,7 @@ class _Learner:
     def __init__(self, kit: BuiltKit, step: Step, plan: Plan | None, folder: Path) -> None:
         self._kit = kit
         self._step = step
-        self._plan = plan
+        self._questions = {} if plan is None else questions_of(kit, step, plan, step.functions)
         self._folder = folder
         self._air = OpenAir()
         self._limits = replace(limits_of(step, {}), seconds=_SECONDS, compile_seconds=_COMPILE_SECONDS)
@@ -55,7 +55,7 @@ class _Learner:
                 raise GraderFault(f"{self._step.id}/mutants.toml: {mutant.id} cannot be linked")
             return found
 
-        answers = self._answers(program("worker")) if self._plan is not None else {}
+        answers = self._answers(program("worker")) if self._questions else {}
         return Fingerprint(answers, self._pictures(program("raytrace")))
 
     def _answers(self, worker: Program) -> Answers:
@@ -63,8 +63,7 @@ class _Learner:
             limits = replace(self._limits.of_program(seconds), output_kb=ANSWERS_KB)
             return self._air.run(Task(worker.words, limits, stdin=cases))
 
-        assert self._plan is not None
-        return listen(self._kit, self._step, self._plan, self._step.functions, ask, _SECONDS)
+        return listen(self._questions, ask, _SECONDS)
 
     def _pictures(self, raytrace: Program) -> dict[str, Pixels]:
         """Those that it makes."""

@@ -4,11 +4,12 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from raysteps.diagnosis.matching import Match
+from raysteps.diagnosis.pairs import best_pair
 from raysteps.mistakes.catalogue import Mutant
 from raysteps.results.model import Diagnosis
 
 _MOST = 3
-_HAIR = 0.03  # mistakes whose worth differs by less cannot be told apart
+_HAIR = 0.01  # mistakes whose worth differs by less cannot be told apart
 _PICTURE = 0.5  # what a picture counts beside a function
 _AGAINST = 0.25
 _NOT_ITS_OWN = 0.3  # the function in which the mistake sits is right here
@@ -37,10 +38,9 @@ def _worth(match: Match, open_: Collection[str]) -> float:
 
 
 def _is_named_by(match: Match, open_: set[str]) -> bool:
-    """Pictures name a mistake only where no function does better."""
-    explained = {name for name in match.explains() if name in open_}
-    functions = explained & match.functions.keys()
-    return bool(functions or (explained and not open_ & match.functions.keys()))
+    """By a function, or by pictures alone."""
+    explained = match.explains().keys() & open_
+    return bool(explained & match.functions.keys()) or (bool(explained) and match.named_by_pictures())
 
 
 def name_mistakes(matches: Sequence[Match]) -> list[Named]:
@@ -63,4 +63,13 @@ def name_mistakes(matches: Sequence[Match]) -> list[Named]:
         ]
         named.append(Named(best.mutant, tuple(explained), tuple(alike)))
         open_ -= set(explained)
-    return named
+    return named + _pairs(matches, open_)[: _MOST - len(named)]
+
+
+def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[Named]:
+    """For functions that no single mistake explains."""
+    found: list[Named] = []
+    for function in dict.fromkeys(name for match in matches for name in match.functions if name in open_):
+        pair = best_pair(function, matches)
+        found += [Named(match.mutant, (function,), ()) for match in pair or ()]
+    return found

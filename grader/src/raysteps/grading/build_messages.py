@@ -3,7 +3,9 @@
 import re
 
 from raysteps.common.text import listed, printable, shorten
+from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
+from raysteps.programs.student_build import Compiled
 from raysteps.sandbox.task import Ran
 
 _ERROR = re.compile(
@@ -85,3 +87,19 @@ def link_message(ran: Ran) -> str:
         return "It does not build: the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)
     return f"It does not build: {name} is missing. The file must define it exactly as the header declares it."
+
+
+def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) -> str:
+    """What is wrong with a step of which there is no binary."""
+    if compiled.forbidden:
+        later = [other for other in kit.steps if other.index > step.index]
+        return forbidden_message(
+            compiled.forbidden, {name: other.id for other in later for name in kit.functions(other)}
+        )
+    if compiled.unreadable:
+        return "It does not build: its object holds more names than a step can have, or cannot be read."
+    if compiled.undefined:
+        return undefined_message(compiled.undefined)
+    if compiled.missing:
+        return missing_message(compiled.missing)
+    return compile_message(step, source, compiled.ran)

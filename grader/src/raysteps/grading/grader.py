@@ -8,15 +8,8 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import listed
 from raysteps.diagnosis.diagnosing import Diagnostician
-from raysteps.grading.build_messages import (
-    build_log,
-    compile_message,
-    forbidden_message,
-    link_message,
-    missing_message,
-    undefined_message,
-)
-from raysteps.grading.hidden import ask_functions, render_scenes, student_worker
+from raysteps.grading.build_messages import build_log, link_message, why_not_built
+from raysteps.grading.hidden import ask_functions, ask_student, render_scenes
 from raysteps.grading.scoring import is_right, most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, judge, judge_together
@@ -91,27 +84,10 @@ class StepGrader:
         compiled = self._compiled[step.id]
         result.build_log = build_log(compiled.ran)
         if compiled.binary is None:
-            return self._does_not_build(self._compile_message(compiled, source))
+            self._expect_room()
+            return self._does_not_build(why_not_built(self._work.kit, step, compiled, source))
         self._run(compiled.binary)
         return result
-
-    def _compile_message(self, compiled: Compiled, source: str) -> str:
-        self._expect_room()
-        if compiled.forbidden:
-            owners = {
-                name: step.id
-                for step in self._work.kit.steps
-                if step.index > self.step.index
-                for name in self._work.kit.functions(step)
-            }
-            return forbidden_message(compiled.forbidden, owners)
-        if compiled.unreadable:
-            return "It does not build: its object holds more names than a step can have, or cannot be read."
-        if compiled.undefined:
-            return undefined_message(compiled.undefined)
-        if compiled.missing:
-            return missing_message(compiled.missing)
-        return compile_message(self.step, source, compiled.ran)
 
     def _expect_room(self) -> None:
         """A full disk is nobody's fault. The disk is asked, not the compiler, whose words a source can shape."""
@@ -158,7 +134,7 @@ class StepGrader:
 
     def _diagnose(self, worker: Program | None) -> None:
         """In words why it is not right. Whatever a student's program says, it costs no grade."""
-        ask = student_worker(self._gallery, worker) if worker is not None else None
+        ask = ask_student(self._gallery.sandbox, worker, self._gallery.limits) if worker is not None else None
         doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
         try:
             self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)

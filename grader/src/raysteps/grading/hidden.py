@@ -14,26 +14,26 @@ from raysteps.judge.plan import Plan
 from raysteps.judge.worker_client import Ask
 from raysteps.kit.manifest import Step
 from raysteps.programs.asking import ANSWERS_KB, reference_answers, reference_unkept
+from raysteps.programs.limits import StepLimits
 from raysteps.programs.pictures import compare
 from raysteps.programs.rendering import reference_picture
 from raysteps.programs.student_build import Program
 from raysteps.results.model import HiddenResult
-from raysteps.sandbox.task import Ran, Task
+from raysteps.sandbox.task import Ran, Sandbox, Task
 
 
-def student_worker(gallery: Gallery, worker: Program) -> Ask:
+def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Ask:
     """The student's functions, asked in a process that knows no answer."""
 
     def ask(cases: bytes, seconds: float) -> Ran:
-        limits = replace(gallery.limits.of_program(seconds), output_kb=ANSWERS_KB)
-        return gallery.sandbox.run(Task(worker.words, limits, stdin=cases))
+        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
 
     return ask
 
 
 def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, settings: Settings) -> list[HiddenResult]:
-    """What the judge makes of the student's functions."""
-    student = student_worker(gallery, worker)
+    """All functions of a step."""
+    student = ask_student(gallery.sandbox, worker, gallery.limits)
 
     def reference(cases: bytes, _seconds: float) -> Ran:
         return reference_answers(gallery.kit, cases)

@@ -5,14 +5,15 @@ from collections.abc import Callable
 from typing import Any
 
 from raysteps.judge.numbers import f32
-from raysteps.judge.scripts import Script
+from raysteps.judge.scripts import Script, ScriptedHit
 from raysteps.judge.searches import Rays
 from raysteps.judge.surfaces import Surfaces
-from raysteps.judge.values import Inputs, Lights, Value
+from raysteps.judge.values import Inputs, Lights, Real, Value
 
 Place = tuple[str, int]  # the name of an input that is a list, and which of its items
 
 _ITEMS = {Surfaces: "surfaces", Lights: "lights", Rays: "rays", Script: "hits"}
+_NAMES = {(ScriptedHit, "distance")}  # by which a hit is known again
 _JITTER = 1e-5  # of a vector's largest component, or of the number
 _LARGEST = 1e38  # beyond it a little more may be infinite
 
@@ -51,14 +52,22 @@ def _with_numbers(value: Any, change: Callable[[float, float], float], size: flo
         largest = max((abs(x) for x in value if isinstance(x, float)), default=0.0)
         return tuple(_with_numbers(item, change, largest) for item in value)
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        parts = {part.name: _with_numbers(getattr(value, part.name), change) for part in dataclasses.fields(value)}
-        return dataclasses.replace(value, **parts)
+        names = [part.name for part in dataclasses.fields(value) if (type(value), part.name) not in _NAMES]
+        return dataclasses.replace(value, **{name: _with_numbers(getattr(value, name), change) for name in names})
     return value
 
 
 def with_plain_zeros(inputs: Inputs) -> Inputs:
     """No zero has a sign."""
     return {name: _with_numbers(value, lambda x, _: x + 0.0) for name, value in inputs.items()}
+
+
+def with_digits(inputs: Inputs, digits: int) -> Inputs:
+    """Single numbers rounded; vectors stay, as they may be unit vectors."""
+    return {
+        name: Real(f32(float(f"{value.value:.{digits}g}"))) if isinstance(value, Real) else value
+        for name, value in inputs.items()
+    }
 
 
 def jittered(inputs: Inputs, sign: Callable[[], float]) -> Inputs:

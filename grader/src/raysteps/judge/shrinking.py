@@ -1,38 +1,43 @@
 """The smallest counterexample: a wrong case, made simpler as long as it stays wrong in the same way."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import chain, islice
 
 from raysteps.common.errors import GraderFault
 from raysteps.judge.answers import TooLarge, Wasteful
-from raysteps.judge.candidates import Candidate, Change, Recipe, changes, combined, make
+from raysteps.judge.candidates import Candidate, Recipe, make
+from raysteps.judge.changes import Change, changes, combined, live_choices
 from raysteps.judge.choices import Choice
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.judged import Judged, judge_reply
-from raysteps.judge.reshaping import jittered
+from raysteps.judge.reshaping import Place, jittered
 from raysteps.judge.worker_client import Ask, Reply, answers_until_trouble
 
 _ROUNDS = 12
-_ROUNDS_OF_SILENCE = 4  # where each costs a hang
+_ROUNDS_OF_SILENCE = 3  # where each costs a hang
 _MOST = 200  # candidates in a round
 _MOST_CHOICES = 8000  # of all candidates in a round together
-_LEAST = 24
+_LEAST = 60
+_TRIES = 3  # for each candidate of a round: many changes make a case that was asked before, or none
+_BARREN = 3  # rounds without a simpler case
 _BEST = 30  # changes that did well and are tried together
 _JITTERS = 4
 _TRIED_FOR_STABILITY = 5
-_RUN_SECONDS = 1.0
+_RUN_SECONDS = 2.0
 REFERENCE_SECONDS = 60.0
 
 
 class Patience:
-    """Seconds that a student's program may run for the examples of a step."""
+    """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
+    not count, so that a busy machine shows the same examples."""
 
     def __init__(self, seconds: float) -> None:
         self._left = seconds
 
     def next_run(self) -> float:
-        return min(_RUN_SECONDS, self._left) if self._left > _RUN_SECONDS / 2 else 0.0
+        return _RUN_SECONDS if self._left > 0 else 0.0
 
     def spend(self, seconds: float) -> None:
         self._left -= seconds
@@ -58,6 +63,10 @@ def _same_way(one: Judged, other: Judged) -> bool:
     return alike or one.outcome == "timeout"
 
 
+def _shape(candidate: Candidate) -> tuple[int, frozenset[Place]]:
+    return len(candidate.choices), candidate.recipe.dropped
+
+
 class Shrinker:
     """Asks many candidates at once: one run of the student's worker and one of the reference's for each round."""
 
@@ -74,26 +83,35 @@ class Shrinker:
         if base is None or unclear or not found.asked or base.case.line(0) != found.case.line(0):
             return found
         tried = {base.case.line(0)}
+        live = set(live_choices(self._function, base))
         good: list[Change] = []
+        barren = 0
         for _ in range(_ROUNDS_OF_SILENCE if found.outcome == "timeout" else _ROUNDS):
             seconds = self._patience.next_run()
-            proposed = self._proposed(base, good, tried) if seconds else []
+            proposed = self._proposed(base, live, good, tried) if seconds and barren < _BARREN else []
             if not proposed:
                 break
             wrong = self._wrong(found, proposed, seconds)
             simpler = [one for one in wrong if one.candidate.complexity < base.complexity]
             best = self._stable(simpler)
             good = [one.change for one in simpler if one is not best][:_BEST]
+            barren += 1
             if best is not None:
-                base, found = best.candidate, best.judged
+                if _shape(best.candidate) != _shape(base):
+                    live = set(live_choices(self._function, best.candidate))
+                base, found, barren = best.candidate, best.judged, 0
         return found
 
-    def _proposed(self, base: Candidate, good: Sequence[Change], tried: set[str]) -> list[tuple[Candidate, Change]]:
+    def _proposed(
+        self, base: Candidate, live: Collection[int], good: Sequence[Change], tried: set[str]
+    ) -> list[tuple[Candidate, Change]]:
         """New ones only, as many as a round may have."""
         most = max(_LEAST, min(_MOST, _MOST_CHOICES // max(1, len(base.choices))))
         found: list[tuple[Candidate, Change]] = []
         group = base.case.group
-        for change in self._changes(base, good):
+        may_drop = not self._function.by_name[group].saves
+        every = chain(combined(good), changes(base, live, may_drop=may_drop))
+        for change in islice(every, _TRIES * most):
             if len(found) == most:
                 break
             candidate = make(self._function, group, change.of(base.recipe))
@@ -101,10 +119,6 @@ class Shrinker:
                 tried.add(candidate.case.line(0))
                 found.append((candidate, change))
         return sorted(found, key=lambda one: one[0].complexity)
-
-    def _changes(self, base: Candidate, good: Sequence[Change]) -> Iterable[Change]:
-        yield from combined(good)
-        yield from changes(base, may_drop=not self._function.by_name[base.case.group].saves)
 
     def _wrong(self, found: Judged, proposed: Sequence[tuple[Candidate, Change]], seconds: float) -> list[_Wrong]:
         """Those that are wrong in the same way, the simplest first."""

@@ -12,6 +12,7 @@ _NEGATIVE_ZERO = 3.0
 _NOT_FINITE = 2.0
 _WHOLE = (0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 50, 64, 100, 128, 200)
 _PARTS = (0.5, 0.25, 0.75, 0.2, 0.4, 0.6, 0.8, 0.1, 0.3, 0.7, 0.9, 0.05, 1.5, 2.5, 0.01, 0.98, 0.001)
+_LEEWAY = 0.25
 _NEAREST = 8  # of many directions that are equally simple
 
 
@@ -50,10 +51,12 @@ def simplest_real(low: float, high: float) -> float:
 
 
 def simpler_reals(value: float, low: float, high: float) -> list[float]:
-    """The simplest first; with what rounding makes of the value."""
+    """The simplest first, up to a little less simple ones: other numbers depend on it. With what rounding makes of the
+    value."""
     near = [round(value), round(2 * value) / 2, round(value, 1), float(f"{value:.2g}")]
     found = {*_reals(low, high), *(float(number) for number in near if low <= number <= high)}
-    return sorted((number for number in found if cost(number) < cost(value)), key=lambda x: (cost(x), x))
+    found.discard(value)
+    return sorted((number for number in found if cost(number) < cost(value) + _LEEWAY), key=lambda x: (cost(x), x))
 
 
 def simpler_wholes(value: int, low: int, high: int) -> list[int]:

@@ -113,8 +113,9 @@ def _give_up(replies: list[Reply], cases: Sequence[Case], seconds: float, rest: 
 
 
 def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Replies:
-    """One run. The last reply may be the trouble that ended it, if the function was called; the rest is not known."""
+    """One run, and the seconds of a processor that it took. The last reply may be the trouble that ended it, if the
+    function was called; the rest is not known."""
     ran, replies, trouble = ask_once(ask, cases, 0, seconds)
     if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
         replies = [*replies, trouble]
-    return Replies(replies[: len(cases)], ran.outcome.seconds)
+    return Replies(replies[: len(cases)], ran.outcome.seconds if _hung(ran) else ran.cpu_seconds)

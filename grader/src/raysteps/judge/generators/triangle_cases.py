@@ -111,7 +111,7 @@ def _on_edge(draw: Draw) -> Inputs:
 def _small_triangle(draw: Draw) -> Inputs:
     """Its area is tiny, and nothing else about it is: who compares it with a small number loses it."""
     t, place = draw.triangle(), draw.point(3)
-    a, b, c = (rounded(add(place, corner, 0.02)) for corner in (t.a, t.b, t.c))
+    a, b, c = (rounded(add(place, corner, 0.005)) for corner in (t.a, t.b, t.c))
     t = Triangle(a, b, c)
     return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), draw.real(1, 4)), draw)
 

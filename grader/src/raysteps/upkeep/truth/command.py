@@ -1,6 +1,6 @@
 """The command `dev check`: stubs, references, mistakes and alternatives are graded, and the grades are judged."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from rich.console import Console
 
@@ -22,22 +22,20 @@ from raysteps.upkeep.truth.rounds import Round, random_pairs, rounds_of
 from raysteps.upkeep.truth.verdicts import Seen
 
 
-def _graded(kit: BuiltKit, rounds: Sequence[Round], seed: int, only: Sequence[str], say: Say) -> list[list[Seen]]:
+def _graded(
+    kit: BuiltKit, rounds: Sequence[Round], what: str, seed: int, only: Collection[str], say: Say
+) -> list[list[Seen]]:
     found = []
-    for number, entrants in enumerate(rounds, start=1):
-        say(f"round {number} of {len(rounds)}")
-        found.append(grade_round(kit, entrants, seed=seed, only=only))
+    for number, handed_in in enumerate(rounds, start=1):
+        say(f"{what} {number} of {len(rounds)}")
+        found.append(grade_round(kit, handed_in, seed=seed, only=only))
     return found
 
 
 def _pairs(kit: BuiltKit, steps: Sequence[Step], amount: int, seed: int, console: Console, say: Say) -> list[str]:
     """Two mistakes at a time: both must be named."""
     rounds = random_pairs(kit.project, steps, amount, seed)
-    graded = []
-    for number, entrants in enumerate(rounds, start=1):
-        say(f"pair {number} of {len(rounds)}")
-        wrong = [entrant.step for entrant in entrants if not entrant.is_right]
-        graded.append(grade_round(kit, entrants, seed=seed, only=wrong))
+    graded = _graded(kit, rounds, "pair", seed, {step.id for step in steps}, say)
     both = [seen for seen in graded if all(one.named for one in seen)]
     console.print(f"{len(both)} of {len(graded)} random pairs of mistakes in two steps have both named (seed {seed})")
     for seen in graded:
@@ -56,7 +54,7 @@ def check_truth(
     """Prints the table and what is wrong; 1 when something is."""
     kit = build_kit(project, say)
     chosen = [step.id for step in choose(kit.steps, list(only))]
-    rounds = _graded(kit, rounds_of(project, kit.steps), seed, chosen if only else (), say)
+    rounds = _graded(kit, rounds_of(project, kit.steps), "round", seed, chosen, say)
     rows = [row_of(step, [one for seen in rounds for one in seen if one.entrant.step == step]) for step in chosen]
     every = [one for seen in rounds for one in seen]
     console.print(table_of(rows))

@@ -1,0 +1,107 @@
+"""The command `replay`: one hidden case, asked again."""
+
+import tempfile
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.text import shorten
+from raysteps.grading.build_messages import link_message, why_not_built
+from raysteps.grading.hidden import ask_student
+from raysteps.judge.case_files import CaseFile, read_case
+from raysteps.judge.examples import LONGEST
+from raysteps.judge.functions import Case, Function
+from raysteps.judge.generators import functions_of
+from raysteps.judge.judged import Judged, judge_reply
+from raysteps.judge.reading import read_inputs
+from raysteps.judge.time_budget import TimeBudget
+from raysteps.judge.tokens import Garbled
+from raysteps.judge.worker_client import Ask, ask_worker
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.kit_building import build_kit
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import Project
+from raysteps.programs.asking import reference_unkept
+from raysteps.programs.limits import limits_of
+from raysteps.programs.student_build import StudentBuild
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.sandbox.open_air import OpenAir
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.intake import take_in
+
+
+def _find(project: Project, path: Path) -> Path:
+    """As it was typed, or below the results of `check`, which prints the short form."""
+    below = project.build / "check" / path
+    return below if not path.exists() and below.is_file() else path
+
+
+def _read(project: Project, path: Path) -> tuple[CaseFile, Step, Case]:
+    file = read_case(path)
+    steps = read_steps(project)
+    step = next((step for step in steps if step.id == file.step), None)
+    if step is None:
+        raise UsageError(f"{path}: step: expected one of {', '.join(step.id for step in steps)}, found '{file.step}'")
+    if file.function not in step.functions:
+        raise UsageError(f"{path}: function: expected one of {', '.join(step.functions)}, found '{file.function}'")
+    try:
+        return file, step, Case(file.function, file.kind, read_inputs(_function(step, file), file.line))
+    except Garbled as error:
+        raise UsageError(f"{path}: line: {error}") from error
+
+
+def _function(step: Step, file: CaseFile) -> Function:
+    return functions_of(step.number)[file.function]
+
+
+def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder: Path) -> Ask:
+    """Builds the step between steps of the reference."""
+    build, limits = StudentBuild(kit, sandbox, folder), limits_of(step, {})
+    compiled = build.compile(step, source, limits)
+    if compiled.binary is None:
+        raise StudentBuildError(why_not_built(kit, step, compiled, source.decode("utf-8", "replace")))
+    program, ran = build.program("worker", step, [compiled.binary], limits)
+    if program is None:
+        raise StudentBuildError(link_message(ran) if ran is not None else "It does not build.")
+    return ask_student(sandbox, program, limits)
+
+
+def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> Judged:
+    """The reference is asked as well: a case may have been written by hand."""
+    reply = ask_worker(student, [case], TimeBudget(step.seconds, 1)).replies[0]
+    expected = ask_worker(lambda cases, _: reference_unkept(kit, cases), [case], TimeBudget(60, 1)).replies[0]
+    try:
+        return judge_reply(functions_of(step.number)[case.function], case, expected.line, reply)
+    except GraderFault as error:
+        raise UsageError(f"{path}: line: the reference has no right answer to it: {error}") from error
+
+
+def _print(console: Console, file: CaseFile, judged: Judged) -> int:
+    verdict = judged.verdict
+    console.print(f"[bold]{escape(file.step)}[/bold] {escape(file.function)}, a case of '{escape(file.kind)}'")
+    words = (("given", judged.case.given()), ("expected", verdict.expected), ("actual", verdict.actual))
+    for label, text in words:
+        console.print(f"  {label:<9} {escape(shorten(text, LONGEST))}", highlight=False)
+    if not verdict.problem:
+        console.print("[green]right now[/green]")
+        return 0
+    before = f" (before: {file.problem})" if file.problem and file.problem != verdict.problem else ""
+    console.print(f"[red]still wrong[/red]: {escape(verdict.problem + before)}")
+    return 1
+
+
+def replay(project: Project, path: Path, submission: Path | None, console: Console) -> int:
+    """One's own steps run in the open, as for `check`; a submission in the sandbox, as for `grade`."""
+    path = _find(project, path)
+    file, step, case = _read(project, path)
+    sandbox = OpenAir() if submission is None else find_sandbox()
+    taken = take_in(submission or project.steps, read_steps(project))
+    if step.id not in taken.sources:
+        raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
+    with console.status("building") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        kit = build_kit(project, status.update)
+        student = _student(kit, step, taken.sources[step.id], sandbox, Path(folder))
+        judged = _ask(kit, step, path, case, student)
+    return _print(console, file, judged)
