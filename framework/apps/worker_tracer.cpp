@@ -22,6 +22,7 @@ std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) {
     const ScriptedHit& scripted = script_.hits[number];
     HitRecord hit;
     hit.position = ray.origin + scripted.distance * ray.direction;
+    hit.fill.color = scripted.local;  // what is mirrored keeps its hue, whatever the colour of the mirror
     hit.fill.ks = scripted.ks;
     hit.normal = glm::dot(scripted.normal, ray.direction) <= 0.0F ? scripted.normal : -scripted.normal;
     hit.ray_direction = ray.direction;

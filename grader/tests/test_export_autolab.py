@@ -40,7 +40,7 @@ def test_checks_of_one_name_are_all_shown(steps: list[Step]) -> None:
     made = full(steps)
     for test in made["steps"][0]["tests"]:
         test["name"] = "same"
-    assert len(to_autolab(made, by_id(steps))[0]["01-camera-rays"]) == 7 + 2 + 3
+    assert len(to_autolab(made, by_id(steps))[0]["01-camera-rays"]) == 7 + 2 + 3 + 1
 
 
 def test_the_schema_sees_what_is_wrong(steps: list[Step]) -> None:

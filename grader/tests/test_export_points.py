@@ -44,7 +44,7 @@ def test_sums_are_exact(steps: list[Step], seed: int) -> None:
 def test_the_usual_case_needs_no_entry_for_a_rest(steps: list[Step]) -> None:
     for result, step in zip(mixed(steps)["steps"], steps, strict=True):
         kinds = [entry.item.kind for entry in entries_of(result, step)]
-        expected = ["test"] * 7 + ["picture"] * len(step.images) + ["hidden"] * 3
+        expected = ["test"] * 7 + ["picture"] * len(step.images) + ["hidden"] * 3 + ["together"]
         assert kinds == (expected if result["tests"] else ["step"])
 
 

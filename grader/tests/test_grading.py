@@ -149,3 +149,31 @@ def test_names_of_submissions(
     kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, unsolved: Sources, name: str
 ) -> None:
     assert _grade(kit, make_submission(name, unsolved), tmp_path / "o u t").submission == name
+
+
+def test_steps_that_are_right_alone_and_do_not_fit_lose_only_the_part_for_that(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
+) -> None:
+    """A direction may be a little longer than 1 by rounding; a step that asks for more than that fits to no other."""
+    longer = solved["01-camera-rays"].replace("glm::normalize(target)}", "glm::normalize(target) * 1.00002F}")
+    strict = _inserted(
+        solved["02-intersection"],
+        "Sphere::intersect",
+        "if (glm::abs(glm::length(ray.direction) - 1.0F) > 0.000005F) { return std::nullopt; }",
+    )
+    submission = make_submission("strict", {"01-camera-rays": longer, "02-intersection": strict})
+    first, second = _grade(kit, submission, tmp_path / "out", "01-camera-rays", "02-intersection").steps
+    assert first.status == "passed", first.messages
+    assert second.status == "partial", second.messages
+    assert second.points == pytest.approx(steps[1].points * 0.95)
+    assert not second.cumulative.passed
+
+
+def test_a_wrong_step_is_replaced_for_the_steps_after_it(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
+) -> None:
+    wrong = solved["02-intersection"].replace("glm::normalize(plane_normal)", "plane_normal")
+    sources = {**solved, "02-intersection": wrong}
+    results = _grade(kit, make_submission("second", sources), tmp_path / "out")
+    assert [step.id for step in results.steps if step.status != "passed"] == ["02-intersection"]
+    assert results.steps[2].cumulative.message == "With the reference's 02-intersection."

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.process import Outcome
-from raysteps.grading.hidden import _reference_answers
 from raysteps.judge.judging import judge_functions, make_cases
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
+from raysteps.programs.asking import reference_answers
 from raysteps.sandbox.task import Ran
 
 _MOST_SECONDS = 0.5  # of the worker for a whole step, on any machine
@@ -110,6 +110,6 @@ def test_the_reference_may_say_as_much_as_a_student(kit: BuiltKit, tmp_path: Pat
     """An answer that is as long as a student's may be is not cut off."""
     (tmp_path / "bin").symlink_to(kit.folder / "bin")
     cases = "".join(f"{i} split 0.1 0.2 0.3 0.4 0.5 0.6\n" for i in range(20_000))
-    said = _reference_answers(replace(kit, folder=tmp_path), cases.encode()).outcome.stdout
+    said = reference_answers(replace(kit, folder=tmp_path), cases.encode()).outcome.stdout
     assert len(said) > 2 << 20
     assert said.endswith("\nend 20000\n")

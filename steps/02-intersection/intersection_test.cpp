@@ -70,6 +70,21 @@ TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection]
     }
 }
 
+TEST_CASE("Triangle: two that share an edge leave no crack", "[02-intersection][Triangle::intersect][part]") {
+    const glm::vec3 left{-2.0F, 0.0F, 0.0F};
+    const glm::vec3 right{2.0F, 0.0F, 0.0F};
+    const Triangle upper(left, right, {-2.0F, 4.0F, 0.0F}, Fill{});
+    const Triangle lower(right, left, {2.0F, -4.0F, 0.0F}, Fill{});
+    INFO("a square floor of two triangles; the ray comes down onto the edge that they share");
+    for (const float x : {-1.0F, 0.0F, 1.5F}) {
+        CAPTURE(x);
+        CHECK((upper.intersect(down_onto(x, 0.0F)) || lower.intersect(down_onto(x, 0.0F))));
+    }
+    INFO("for comparison, a ray beside the floor");
+    CHECK_FALSE(upper.intersect(down_onto(2.5F, 0.0F)).has_value());
+    CHECK_FALSE(lower.intersect(down_onto(2.5F, 0.0F)).has_value());
+}
+
 TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection][Triangle::intersect][part]") {
     const Triangle triangle = corner_triangle();
     const glm::vec3 down{0.0F, 0.0F, -1.0F};
@@ -223,4 +238,6 @@ TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersectio
     CHECK_FALSE(closest_hit({&one, &two}, away).has_value());
     INFO("ask with surface->hit(ray): it counts one surface test for each surface");
     CHECK(thread_stats().surface_tests - before >= 2);
+    INFO("for comparison, a ray along -z meets both spheres");
+    CHECK(closest_hit({&one, &two}, {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -1.0F}}).has_value());
 }

@@ -1,6 +1,7 @@
 // Visible tests of step 03: mirror, diffuse, specular, and their sum over the lights.
 #include "steps/03-phong-shading/phong_shading.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -69,6 +70,8 @@ TEST_CASE("mirror: angle in is angle out and twice is the way back", "[03-phong-
         CAPTURE(direction, normal);
         const glm::vec3 mirrored = mirror(direction, normal);
         REQUIRE(glm::dot(mirrored, normal) == about(-glm::dot(direction, normal), 1e-3));
+        INFO("what runs along the surface stays, so the two differ along the normal only");
+        REQUIRE_THAT(glm::cross(mirrored - direction, normal), IsNear(glm::vec3(0.0F), 1e-3F));
         REQUIRE(glm::length(mirrored) == about(glm::length(direction), 1e-3));
         REQUIRE_THAT(mirror(mirrored, normal), IsNear(direction, 1e-3F));
         REQUIRE_THAT(mirror(direction, -normal), IsNear(mirrored, 1e-3F));
@@ -99,9 +102,17 @@ TEST_CASE("diffuse: light from all sides of the sky averages one half", "[03-pho
     const Fill fill = diffuse_fill(k_white, 1.0F);
     const int count = 20000;
     float sum = 0.0F;
+    float darkest = 1.0F;
+    float brightest = 0.0F;
     for (int i = 0; i < count; ++i) {
-        sum += diffuse(fill, light_of(k_white), k_up, random.unit_vector_above(k_up, 0.0F)).r;
+        const float light = diffuse(fill, light_of(k_white), k_up, random.unit_vector_above(k_up, 0.0F)).r;
+        sum += light;
+        darkest = std::min(darkest, light);
+        brightest = std::max(brightest, light);
     }
+    INFO("a low light gives next to nothing, one from straight above gives all");
+    CHECK(darkest < 0.01F);
+    CHECK(brightest > 0.99F);
     INFO("the mean of the cosine over the half sphere is 1/2 (Archimedes); cosine squared would give 1/3");
     CHECK(sum / static_cast<float>(count) == about(0.5, 0.02));
 }
@@ -138,8 +149,9 @@ TEST_CASE("specular: light and eye may change places", "[03-phong-shading][specu
         REQUIRE_THAT(one_way, IsNear(specular(fill, light_of(k_white), k_up, v, l), 1e-3F));
         bright += one_way.r > 0.01F ? 1 : 0;
     }
-    INFO("some of these directions lie near the highlight");
+    INFO("some of these directions lie near the highlight, and some do not");
     CHECK(bright > 10);
+    CHECK(bright < 90);
 }
 
 TEST_CASE("specular: no highlight from behind", "[03-phong-shading][specular][part]") {

@@ -85,6 +85,19 @@ TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows][is_lit][p
     CHECK(is_lit(scene, hit, {{10.0F, 0.0F, 5.0F}, k_white}));
 }
 
+TEST_CASE("is_lit: glass blocks like everything else", "[04-shadows][is_lit][part]") {
+    Fill glass;
+    glass.transmittance = 0.9F;
+    glass.index_of_refraction = 1.5F;
+    const Sphere bowl({0.0F, 0.0F, 5.0F}, 1.0F, glass);
+    FakeCaster scene = scene_of({&bowl});
+    const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
+    INFO("hit at 0, glass ball from 4 to 6, light at 10: glass bends light, so the straight way is blocked");
+    CHECK_FALSE(is_lit(scene, hit, {{0.0F, 0.0F, 10.0F}, k_white}));
+    INFO("a light beside the glass is seen");
+    CHECK(is_lit(scene, hit, {{10.0F, 0.0F, 5.0F}, k_white}));
+}
+
 TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows][is_lit][part]") {
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
     const Light light{{0.0F, 0.0F, 5.0F}, k_white};
@@ -111,6 +124,8 @@ TEST_CASE("is_lit: what lies on the other side of the surface does not block", "
     FakeCaster scene = scene_of({&below});
     INFO("the ball is under the floor, on the line through light and hit but not between them");
     CHECK(is_lit(scene, hit_at({0.0F, 0.0F, 0.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
+    INFO("for comparison, it blocks where the floor is deeper down");
+    CHECK_FALSE(is_lit(scene, hit_at({0.0F, 0.0F, -9.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
 }
 
 TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shadows][is_lit][part]") {
@@ -119,15 +134,22 @@ TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shado
     const Sphere sphere = ball({0.3F, -0.2F, 0.1F}, 1.7F);
     FakeCaster scene = scene_of({&sphere});
     int dark = 0;
+    int eclipses = 0;
     const int count = 500;
     for (int i = 0; i < count; ++i) {
         const std::optional<HitRecord> hit = sphere.intersect(random.ray_towards(sphere.center(), 12.0F));
         REQUIRE(hit.has_value());
-        const Light light{hit->position + 15.0F * random.unit_vector_above(hit->normal, 0.2F), k_white};
+        const glm::vec3 way = random.unit_vector_above(hit->normal, 0.2F);
+        const Light light{hit->position + 15.0F * way, k_white};
         dark += is_lit(scene, *hit, light) ? 0 : 1;
+        const Sphere moon = ball(hit->position + 9.0F * way, 0.5F);
+        FakeCaster with_moon = scene_of({&sphere, &moon});
+        eclipses += is_lit(with_moon, *hit, light) ? 0 : 1;
     }
     INFO("points on the lit side that came out dark, of " << count << ": rounding puts the hit below the surface");
     CHECK(dark == 0);
+    INFO("for comparison, a moon before the light darkens them all");
+    CHECK(eclipses == count);
 }
 
 TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows][is_lit][part]") {
@@ -150,6 +172,8 @@ TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows][is_li
     }
     INFO("points of the floor that came out dark, of " << count << ", although nothing stands on it");
     CHECK(dark == 0);
+    INFO("for comparison, the floor is in the way of what lies under it");
+    CHECK_FALSE(is_lit(scene, hit_at({0.0F, 0.0F, -5.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
 }
 
 TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", "[04-shadows][is_lit][part]") {

@@ -180,3 +180,22 @@ TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][
     hit.fill.transmittance = 1.0F;
     CHECK_THAT(transmitted_light(tracer, hit, 1), IsNear(k_white));
 }
+
+TEST_CASE("transmitted_light: neither colour nor kd nor ks of the glass matters",
+          "[08-refraction][transmitted_light][part]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 50; ++i) {
+        const Color beyond = 0.5F * (1.0F + random.point(1.0F));
+        FakeTracer tracer;
+        tracer.on_trace = [beyond](const Ray&, int) { return beyond; };
+        HitRecord hit = glass_hit(-random.unit_vector_above(k_up, 0.1F), random.uniform(1.0F, 2.0F), i % 2 == 0);
+        hit.fill.transmittance = random.uniform(0.1F, 1.0F);
+        hit.fill.color = 0.5F * (1.0F + random.point(1.0F));
+        hit.fill.kd = random.uniform(0.0F, 1.0F);
+        hit.fill.ks = random.uniform(0.0F, 1.0F);
+        CAPTURE(hit.fill.transmittance, hit.fill.color, hit.fill.kd, hit.fill.ks, beyond);
+        INFO("the light that comes through is the light beyond times the transmittance, and nothing else");
+        REQUIRE_THAT(transmitted_light(tracer, hit, 1), IsNear(hit.fill.transmittance * beyond));
+    }
+}

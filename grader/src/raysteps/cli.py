@@ -20,7 +20,7 @@ from raysteps.grading.settings import Settings
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project, here
 from raysteps.programs.limits import parse_limits
-from raysteps.upkeep import bench, maintenance
+from raysteps.upkeep import bench, dev
 from raysteps.upkeep.bench_grading import grading
 from raysteps.upkeep.selftest import selftest
 
@@ -82,9 +82,7 @@ def _parser() -> argparse.ArgumentParser:
     add = commands.add_parser("test", help="test the kit itself")
     add.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
 
-    add = commands.add_parser("dev", help="for maintainers: make the stubs or the samples from the solutions")
-    add.add_argument("what", choices=["stubs", "samples"])
-    add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    dev.add_arguments(commands.add_parser("dev", help="for those who maintain the kit"))
     return parser
 
 
@@ -116,8 +114,7 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
         case "test":
             return selftest(project, console, full=arguments.full)
         case _:
-            work = maintenance.stubs if arguments.what == "stubs" else maintenance.samples
-            return work(project, check=arguments.check)
+            return dev.run(project, arguments, console)
 
 
 def _console() -> Console:

@@ -96,8 +96,8 @@ class Range:
 
     def _facts(self, attack: Attack, trace: Path, out: Path) -> Facts:
         step = self._step(attack)
-        source = (self.kit.project.steps / step.path).with_name(f"{step.path.stem}_test.cpp").read_text("utf-8")
-        names = re.findall(r'TEST_CASE\("([^"]+)"', source)
+        sources = [path.read_text("utf-8") for path in (self.kit.project.steps / step.id).glob("*_test.cpp")]
+        names = re.findall(r'TEST_CASE\("([^"]+)"', "".join(sources))
         return {
             "ABSTRACT": self.listener.abstract,
             "DATABASE": str(self.planted.database),

@@ -3,14 +3,12 @@
 import hashlib
 import os
 import shlex
-import sys
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rich.console import Console
-from rich.status import Status
 
+from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, usable_folder
@@ -61,24 +59,12 @@ def clear(out: Path, steps: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
-def _progress(console: Console, status: Status) -> Callable[[str], None]:
-    """Shows what is being done: beside the spinner on a terminal, elsewhere as lines on stderr."""
-
-    def say(text: str) -> None:
-        if console.is_terminal:
-            status.update(text)
-        else:
-            print(f"raysteps: {text}", file=sys.stderr, flush=True)
-
-    return say
-
-
 def check(project: Project, names: list[str], console: Console) -> int:
     """Checks the steps in the repository and explains what is wrong. Your own code needs no sandbox."""
     chosen = choose(read_steps(project), names)
     out = project.build / "check"
     with console.status("starting") as status, one_at_a_time(project.build / "check.lock"):
-        say = _progress(console, status)
+        say = progress(console, status)
         kit = build_kit(project, say)
         clear(out, kit.steps)
         submission = take_in(project.steps, kit.steps)
@@ -109,7 +95,7 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
     with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
-        say = _progress(console, status)
+        say = progress(console, status)
         submission = take_in(wish.submission, read_steps(project))
         kit = build_kit(project, say)
         clear(out, kit.steps)

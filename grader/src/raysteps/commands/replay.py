@@ -9,7 +9,7 @@ from rich.markup import escape
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.text import shorten
 from raysteps.grading.build_messages import link_message, why_not_built
-from raysteps.grading.hidden import ask_student, reference_once
+from raysteps.grading.hidden import ask_student
 from raysteps.judge.case_files import CaseFile, read_case
 from raysteps.judge.examples import LONGEST
 from raysteps.judge.functions import Case, Function
@@ -23,6 +23,7 @@ from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
+from raysteps.programs.asking import reference_unkept
 from raysteps.programs.limits import limits_of
 from raysteps.programs.student_build import StudentBuild
 from raysteps.sandbox.choice import find_sandbox
@@ -70,7 +71,7 @@ def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder:
 def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> Judged:
     """The reference is asked as well: a case may have been written by hand."""
     reply = ask_worker(student, [case], TimeBudget(step.seconds, 1)).replies[0]
-    expected = ask_worker(lambda cases, _: reference_once(kit, cases), [case], TimeBudget(60, 1)).replies[0]
+    expected = ask_worker(lambda cases, _: reference_unkept(kit, cases), [case], TimeBudget(60, 1)).replies[0]
     try:
         return judge_reply(functions_of(step.number)[case.function], case, expected.line, reply)
     except GraderFault as error:

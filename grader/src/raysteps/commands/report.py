@@ -9,7 +9,7 @@ from rich.table import Table
 
 from raysteps.common.text import number
 from raysteps.kit.manifest import Step
-from raysteps.results.model import HiddenResult, ImageResult, Results, StepResult, TestResult
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
@@ -23,6 +23,18 @@ def _status(result: StepResult) -> str:
 
 def _points(result: StepResult) -> str:
     return f"{number(result.points)} of {number(result.max)}" + (" bonus" if result.bonus else "")
+
+
+def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
+    """The word before it says how sure one can be."""
+    word = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}[diagnosis.kind]
+    where = f" (seen in {', '.join(diagnosis.seen_in)})" if diagnosis.seen_in else ""
+    console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
+    for other in diagnosis.alike:
+        console.print(f"             or  {escape(other)}")
+    for label, text in (("you see", diagnosis.sees), ("cause", diagnosis.cause), ("hint", diagnosis.hint)):
+        if text:
+            console.print(f"             {label:<9} {escape(text)}")
 
 
 def _print_test(console: Console, test: TestResult) -> None:
@@ -76,6 +88,8 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for message in result.messages:
             for line in message.splitlines():
                 console.print(f"  {escape(line)}")
+        for diagnosis in result.diagnoses:
+            _print_diagnosis(console, diagnosis)
         for test in result.tests:
             if not test.passed:
                 _print_test(console, test)
@@ -88,8 +102,8 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
                 _print_hidden(console, item, again)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
-        if result.cumulative.message and result.status == "passed":
-            console.print(f"  together with your earlier steps: {escape(result.cumulative.message)}")
+        if result.cumulative.message and result.tests:
+            console.print(f"  together  {escape(result.cumulative.message)}")
 
 
 def print_table(console: Console, results: Results) -> None:
@@ -109,7 +123,9 @@ def print_table(console: Console, results: Results) -> None:
             "yes" if result.cumulative.passed else "no",
         )
     console.print(table)
-    console.print("together: all your steps up to this one, without the reference's", style="dim")
+    console.print(
+        "together: the step's first picture with your own steps before it, as far as they are right", style="dim"
+    )
     total = results.to_json()["total"]
     bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
     console.print(f"{number(total['points'])} points of {number(total['max'])}{bonus}")

@@ -1,6 +1,7 @@
 """Small helpers for text."""
 
 import re
+from collections.abc import Sequence
 
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
@@ -15,7 +16,7 @@ def shorten(text: str, limit: int = 2000) -> str:
     return text if len(text) <= limit else text[: limit - 4] + " ..."
 
 
-def listed(words: list[str]) -> str:
+def listed(words: Sequence[str]) -> str:
     """`a`, `a and b` or `a, b and c`."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 

@@ -8,7 +8,7 @@ from raysteps.common.text import count
 from raysteps.exports.wording import clean, one_line
 from raysteps.kit.manifest import Step
 
-Kind = Literal["test", "picture", "hidden", "step"]
+Kind = Literal["test", "picture", "hidden", "together", "step"]
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,12 @@ def _hidden(hidden: Mapping[str, Any], weight: float) -> Item:
     )
 
 
+def _together(cumulative: Mapping[str, Any], weight: float) -> Item:
+    passed = bool(cumulative["passed"])
+    text = clean(cumulative["message"]) or ("passed" if passed else "wrong")
+    return Item("together", "with the steps before it", weight, float(passed), text)
+
+
 def _each(group: float, weights: Sequence[float]) -> list[float]:
     whole = sum(weights)
     return [group * weight / whole if whole else 0.0 for weight in weights]
@@ -72,11 +78,14 @@ def _each(group: float, weights: Sequence[float]) -> list[float]:
 def items_of(result: Mapping[str, Any], step: Step | None) -> list[Item]:
     """The checks of one step of a results.json, weighted as the manifest weights them."""
     tests, images, hidden = result["tests"], result["images"], result["hidden"]
-    weights = (step.weight_tests, step.weight_images, step.weight_hidden) if step is not None else (1.0, 1.0, 1.0)
+    weights = (1.0, 1.0, 1.0, 0.0)
+    if step is not None:
+        weights = (step.weight_tests, step.weight_images, step.weight_hidden, step.weight_together)
     items = [_test(*pair) for pair in zip(tests, _each(weights[0], [1.0] * len(tests)), strict=True)]
     items += [_picture(*pair) for pair in zip(images, _each(weights[1], [1.0] * len(images)), strict=True)]
     own = [float(item.get("weight", 1.0)) for item in hidden]
-    return items + [_hidden(*pair) for pair in zip(hidden, _each(weights[2], own), strict=True)]
+    items += [_hidden(*pair) for pair in zip(hidden, _each(weights[2], own), strict=True)]
+    return [*items, _together(result["cumulative"], weights[3])] if items and weights[3] else items
 
 
 def step_text(result: Mapping[str, Any]) -> str:
@@ -84,7 +93,4 @@ def step_text(result: Mapping[str, Any]) -> str:
     said = [clean(message) for message in result["messages"]]
     if result["status"] == "does-not-build" and result["build_log"]:
         said.append(clean(result["build_log"]))
-    together = result["cumulative"]["message"]
-    if together and result["status"] != "not-started":
-        said.append(f"Together with the earlier steps: {clean(together)}")
     return "\n".join(said)

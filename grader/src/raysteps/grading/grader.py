@@ -1,20 +1,22 @@
 """Grades one step of one submission."""
 
 import shutil
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import listed
+from raysteps.diagnosis.diagnosing import Diagnostician
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.hidden import ask_functions, render_scenes
-from raysteps.grading.scoring import most_points, status_and_points, sum_up
+from raysteps.grading.hidden import ask_functions, ask_student, render_scenes
+from raysteps.grading.scoring import is_right, most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, judge, judge_together
 from raysteps.grading.visible_tests import run_tests
 from raysteps.judge.consistency import contradictions
 from raysteps.judge.plan import read_plan
-from raysteps.kit.built_kit import BuiltKit, Kind
+from raysteps.kit.built_kit import BuiltKit, Kind, Say
 from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
 from raysteps.programs.limits import StepLimits
@@ -36,6 +38,7 @@ class Work:
     sandbox: Sandbox
     folder: Path
     out: Path
+    say: Say = lambda text: None
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
@@ -51,18 +54,21 @@ class StepGrader:
 
     def __init__(self, work: Work, step: Step, limits: StepLimits, compiled: dict[str, Compiled]) -> None:
         self._work = work
-        self._step = step
+        self.step = step
         self._limits = limits
         self._compiled = compiled
         self._build = StudentBuild(work.kit, work.sandbox, work.folder)
         self._gallery = Gallery(work.kit, work.sandbox, limits, work.out)
         self._plan = read_plan(work.kit.project, step)
         most = most_points(step, judged=self._plan is not None)
+        self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, most, step.bonus)
+        self._ran = False
 
     def grade(self) -> StepResult:
-        """What goes wrong in the student's code is a result; only the kit's own trouble is raised."""
-        step, result = self._step, self._result
+        """Between steps of the reference. What goes wrong in the student's code is a result; only the kit's own trouble
+        is raised."""
+        step, result = self.step, self._result
         source = self._work.source(step)
         if source is None:
             handed_in = step.id in self._work.submission.sources
@@ -72,7 +78,7 @@ class StepGrader:
             return result
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
-        left = unfinished_functions(source, step)
+        left = self._unfinished = unfinished_functions(source, step)
         if left:
             result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
         compiled = self._compiled[step.id]
@@ -87,7 +93,7 @@ class StepGrader:
         """A full disk is nobody's fault. The disk is asked, not the compiler, whose words a source can shape."""
         free = shutil.disk_usage(self._work.folder).free
         if free < _LEAST_ROOM:
-            raise GraderFault(f"{self._step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
+            raise GraderFault(f"{self.step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
 
     def _does_not_build(self, message: str) -> StepResult:
         self._result.status = "does-not-build"
@@ -96,7 +102,7 @@ class StepGrader:
         return self._result
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
-        program, ran = self._build.program(kind, self._step, [binary], self._limits)
+        program, ran = self._build.program(kind, self.step, [binary], self._limits)
         if program is None and ran is not None:
             self._expect_room()
             self._result.build_log = (self._result.build_log + "\n" + build_log(ran)).strip()
@@ -104,7 +110,7 @@ class StepGrader:
         return program
 
     def _run(self, binary: Path) -> None:
-        step, result, work = self._step, self._result, self._work
+        step, result, work = self.step, self._result, self._work
         tests = self._program("test", binary)
         raytrace = self._program("raytrace", binary) if tests else None
         worker = self._program("worker", binary) if raytrace and self._plan else None
@@ -121,25 +127,40 @@ class StepGrader:
             scenes = render_scenes(self._gallery, raytrace, step, self._plan, seed, work.folder / step.number)
             result.hidden += scenes
             result.inconsistent = contradictions(step, self._plan, result, tags)
-        result.status, result.points = status_and_points(result, step)
         result.messages += sum_up(result)
-        wrong = Cumulative(False, "This step itself is not right yet.")
-        result.cumulative = self._together() if result.status == "passed" else wrong
+        if not is_right(result):
+            self._diagnose(worker)
+        self._ran = True
 
-    def _together(self) -> Cumulative:
-        step, work = self._step, self._work
-        mine = [other for other in work.kit.steps if other.index <= step.index]
-        missing = [other.id for other in mine if other.id not in self._compiled]
-        if missing:
-            return Cumulative(False, f"Not started yet: {listed(missing)}.")
-        objects = [self._compiled[other.id].binary for other in mine]
-        built = [path for path in objects if path is not None]
-        if len(built) < len(objects):
-            broken = [other.id for other in mine if self._compiled[other.id].binary is None]
-            return Cumulative(False, f"Does not build: {listed(broken)}.")
-        program, ran = self._build.program("raytrace", step, built, self._limits, together=True)
+    def _diagnose(self, worker: Program | None) -> None:
+        """In words why it is not right. Whatever a student's program says, it costs no grade."""
+        ask = ask_student(self._gallery.sandbox, worker, self._gallery.limits) if worker is not None else None
+        doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
+        try:
+            self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
+        except (ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
+            self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
+
+    def finish(self, right: Collection[str]) -> StepResult:
+        """After all steps were graded alone: does this one work with those before it that are right, by their ids?"""
+        if self._ran:
+            self._result.cumulative = self._together(right)
+            self._result.status, self._result.points = status_and_points(self._result, self.step)
+        return self._result
+
+    def _together(self, right: Collection[str]) -> Cumulative:
+        """A step that is not right is replaced by the reference's: its mistake costs its own step only."""
+        step, work = self.step, self._work
+        if not all(image.passed for image in self._result.images[:1]):
+            return Cumulative(False, "This step itself is not right yet.")
+        earlier = [other for other in work.kit.steps if other.index < step.index]
+        replaced = [other.id for other in earlier if other.id not in right]
+        mine = [self._compiled[other.id].binary for other in (*earlier, step) if other.id in right or other is step]
+        objects = [path for path in mine if path is not None]
+        objects += [work.kit.reference_step(other) for other in earlier if other.id in replaced]
+        program, ran = self._build.program("raytrace", step, objects, self._limits, together=True)
         if ran is not None:
             self._expect_room()
             return Cumulative(False, f"The steps do not build together. {link_message(ran)}")
         assert program is not None
-        return judge_together(self._gallery, program, step)
+        return judge_together(self._gallery, program, step, replaced)

@@ -4,9 +4,7 @@ import hashlib
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
-from raysteps.common.process import Outcome
 from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, too_many_tests, trouble
 from raysteps.judge.examples import Examples
@@ -14,42 +12,21 @@ from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.judging import judge_functions
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker_client import Ask
-from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
+from raysteps.programs.asking import ANSWERS_KB, reference_answers, reference_unkept
 from raysteps.programs.limits import StepLimits
 from raysteps.programs.pictures import compare
 from raysteps.programs.rendering import reference_picture
 from raysteps.programs.student_build import Program
 from raysteps.results.model import HiddenResult
-from raysteps.sandbox.open_air import OpenAir
-from raysteps.sandbox.task import Input, Limits, Ran, Sandbox, Task
-
-_ANSWERS_KB = 8192  # a tree of many boxes is a long answer
-_REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300, output_kb=_ANSWERS_KB)
-
-
-def reference_once(kit: BuiltKit, cases: bytes) -> Ran:
-    """Of questions that nobody asks twice."""
-    return OpenAir().run(Task((Input(kit.reference("worker"), "worker"),), _REFERENCE_LIMITS, stdin=cases))
-
-
-def _reference_answers(kit: BuiltKit, cases: bytes) -> Ran:
-    """The reference's answers, kept: a class is asked the same questions."""
-    path = kit.answers / hashlib.sha256(cases).hexdigest()[:32]
-    if path.is_file():
-        return Ran(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
-    ran = reference_once(kit, cases)
-    if ran.outcome.code != 0 or ran.outcome.timed_out:
-        raise GraderFault(f"the reference did not answer the judge: {ran.outcome.stderr.strip()}")
-    write_bytes(path, ran.outcome.stdout.encode())
-    return ran
+from raysteps.sandbox.task import Ran, Sandbox, Task
 
 
 def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Ask:
-    """The student's functions, in a process that knows no answer."""
+    """The student's functions, asked in a process that knows no answer."""
 
     def ask(cases: bytes, seconds: float) -> Ran:
-        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=_ANSWERS_KB), stdin=cases))
+        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
 
     return ask
 
@@ -59,10 +36,10 @@ def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, set
     student = ask_student(gallery.sandbox, worker, gallery.limits)
 
     def reference(cases: bytes, _seconds: float) -> Ran:
-        return _reference_answers(gallery.kit, cases)
+        return reference_answers(gallery.kit, cases)
 
     def unkept(cases: bytes, _seconds: float) -> Ran:
-        return reference_once(gallery.kit, cases)
+        return reference_unkept(gallery.kit, cases)
 
     shown = settings.feedback == "full"  # else the cases are withheld, and nobody needs a small one
     examples = Examples(student, unkept, gallery.out) if shown else None

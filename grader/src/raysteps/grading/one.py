@@ -8,6 +8,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.grading.grader import StepGrader, Work
+from raysteps.grading.scoring import is_right
 from raysteps.grading.settings import Settings
 from raysteps.judge.feedback import withhold
 from raysteps.kit.built_kit import BuiltKit
@@ -26,9 +27,8 @@ def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
 
 
 def _compile(work: Work, chosen: list[Step], pool: ThreadPoolExecutor) -> dict[str, Compiled]:
-    """Each started step that is needed: the chosen ones, and those before them, which they must work with."""
-    last = max((step.index for step in chosen), default=0)
-    sources = {step: work.source(step) for step in work.kit.steps if step.index <= last}
+    """Each chosen step that was started."""
+    sources = {step: work.source(step) for step in chosen}
     started = [(step, source) for step, source in sources.items() if source is not None]
 
     def compile_one(item: tuple[Step, str]) -> Compiled:
@@ -51,17 +51,19 @@ def grade_one(
     start = time.monotonic()
     counted = Counted(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = Work(kit, submission, settings, counted, Path(folder), out)
+        work = Work(kit, submission, settings, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
         with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
             say("building the steps")
             compiled = _compile(work, chosen, pool)
 
-            def grade(step: Step) -> StepResult:
-                say(f"checking {step.id}")
-                return StepGrader(work, step, limits_of(step, settings.limits), compiled).grade()
+            def grade(grader: StepGrader) -> StepResult:
+                say(f"checking {grader.step.id}")
+                return grader.grade()
 
-            steps = list(pool.map(grade, chosen))
+            graders = [StepGrader(work, step, limits_of(step, settings.limits), compiled) for step in chosen]
+            right = {result.id for result in pool.map(grade, graders) if is_right(result)}
+            steps = list(pool.map(lambda grader: grader.finish(right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:

@@ -9,7 +9,7 @@ from raysteps.results.model import Status, StepResult
 
 def most_points(step: Step, *, judged: bool) -> float:
     """What the step is worth: without the judge's plan, as in a student's kit, the visible part."""
-    share = 1.0 if judged else step.weight_tests + step.weight_images
+    share = 1.0 if judged else 1.0 - step.weight_hidden
     return round(step.points * share, 2)
 
 
@@ -22,13 +22,21 @@ def _hidden_share(result: StepResult) -> float:
     return sum(item.share * item.weight for item in result.hidden) / weight if weight else 0.0
 
 
+def is_right(result: StepResult) -> bool:
+    """Whether the step by itself, between steps of the reference, is all that it should be."""
+    passed = [item.passed for items in (result.tests, result.images, result.hidden) for item in items]
+    return bool(passed) and all(passed)
+
+
 def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
-    """Visible tests and pictures by their share that passed, hidden items by what was earned of each."""
+    """Visible tests and pictures by their share that passed, hidden items by what was earned of each, and whether the
+    step works together with the steps before it."""
     tests, images = [test.passed for test in result.tests], [image.passed for image in result.images]
     points = step.points * (step.weight_tests * _share(tests) + step.weight_images * _share(images))
     points += step.points * step.weight_hidden * _hidden_share(result)
+    points += step.points * step.weight_together * result.cumulative.passed
     outcomes = {item.outcome for items in (result.tests, result.images, result.hidden) for item in items}
-    if all(tests) and all(images) and all(item.passed for item in result.hidden):
+    if is_right(result) and result.cumulative.passed:
         return "passed", result.max
     if "crashed" in outcomes:
         return "crashed", round(points, 2)

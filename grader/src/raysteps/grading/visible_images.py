@@ -1,13 +1,15 @@
 """The pictures of a step, made with the student's code and compared."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from raysteps.common.text import listed
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.programs.endings import ending_of
 from raysteps.programs.limits import StepLimits
-from raysteps.programs.pictures import compare, difference, write_png
+from raysteps.programs.pictures import Pixels, compare, difference, write_png
 from raysteps.programs.rendering import Rendered, reference_picture, render
 from raysteps.programs.student_build import Program
 from raysteps.results.model import Cumulative, Ending, ImageResult
@@ -22,6 +24,7 @@ class Gallery:
     sandbox: Sandbox
     limits: StepLimits
     out: Path
+    made: dict[str, Pixels] = field(default_factory=dict)  # the step's own pictures, by name
 
     def hung(self) -> None:
         self.limits = self.limits.after_a_timeout()
@@ -64,6 +67,7 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     if rendered.pixels is None:
         result.outcome, result.message = trouble(rendered)
         return result
+    gallery.made[case.name] = rendered.pixels
     if rendered.pixels.shape == reference.shape:
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(rendered.pixels, gallery.out / result.mine)
@@ -81,12 +85,14 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     return result
 
 
-def judge_together(gallery: Gallery, program: Program, step: Step) -> Cumulative:
-    """The step's first picture with all the student's steps up to this one."""
+def judge_together(gallery: Gallery, program: Program, step: Step, replaced: Sequence[str]) -> Cumulative:
+    """The step's first picture with the student's steps up to this one; `replaced` are the reference's among them."""
     case = step.images[0]
     scene = gallery.kit.project.root / case.scene
     rendered = gallery.render(program, scene, case.args)
     if rendered.pixels is None:
         return Cumulative(False, f"{case.name}: {trouble(rendered)[1]}")
     verdict = compare(rendered.pixels, reference_picture(gallery.kit, scene, case.args), case.max_wrong)
-    return Cumulative(verdict.passed, "" if verdict.passed else f"{case.name}: {verdict.message}")
+    if not verdict.passed:
+        return Cumulative(False, f"{case.name}: {verdict.message}")
+    return Cumulative(True, f"With the reference's {listed(replaced)}." if replaced else "")

@@ -46,6 +46,7 @@ def _withheld_step(step: dict[str, Any], feedback: Feedback) -> dict[str, Any]:
     texts = {item["message"] for item in hidden if item["message"]}
     return {
         **step,
+        "diagnoses": [],
         "hidden": _share_only(hidden, "function", "hidden cases") + _share_only(hidden, "picture", "hidden pictures"),
         "messages": [line for line in step["messages"] if line not in texts and _HIDDEN_ITEM not in line],
     }

@@ -62,6 +62,6 @@ class Case:
         return "; ".join(f"{name}: {value.words()}" for name, value in self.inputs.items())
 
 
-def seed_of(step: str, function: str, kind: str, seed: int) -> str:
+def seed_of(step: str, function: str, kind: str, seed: int | str) -> str:
     """Every kind of every function draws from a source of its own."""
     return f"{seed}/{step}/{function}/{kind}"

@@ -22,7 +22,7 @@ _REFERENCE_SECONDS = 600
 
 
 @lru_cache(maxsize=256)  # a class is asked the same questions
-def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed: int) -> tuple[Case, ...]:
+def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed: int | str) -> tuple[Case, ...]:
     known = functions_of(step[:2])[function]
     cases: list[Case] = []
     for name, amount in amounts:
@@ -32,7 +32,7 @@ def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed:
     return tuple(cases)
 
 
-def make_cases(step: Step, plan: FunctionPlan, seed: int) -> Sequence[Case]:
+def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case]:
     """The same seed makes the same cases on every machine."""
     return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
 

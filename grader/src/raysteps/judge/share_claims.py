@@ -16,6 +16,7 @@ from raysteps.results.model import HiddenResult, ImageResult
 
 MESSAGE = "The program says that this passes, but the judge's own inputs say otherwise; it does not count."
 _MOST = 0.5
+_TOO_GOOD = 0.25  # of what is allowed: not even rays into the empty sky make it so little
 
 
 def _saves_nothing(result: HiddenResult, function: Function) -> bool:
@@ -31,22 +32,31 @@ def _with_limit(step: Step, plan: Plan) -> tuple[set[str], set[str]]:
     return visible, made_up | {twin_name(name) for name in visible}
 
 
+def _owns_up(image: ImageResult) -> bool:
+    """Whether the program itself says that its rays tested too much."""
+    most = image.max_share
+    return most is not None and image.share_tested is not None and image.share_tested > most
+
+
 def false_shares(step: Step, plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> list[str]:
-    """Takes back what nobody saw, and says so, one line for each visible picture."""
+    """Takes back what nobody saw, and says so, one line for each visible picture. Where most of a picture is sky, few
+    objects are tested without any merit: so a program that owns up to its work in one picture is believed in others."""
     known = functions_of(step.number)
     wasteful = [item.name for item in hidden if item.kind == "function" and _saves_nothing(item, known[item.name])]
     if not wasteful:
         return []
     limited, limited_hidden = _with_limit(step, plan)
+    honest = any(_owns_up(image) for image in images)
     lines = []
     for image in images:
-        if image.passed and image.name in limited:
+        too_good = (image.share_tested or 0) < _TOO_GOOD * (image.max_share or 1)
+        if image.passed and image.name in limited and (too_good or not honest):
             lines.append(
                 f"The picture '{image.name}' claims that {image.share_tested or 0:.1%} of the objects were tested, but "
                 f"the judge found that {listed(wasteful)} spares the rays nothing."
             )
             image.passed, image.outcome, image.message = False, "wrong", MESSAGE
     for item in hidden:
-        if item.kind == "picture" and item.share > 0 and item.name in limited_hidden:
+        if item.kind == "picture" and item.share > 0 and item.name in limited_hidden and not honest:
             item.share, item.outcome, item.message = 0.0, "wrong", MESSAGE
     return lines

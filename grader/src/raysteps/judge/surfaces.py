@@ -13,13 +13,14 @@ class Sphere:
     center: Vector
     radius: float
     fill: Fill | None = None  # in a list the worker gives out the fills
+    glass: bool = False  # in a list: lets light pass
 
     def numbers(self) -> list[Number]:
         return [*self.center, self.radius, *(self.fill.numbers() if self.fill else [])]
 
     def words(self) -> str:
         fill = f" {self.fill.words()}" if self.fill else ""
-        return f"sphere at {vector_words(self.center)} radius {text(self.radius)}{fill}"
+        return f"{'glass ' * self.glass}sphere at {vector_words(self.center)} radius {text(self.radius)}{fill}"
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ Surface = Sphere | Triangle | Scripted
 
 def _kind(surface: Surface) -> int:
     if isinstance(surface, Sphere):
-        return 0
+        return 4 if surface.glass else 0
     if isinstance(surface, Triangle):
         return 1
     return 3 if surface.distance is None else 2

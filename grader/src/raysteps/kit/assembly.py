@@ -8,6 +8,7 @@ from raysteps.kit.description import Description
 from raysteps.kit.linking import (
     dynamic_list,
     interpreter_of,
+    library_flags,
     library_name,
     link,
     link_placeholder,
@@ -94,13 +95,16 @@ class Assembly:
 
     def _add_step(self, step: Step) -> None:
         built = self._description.steps[step.number]
-        self._objects[step.number] = self._copy(built)
+        copied = self._objects[step.number] = self._copy(built)
+        steps = self._folder / "steps"
         tools = self._description.seal
         if tools is None:
+            shutil.copyfile(built, steps / f"{step.number}.o")
             return
         kept = self._kept[step.number] = Path(f"{built}.keep").read_text("utf-8").split()
-        steps = self._folder / "steps"
-        write_bytes(steps / f"{step.number}.map", version_script(kept))
+        exports = steps / f"{step.number}.map"
+        write_bytes(exports, version_script(kept))
+        link(self._description, [*library_flags(step.number), exports, copied], steps / library_name(step.number))
         names = readable_names(tools.nm, self._objects[step.number])
         write_json(steps / f"{step.number}.names.json", {name: names[name] for name in kept})
         earlier = [other.number for other in self._steps if other.index <= step.index]

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.kit.description import Description
+from raysteps.kit.linking import library_name
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
@@ -68,6 +69,11 @@ class BuiltKit:
     def program(self, kind: Kind, step: Step, *, together: bool = False) -> Path:
         """A program that lacks the student's library of this step (`together`: of all up to it)."""
         return self.folder / "bin" / f"{kind}-{'cumulative' if together else 'isolated'}-{step.number}"
+
+    def reference_step(self, step: Step) -> Path:
+        """The reference's step as a submission's is built: a library, or elsewhere an object."""
+        library = self.folder / "steps" / library_name(step.number)
+        return library if library.is_file() else self.folder / "steps" / f"{step.number}.o"
 
     def rest(self, kind: Kind, step: Step, *, together: bool = False) -> list[Path]:
         """Where steps are no libraries: all that a program is linked from beside the student's objects."""

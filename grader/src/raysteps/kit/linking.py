@@ -39,6 +39,11 @@ def library_name(number: str) -> str:
     return f"libstep-{number}.so"
 
 
+def library_flags(number: str) -> list[str]:
+    """Before the version script of a step and its object."""
+    return ["-fno-lto", "-shared", "-Wl,-z,now", f"-Wl,-soname,{library_name(number)}", "-Wl,--version-script"]
+
+
 def link_placeholder(description: Description, names: Sequence[str], library: Path) -> None:
     """A library with these functions and nothing in them, for programs to be linked with."""
     source = library.with_suffix(".s")

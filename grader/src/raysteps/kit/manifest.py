@@ -35,6 +35,7 @@ class Step:
     weight_tests: float
     weight_images: float
     weight_hidden: float
+    weight_together: float
     seconds: float
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
@@ -85,6 +86,7 @@ def read_step(path: Path) -> Step:
             weight_tests=float(weights["tests"]),
             weight_images=float(weights["images"]),
             weight_hidden=float(weights["hidden"]),
+            weight_together=float(weights["together"]),
             seconds=float(table["limits"]["seconds"]),
             images=tuple(_image(image) for image in table.get("images", [])),
             memory_mb=int(table["limits"].get("memory_mb", 4096)),
@@ -96,9 +98,8 @@ def read_step(path: Path) -> Step:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
-    if abs(step.weight_tests + step.weight_images + step.weight_hidden - 1) > 1e-9 or (step.weight_images > 0) != bool(
-        step.images
-    ):
+    weights_sum = step.weight_tests + step.weight_images + step.weight_hidden + step.weight_together
+    if abs(weights_sum - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
         raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
     return step
 

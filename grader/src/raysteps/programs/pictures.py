@@ -18,7 +18,7 @@ Pixels: TypeAlias = npt.NDArray[np.uint8]
 
 _HEADER = re.compile(rb"P6\s+([0-9]{1,5})\s+([0-9]{1,5})\s+255\s")
 _MAX_BYTES = 200 << 20
-_TOLERANCE = 2
+TOLERANCE = 2
 
 
 class PictureError(Exception):
@@ -91,7 +91,7 @@ def compare(mine: Pixels, reference: Pixels, max_wrong: float) -> Comparison:
     if mine.shape != reference.shape:
         return Comparison(False, 1.0, f"The picture is {_size(mine)} pixels, expected {_size(reference)}.")
     gap = np.abs(mine.astype(np.int16) - reference.astype(np.int16)).max(axis=2)
-    wrong = gap > _TOLERANCE
+    wrong = gap > TOLERANCE
     share = float(wrong.mean())
     if is_flat(mine) and not is_flat(reference):
         return Comparison(False, share, "The whole picture has one colour.")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from raysteps.common.files import write_bytes
 from raysteps.kit.built_kit import BuiltKit, Kind
-from raysteps.kit.linking import library_name
+from raysteps.kit.linking import library_flags, library_name
 from raysteps.kit.manifest import Step
 from raysteps.kit.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
 from raysteps.programs.limits import StepLimits
@@ -75,19 +75,13 @@ class StudentBuild:
         undefined = self._shown(raw, [name for name in strange if name not in forbidden], limits)
         if forbidden or missing or undefined:
             return Compiled(None, compiled, forbidden, missing, undefined)
-        name = library_name(step.number)
-        words: tuple[Word, ...] = (description.compiler, *description.link_flags, "-fno-lto", "-shared")
-        words += (
-            "-Wl,-z,now",
-            f"-Wl,-soname,{name}",
-            "-Wl,--version-script",
-            Input(self._kit.exports(step), "exports"),
-        )
-        ran = self._run(limits, *words, Input(raw, "step.o"), "-o", Output("library"))
+        words: list[Word] = [description.compiler, *description.link_flags, *library_flags(step.number)]
+        words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o")]
+        ran = self._run(limits, *words, "-o", Output("library"))
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
-        return Compiled(self._write(f"libraries/{name}", data), compiled)
+        return Compiled(self._write(f"libraries/{library_name(step.number)}", data), compiled)
 
     def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:
         """Linker names of an object as C++ writes them."""
@@ -103,10 +97,11 @@ class StudentBuild:
     def program(
         self, kind: Kind, step: Step, binaries: list[Path], limits: StepLimits, *, together: bool = False
     ) -> tuple[Program | None, Ran | None]:
-        """The kit's program with the student's binaries; none, and what the linker said, when they do not fit."""
+        """The kit's program with these binaries, one for each step that it lacks; none, and what the linker said, when
+        they do not fit."""
         if self._kit.interpreter is not None:
             program = self._kit.program(kind, step, together=together)
-            libraries = Input(binaries[0].parent, "steps")  # all steps of a student lie in one folder
+            libraries = Input(self._in_one_folder(f"{kind}-{step.number}", binaries), "steps")
             return Program((self._kit.interpreter, "--library-path", libraries, Input(program, kind))), None
         parts = [*binaries, *self._kit.rest(kind, step, together=together)]
         words: list[Word] = [self._kit.description.compiler, *self._kit.description.link_flags]
@@ -118,6 +113,14 @@ class StudentBuild:
         path = self._write(f"{kind}-{step.number}{'-together' if together else ''}", data)
         path.chmod(0o755)
         return Program((Input(path, kind),)), None
+
+    def _in_one_folder(self, name: str, libraries: list[Path]) -> Path:
+        """Where the loader looks; a single library may stay where it is."""
+        if len(libraries) > 1:
+            for library in libraries:
+                write_bytes(self._folder / name / library.name, library.read_bytes())
+            return self._folder / name
+        return libraries[0].parent
 
     def _write(self, name: str, data: bytes) -> Path:
         path = self._folder / name

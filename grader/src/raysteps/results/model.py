@@ -99,7 +99,7 @@ class Diagnosis:
 
 @dataclass
 class Cumulative:
-    """Whether the student's steps up to this one work together; worth no points."""
+    """Whether the step works together with the student's right steps before it."""
 
     passed: bool
     message: str = ""

@@ -1,5 +1,6 @@
 """What a check of the kit reports, and the table of all of them."""
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -30,14 +31,15 @@ class Check:
 
 def run_checks(checks: list[Check], console: Console) -> int:
     """Runs all checks, prints each as it ends, then the table and the closing line."""
-    done: list[tuple[Check, Report]] = []
+    done: list[tuple[Check, Report, float]] = []
     for check in checks:
+        start = time.monotonic()
         with console.status(escape(check.name)):
             try:
                 report = check.run()
             except Exception as error:
                 report = Report("failed", f"{type(error).__name__}: {error}")
-        done.append((check, report))
+        done.append((check, report, time.monotonic() - start))
         if report.verdict == "skipped":
             console.print(f"skipped: {check.name} ({report.detail})", markup=False)
         else:
@@ -47,9 +49,10 @@ def run_checks(checks: list[Check], console: Console) -> int:
     table = Table()
     table.add_column("check")
     table.add_column("result")
-    for check, report in done:
-        table.add_row(escape(check.name), f"[{_COLORS[report.verdict]}]{report.verdict}[/]")
+    table.add_column("seconds", justify="right")
+    for check, report, seconds in done:
+        table.add_row(escape(check.name), f"[{_COLORS[report.verdict]}]{report.verdict}[/]", f"{seconds:.0f}")
     console.print(table)
-    amount = {verdict: sum(report.verdict == verdict for _, report in done) for verdict in _COLORS}
+    amount = {verdict: sum(report.verdict == verdict for _, report, _ in done) for verdict in _COLORS}
     print(f"{amount['passed']} passed, {amount['failed']} failed, {amount['skipped']} skipped", flush=True)
     return 1 if amount["failed"] else 0

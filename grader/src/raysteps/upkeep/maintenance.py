@@ -1,10 +1,12 @@
-"""The commands `dev stubs` and `dev samples`, for those who maintain the kit."""
+"""The commands `dev stubs`, `dev samples` and `dev mistakes`, for those who maintain the kit."""
 
 from pathlib import Path
 
+from raysteps.kit.built_kit import Say
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import outdated_stubs, write_stubs
+from raysteps.upkeep.handbook import command as handbook
 from raysteps.upkeep.samples import outdated_samples, write_samples
 
 
@@ -21,10 +23,16 @@ def samples(project: Project, *, check: bool) -> int:
     return _tell([path.relative_to(project.root).as_posix() for path in changed], "dev samples", check=check)
 
 
+def mistakes(project: Project, say: Say, *, check: bool) -> int:
+    """Makes the pages of docs/mistakes/, or tells which are out of date."""
+    changed = (handbook.out_of_date if check else handbook.write)(project, say)
+    return _tell(changed, "dev mistakes", check=check)
+
+
 def _tell(changed: list[str], command: str, *, check: bool) -> int:
     for name in changed:
         if check:
-            print(f"{name} differs from what the solution generates; ./raysteps {command} makes it anew")
+            print(f"{name} differs from what the solutions generate; ./raysteps {command} makes it anew")
         else:
             print(f"{name} written")
     return 1 if check and changed else 0

@@ -15,12 +15,15 @@ from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import outdated_stubs
 from raysteps.upkeep.checks import Check, Report, run_checks
+from raysteps.upkeep.handbook.command import out_of_date
 from raysteps.upkeep.same_picture import scenes_that_differ
 from raysteps.upkeep.samples import outdated_samples
+from raysteps.upkeep.truth.command import check_truth
 
 _TEST_SECONDS = 900
 _PYTEST_SECONDS = 2400
 _FUZZ_SECONDS = 60
+_PAIRS = 40
 _SLOW = "pytest, hostile submissions and packages for other systems"
 
 
@@ -68,6 +71,17 @@ def _samples(project: Project) -> Report:
     return Report("failed", text + ", ".join(names)) if names else Report("passed")
 
 
+def _truth(project: Project, console: Console, *, pairs: int) -> Report:
+    code = check_truth(project, console, lambda text: None, pairs=pairs)
+    return Report("failed", "its table and lines stand above") if code else Report("passed")
+
+
+def _mistakes(project: Project) -> Report:
+    old = out_of_date(project, lambda text: None)
+    text = "these differ from what the catalogue makes (./raysteps dev mistakes makes them anew): "
+    return Report("failed", text + ", ".join(old)) if old else Report("passed")
+
+
 def _same_pictures(project: Project, tree: BuildTree) -> Report:
     built = _build(tree, ["raytrace-reference"])
     if built.verdict != "passed":
@@ -94,6 +108,15 @@ def _python_checks(project: Project) -> list[Check]:
 def _pytest(project: Project, marked: str) -> Report:
     words: list[str | Path] = [sys.executable, "-m", "pytest", "-q", "-m", marked]
     return _command(words, project.root / "grader", _PYTEST_SECONDS)
+
+
+def _grade_checks(project: Project, console: Console, *, full: bool) -> list[Check]:
+    pairs = _PAIRS if full else 0
+    name = "grades are true: stubs, references, known mistakes, other ways" + (", pairs of mistakes" if full else "")
+    return [
+        Check(name, lambda: _truth(project, console, pairs=pairs)),
+        Check("pages of mistakes match the catalogue", lambda: _mistakes(project)),
+    ]
 
 
 def _asan_checks(project: Project) -> list[Check]:
@@ -146,6 +169,7 @@ def selftest(project: Project, console: Console, *, full: bool) -> int:
     tree = BuildTree(project, "dev", project.build / "dev", project.steps)
     checks = [Check("build everything, warnings are errors", lambda: _build(tree, [])), *_program_checks(tree)]
     checks.append(Check("none, boxes and octree give the same picture", lambda: _same_pictures(project, tree)))
+    checks += _grade_checks(project, console, full=full)
     checks += _python_checks(project)
     if full:
         checks.append(Check(_SLOW, lambda: _pytest(project, "slow")))

@@ -1,30 +1,52 @@
 """Cases of step 05."""
 
+from collections.abc import Sequence
+
 from raysteps.judge.answers import Answer, first
 from raysteps.judge.comparing import angle, channels
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import Vector, add, length, minus, rounded, times
-from raysteps.judge.rays import FARTHEST, REFLECTED_RAY
+from raysteps.judge.numbers import Vector, add, dot, length, minus, rounded, times
+from raysteps.judge.rays import REFLECTED_RAY
 from raysteps.judge.scripts import Script, ScriptedHit, Traced, read_traced, traced_words
 from raysteps.judge.values import Hit, Inputs, Ray, Whole
 
 _DEGREES = 0.5
+_AT_THE_HIT = 0.5  # a bounced ray that starts farther away from the hit was not made by reflected_ray
+_HEAD_ON = 0.999  # cosine
 
 
-def _same_ray(expected: Ray, actual: Ray, bounces: int) -> bool:
-    """Each bounce may start anywhere up to FARTHEST off its surface, and shifts what comes after it."""
-    shift = 2 * FARTHEST * bounces + 1e-3
-    near = length(minus(expected.origin, actual.origin)) <= shift
-    return near and angle(expected.direction, actual.direction) <= _DEGREES
+def _script(inputs: Inputs) -> Script:
+    script = inputs["tracer"]
+    assert isinstance(script, Script)
+    return script
 
 
-def _trace_problem(_inputs: Inputs, expected: Traced, actual: Traced) -> str:
+def _met_head_on(inputs: Inputs) -> bool:
+    """Whether the first hit sends the ray straight back."""
+    ray, hits = inputs["ray"], _script(inputs).hits
+    assert isinstance(ray, Ray)
+    return bool(hits) and abs(dot(ray.direction, hits[0].normal)) > _HEAD_ON
+
+
+def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -> bool:
+    """Where exactly a bounced ray starts is reflected_ray's matter, and so is its direction where that is not simple: a
+    mistake there alone must not make all of trace wrong. The hits lie on the rays that were really cast."""
+    same = [angle(mine.direction, theirs.direction) <= _DEGREES for mine, theirs in zip(expected, actual, strict=True)]
+    if not same[0] or not length(minus(expected[0].origin, actual[0].origin)) <= 1e-3:
+        return True
+    for before, after, hit in zip(actual, actual[1:], _script(inputs).hits, strict=False):
+        position = add(before.origin, before.direction, hit.distance)
+        if not length(minus(after.origin, position)) <= _AT_THE_HIT:
+            return True
+    return _met_head_on(inputs) and not all(same)
+
+
+def _trace_problem(inputs: Inputs, expected: Traced, actual: Traced) -> str:
     counts = ""
     if len(actual.cast) != len(expected.cast):
         counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
-    rays = enumerate(zip(expected.cast, actual.cast, strict=False))
-    astray = any(not _same_ray(*pair, bounces) for bounces, pair in rays)
+    astray = not counts and bool(expected.cast) and _is_astray(inputs, expected.cast, actual.cast)
     shaded = sorted(expected.shaded) == sorted(actual.shaded)
     return first(
         counts,

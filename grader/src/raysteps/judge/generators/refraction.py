@@ -8,11 +8,12 @@ from raysteps.judge.comparing import channels, direction
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, dot, f32, length, minus, rounded, times
-from raysteps.judge.rays import FARTHEST, TRANSMITTED_RAY, hit_of
+from raysteps.judge.rays import TRANSMITTED_RAY, hit_of
 from raysteps.judge.scripts import MOST_ASKED
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Fill, Hit, Inputs, Ray, Real, Vec, Whole, vector_words
 
+_AT_THE_HIT = 0.5  # a ray that starts farther away from the hit was not made by transmitted_ray
 _CLEAR = 0.05  # how far the sine of a refracted ray keeps from 1, where rounding decides
 
 
@@ -66,7 +67,7 @@ def _brought_words(answer: _Brought) -> str:
 def _same_way(hit: Hit, expected: Ray, actual: Ray) -> str:
     """Where exactly the ray starts is transmitted_ray's matter, and so is its direction where the glass is index 1:
     a mistake there alone must not make all of transmitted_light wrong."""
-    if not length(minus(actual.origin, hit.position)) <= FARTHEST + 1e-5:
+    if not length(minus(actual.origin, hit.position)) <= _AT_THE_HIT:
         return "the traced ray does not start at the hit"
     return "" if hit.fill.index == 1 else direction("the traced ray's direction", expected.direction, actual.direction)
 

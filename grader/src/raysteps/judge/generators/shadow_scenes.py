@@ -124,6 +124,13 @@ def _blocked(draw: Draw) -> Inputs:
     return _scene(_things(draw, hit, light, blocked=True), hit, light)
 
 
+def _glass(draw: Draw) -> Inputs:
+    """A ball of glass in the way: it blocks as any other."""
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 4, 30)
+    return _scene([replace(_ball(draw, hit, light, blocks=True), glass=True)], hit, light)
+
+
 def _nothing_between(draw: Draw) -> Inputs:
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 30)
@@ -232,6 +239,7 @@ IS_LIT = Function(
         Group("simple numbers", _simple_scene, exact=True),
         Group("in a hollow ball", _hollow_ball),
         Group("in shadow", _blocked, telling=False),
+        Group("glass in the way", _glass, telling=False),
         Group("nothing between", _nothing_between, telling=False),
         Group("behind the light", _behind_light, telling=False),
         Group("on the other side of the surface", _other_side, telling=False),

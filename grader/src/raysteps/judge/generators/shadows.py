@@ -19,6 +19,13 @@ def _simple_ray(draw: Draw) -> Inputs:
     return {"hit": hit, "light": Light(add(add(hit.position, hit.normal, up), side, across))}
 
 
+def _light_behind(draw: Draw) -> Inputs:
+    """The ray runs through the surface, and starts on the normal's side of it all the same."""
+    hit = any_hit(draw)
+    way = draw.above(hit.normal, -1.0, -0.25)
+    return {"hit": hit, "light": Light(rounded(add(hit.position, way, draw.real(2, 30))))}
+
+
 def _far_from_origin(draw: Draw) -> Inputs:
     return _ray_case(draw, hit_at(add((100.0, 100.0, 100.0), draw.point(3)), draw.direction()))
 
@@ -43,6 +50,7 @@ _SHADOW_RAY = Function(
         Group("far from the centre of the world", _far_from_origin),
         Group("a light very near or very far", _near_or_far),
         Group("a light near the horizon", _low_light),
+        Group("a light behind the surface", _light_behind),
     ),
 )
 

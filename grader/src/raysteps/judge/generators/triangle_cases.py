@@ -69,17 +69,17 @@ def _triangle_behind(draw: Draw) -> Inputs:
     return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), -draw.real(0.5, 10)), draw)
 
 
-def _flat_triangle(draw: Draw) -> tuple[Triangle, int]:
-    """In a plane of two axes, with a right angle; and the number of the third axis."""
+def _flat_triangle(draw: Draw, legs: tuple[int, ...] = (1, 2, 3, 4)) -> tuple[Triangle, int]:
+    """In a plane of two axes, with a right angle between two of these legs; and the number of the third axis."""
     axis, corner = draw.whole(0, 2), draw.simple_point(4)
-    legs = [draw.sign() * draw.whole(1, 4) for _ in range(2)]
+    sizes = [draw.sign() * legs[draw.whole(0, len(legs) - 1)] for _ in range(2)]
 
     def moved(which: int, by: float) -> Vector:
         moves = [0.0, 0.0, 0.0]
         moves[(axis + which) % 3] = by
         return add(corner, (moves[0], moves[1], moves[2]))
 
-    return Triangle(corner, moved(1, legs[0]), moved(2, legs[1])), axis
+    return Triangle(corner, moved(1, sizes[0]), moved(2, sizes[1])), axis
 
 
 def _along_axis(axis: int, sign: float) -> Vector:
@@ -105,9 +105,20 @@ def _on_triangle(draw: Draw) -> Inputs:
     return _case(t, Ray(_at(t, 0.25, 0.375), _along_axis(axis, draw.sign())), draw)
 
 
+def _on_edge(draw: Draw) -> Inputs:
+    """Exactly through an edge, and not near a corner. Every term is exact, so all methods must agree: a hit."""
+    t, axis = _flat_triangle(draw, legs=(1, 2, 4))
+    share = draw.whole(1, 3) / 4
+    corners = [(0.0, share), (share, 0.0), (share, 1 - share)]
+    direction = _along_axis(axis, draw.sign())
+    point = _at(t, *corners[draw.whole(0, 2)])
+    return _case(t, Ray(add(point, direction, -float(draw.whole(1, 6))), direction), draw)
+
+
 def _small_triangle(draw: Draw) -> Inputs:
+    """Its area is tiny, and nothing else about it is: who compares it with a small number loses it."""
     t, place = draw.triangle(), draw.point(3)
-    a, b, c = (rounded(add(place, corner, 0.05)) for corner in (t.a, t.b, t.c))
+    a, b, c = (rounded(add(place, corner, 0.005)) for corner in (t.a, t.b, t.c))
     t = Triangle(a, b, c)
     return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), draw.real(1, 4)), draw)
 
@@ -176,6 +187,7 @@ TRIANGLE_INTERSECT = Function(
         Group("close to an edge", _close_to_edge, telling=False),
         Group("origin close to the triangle", _close_origin, telling=False),
         Group("along an axis, with zeros of either sign", _signed_zeros, telling=False, exact=True),
+        Group("on an edge", _on_edge, exact=True),
         Group("beside an edge", _beside_edge, telling=False),
         Group("behind the origin", _triangle_behind, telling=False),
         Group("along the plane", _in_plane, telling=False, exact=True),

@@ -1,0 +1,1 @@
+"""Which known mistake, turn or recolouring explains what is wrong."""

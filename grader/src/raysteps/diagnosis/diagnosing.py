@@ -1,0 +1,81 @@
+"""What explains a step that is not right, in words."""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+from raysteps.diagnosis.answers import Questions, listen, questions_of
+from raysteps.diagnosis.evidence import Evidence, Picture
+from raysteps.diagnosis.findings import findings, transformations
+from raysteps.diagnosis.learning import known_mistakes
+from raysteps.diagnosis.matching import match, spoils
+from raysteps.diagnosis.naming import name_mistakes
+from raysteps.judge.plan import Plan
+from raysteps.judge.worker_client import Ask
+from raysteps.kit.built_kit import BuiltKit, Say
+from raysteps.kit.manifest import Step
+from raysteps.mistakes.catalogue import read_mutants
+from raysteps.programs.pictures import Pixels
+from raysteps.programs.rendering import reference_picture
+from raysteps.results.model import Diagnosis, StepResult
+
+_MOST_SECONDS = 2.0  # of one run of a student's worker: it has answered as many cases before
+
+
+@dataclass(frozen=True)
+class Diagnostician:
+    """Knows the kit and one step of it; `ask` is none where the kit has no judge."""
+
+    kit: BuiltKit
+    step: Step
+    plan: Plan | None
+    ask: Ask | None
+    say: Say = lambda text: None
+
+    def diagnose(self, result: StepResult, mine: Mapping[str, Pixels], unfinished: Collection[str]) -> list[Diagnosis]:
+        """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs."""
+        pictures = self._pictures(mine) if not unfinished else {}
+        questions = self._questions(result, unfinished)
+        answers = listen(questions, self.ask, _MOST_SECONDS) if self.ask is not None else {}
+        named, spoilt = self._mistakes(Evidence(questions, answers, pictures))
+        open_ = {
+            name: picture
+            for name, picture in pictures.items()
+            if picture.is_wrong and picture.says_something and name not in spoilt
+        }
+        found = list(transformations(self.kit, self.step, open_))
+        told = {name for one in found for name in one.seen_in}
+        rest = {name: picture for name, picture in open_.items() if name not in told}
+        return [*named, *found, *findings(self.kit, self.step, rest)]
+
+    def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
+        """Known mistakes, and the pictures that they spoil."""
+        mutants = read_mutants(self.kit.project, self.step)
+        if not mutants or not evidence.is_wrong:
+            return [], set()
+        known = known_mistakes(self.kit, self.step, self.plan, mutants, self.say)
+        matches = [match(mutant, known[mutant.id], evidence) for mutant in mutants]
+        named = name_mistakes(matches)
+        spoilt = {
+            name
+            for one in named
+            for name, picture in evidence.pictures.items()
+            if name in one.explains or spoils(known[one.mutant.id].pictures.get(name), picture)
+        }
+        return [one.diagnosis() for one in named], spoilt
+
+    def _pictures(self, mine: Mapping[str, Pixels]) -> dict[str, Picture]:
+        found = {}
+        for case in self.step.images:
+            reference = reference_picture(self.kit, self.kit.project.root / case.scene, case.args)
+            if case.name in mine and mine[case.name].shape == reference.shape:
+                found[case.name] = Picture(case, mine[case.name], reference)
+        return found
+
+    def _questions(self, result: StepResult, unfinished: Collection[str]) -> dict[str, Questions]:
+        """To the functions that the judge found wrong; to all where it found none."""
+        if self.plan is None:
+            return {}
+        judged = [item for item in result.hidden if item.kind == "function"]
+        hung = {item.name for item in judged if item.outcome == "timeout"}
+        wrong = {item.name for item in judged if not item.passed} or {item.name for item in judged}
+        return questions_of(self.kit, self.step, self.plan, wrong - hung - set(unfinished))
