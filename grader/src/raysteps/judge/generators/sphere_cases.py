@@ -78,14 +78,10 @@ def _close_origin(draw: Draw) -> Inputs:
 
 
 def _on_sphere(draw: Draw) -> Inputs:
-    """Numbers for which one of the two distances is exactly 0."""
+    """One of the two distances is exactly 0, even for a method that divides by the radius."""
     outward = draw.axis()
-    side = (outward[1], outward[2], outward[0])
-    center, way = draw.simple_point(4), times(draw.sign(), outward)
-    if draw.chance(0.5):
-        s = Sphere(center, draw.eighths(1, 6))
-        return _case(s, Ray(add(center, outward, s.radius), way), draw)
-    return _case(Sphere(center, 5.0), Ray(add(add(center, outward, 3.0), side, 4.0), way), draw)
+    s = Sphere(draw.simple_point(4), float(2 ** draw.whole(-1, 2)))
+    return _case(s, Ray(add(s.center, outward, s.radius), times(draw.sign(), outward)), draw)
 
 
 def _tiny_or_huge(draw: Draw) -> Inputs:
