@@ -95,6 +95,16 @@ def _angled_camera(draw: Draw) -> Camera:
     return replace(_upright(draw, _any_camera(draw)), angle=angle, width=100, height=100)
 
 
+def _extreme_camera(draw: Draw) -> Camera:
+    """Looks at something very near or far, with an up vector that is very short or long."""
+    camera = _any_camera(draw)
+    view, up = unit(minus(camera.at, camera.origin)), unit(camera.up)
+    origin = draw.simple_point(0.5)
+    distance = draw.real(0.01, 0.05) if draw.chance(0.5) else draw.real(1e3, 1e4)
+    size = draw.real(0.001, 0.01) if draw.chance(0.5) else draw.real(100, 1000)
+    return replace(camera, origin=origin, at=rounded(add(origin, view, distance)), up=rounded(times(size, up)))
+
+
 def _frame_of(camera: Camera) -> Frame:
     forward = unit(minus(camera.at, camera.origin))
     right = unit(cross(forward, camera.up))
@@ -132,6 +142,13 @@ def _few_pixels(draw: Draw) -> Inputs:
     return _any_pixel(draw, camera)
 
 
+def _one_pixel_wide(draw: Draw) -> Inputs:
+    """Or high, or both: who divides by the size less 1 divides by 0."""
+    long = draw.whole(1, 60)
+    width, height = ((1, long), (long, 1), (1, 1))[draw.whole(0, 2)]
+    return _any_pixel(draw, replace(_any_camera(draw), width=width, height=height))
+
+
 def _along(ray: Ray, distance: float) -> Inputs:
     return {"ray": ray, "distance": Real(distance)}
 
@@ -147,6 +164,7 @@ FUNCTIONS = (
             Group("simple numbers", lambda d: _along(_simple_ray(d), d.eighths(1, 10))),
             Group("behind the origin", lambda d: _along(Ray(d.point(10), d.direction()), d.real(-20, -0.5))),
             Group("from the centre of the world", lambda d: _along(Ray(_AT_ORIGIN, d.direction()), d.real(0.5, 20))),
+            Group("far away", lambda d: _along(Ray(d.point(10), d.direction()), d.real(1e3, 1e5))),
             Group("distance 0", lambda d: _along(Ray(d.point(10), d.direction()), 0.0), telling=False),
         ),
     ),
@@ -159,6 +177,7 @@ FUNCTIONS = (
             Group("up leans", lambda d: {"camera": _slanted_camera(d)}),
             Group("wide and tall pictures", lambda d: {"camera": _long_camera(d)}),
             Group("narrow and wide angles", lambda d: {"camera": _angled_camera(d)}),
+            Group("very short and very long vectors", lambda d: {"camera": _extreme_camera(d)}),
         ),
     ),
     Function(
@@ -170,6 +189,7 @@ FUNCTIONS = (
             Group("corners of the picture", _corner),
             Group("wide and tall pictures", lambda d: _any_pixel(d, _long_camera(d))),
             Group("the middle pixel", _middle, telling=False),
+            Group("one pixel wide or high", _one_pixel_wide, telling=False),
         ),
     ),
 )

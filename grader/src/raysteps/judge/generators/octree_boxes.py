@@ -8,8 +8,8 @@ from raysteps.judge.comparing import LENGTHS, SMALL, real, vector
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.generators.octree_scenes import small_scene
-from raysteps.judge.numbers import Vector, add, rounded
-from raysteps.judge.surfaces import Surface, Surfaces, Triangle
+from raysteps.judge.numbers import Vector, add, rounded, unit
+from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Box, Inputs, Ray
 
@@ -184,8 +184,75 @@ def _flat(draw: Draw) -> Inputs:
     return {"box": box, "ray": _axis_ray(draw, _on_grid(draw, box, (0.25, 0.5)), along, 8.0)}
 
 
+def _close_to_corner(draw: Draw) -> Inputs:
+    """Through the box close to an edge or a corner, or closely past it."""
+    box, inside = _box(draw), draw.chance(0.5)
+
+    def clear(ray: Ray) -> bool:
+        return not _misses(box, ray, -0.01) if inside else _misses(box, ray, 0.01)
+
+    def make() -> Ray:
+        corner = [(box.low, box.high)[draw.whole(0, 1)][axis] for axis in range(3)]
+        place = add((corner[0], corner[1], corner[2]), draw.direction(), draw.real(0.02, 0.15))
+        direction = draw.slanted(0.2)
+        return Ray(rounded(add(place, direction, -draw.real(3, 8))), direction)
+
+    return {"box": box, "ray": draw.until(clear, make)}
+
+
+def _from_face(draw: Draw) -> Inputs:
+    """The origin is on a face and the ray goes in, or runs along the face."""
+    box, axis, sign = _simple_box(draw), draw.whole(0, 2), draw.sign()
+    point = _on_grid(draw, box, (0.25, 0.5, 0.75))
+    point[axis] = (box.low if sign > 0 else box.high)[axis]
+    along = axis if draw.chance(0.5) else (axis + 1) % 3
+    if along != axis:
+        sign = draw.sign()
+    way = [sign if i == along else draw.sign() * 0.0 for i in range(3)]
+    return {"box": box, "ray": Ray((point[0], point[1], point[2]), (way[0], way[1], way[2]))}
+
+
+def _almost_along_axis(draw: Draw) -> Inputs:
+    """One of the direction's numbers is nearly 1, the others nearly 0."""
+    box, axis = _box(draw), draw.whole(0, 2)
+    way = [draw.sign() * (1.0 if i == axis else draw.real(1e-6, 1e-4)) for i in range(3)]
+    direction = rounded(unit((way[0], way[1], way[2])))
+    return _clip(box, add(_within(draw, box), direction, -draw.real(5, 10)), direction)
+
+
+def _tiny_or_huge(draw: Draw) -> Inputs:
+    size, low = (0.02, draw.point(0.5)) if draw.chance(0.5) else (500.0, draw.point(100))
+    high = add(low, (size * draw.real(0.5, 2), size * draw.real(0.5, 2), size * draw.real(0.5, 2)))
+    box, direction = Box(low, rounded(high)), draw.slanted(0.1)
+    return _clip(box, add(_within(draw, box), direction, -size * draw.real(4, 8)), direction)
+
+
+def _far_box(draw: Draw) -> Box:
+    """On one side of the centre of the world: a search for the least and the largest that starts with 0 ends there."""
+    box, sign = _simple_box(draw), draw.sign()
+    away = (sign * 16.0, sign * 32.0, sign * 64.0)
+    return Box(add(box.low, away), add(box.high, away))
+
+
+def _on_one_side(draw: Draw) -> Inputs:
+    sign = draw.sign()
+    away = (sign * draw.real(20, 90), sign * draw.real(20, 90), sign * draw.real(20, 90))
+    spheres = [Sphere(rounded(add(s.center, away)), s.radius) for s in (draw.sphere() for _ in range(draw.whole(1, 3)))]
+    shapes = [draw.triangle() for _ in range(draw.whole(1, 2))]
+    corners = [[rounded(add(corner, away)) for corner in (t.a, t.b, t.c)] for t in shapes]
+    return _bounds((*spheres, *(Triangle(a, b, c) for a, b, c in corners)))
+
+
 def _bounds(surfaces: tuple[Surface, ...]) -> Inputs:
     return {"surfaces": Surfaces(surfaces)}
+
+
+def _flat_triangle(draw: Draw) -> Inputs:
+    """Parallel to a plane of the axes: its bounds have no thickness."""
+    t, axis, height = draw.triangle(), draw.whole(0, 2), draw.eighths(-3, 3)
+    corners = [[height if i == axis else x for i, x in enumerate(corner)] for corner in (t.a, t.b, t.c)]
+    a, b, c = ((x, y, z) for x, y, z in corners)
+    return _bounds((Triangle(a, b, c),))
 
 
 def _one_triangle(draw: Draw) -> Inputs:
@@ -202,6 +269,10 @@ CLIP = Function(
         Group("along an axis", _along_axis, telling=False, exact=True),
         Group("along a face or an edge", _along_face, exact=True),
         Group("flat boxes", _flat, exact=True),
+        Group("origin on a face", _from_face, exact=True),
+        Group("almost along an axis", _almost_along_axis),
+        Group("tiny and huge boxes", _tiny_or_huge),
+        Group("close to an edge or a corner", _close_to_corner, telling=False),
         Group("behind the origin", _box_behind, telling=False),
         Group("past the box", _past, telling=False),
     ),
@@ -214,6 +285,8 @@ BOUNDS_OF = Function(
         Group("several surfaces", lambda d: _bounds(small_scene(d, d.whole(2, 5), d.whole(1, 4)))),
         Group("one sphere", lambda d: _bounds((d.sphere(),))),
         Group("one triangle", _one_triangle),
+        Group("one flat triangle", _flat_triangle, exact=True),
+        Group("on one side of the centre of the world", _on_one_side),
         Group("no surfaces", lambda d: _bounds(()), telling=False),
     ),
 )
@@ -225,5 +298,6 @@ SPLIT = Function(
         Group("any box", lambda d: {"box": _box(d)}),
         Group("simple numbers", lambda d: {"box": _simple_box(d)}),
         Group("flat boxes", lambda d: {"box": _flat_box(_box(d), d.whole(0, 2))}),
+        Group("on one side of the centre of the world", lambda d: {"box": _far_box(d)}),
     ),
 )

@@ -56,6 +56,22 @@ def large_and_small(draw: Draw) -> tuple[Surface, ...]:
     return (Sphere((0.0, 0.0, 0.0), 12.0), ground, *small_scene(draw, 25, 2))
 
 
+def _far_away(draw: Draw) -> Inputs:
+    """All on one side of the centre of the world."""
+    sign = draw.sign()
+    away = (sign * 64.0, sign * 80.0, sign * 100.0)
+    moved = [Sphere(add(s.center, away), s.radius) for s in (_sphere(draw, 0.1, 0.6) for _ in range(25))]
+    return _scene(tuple(moved))
+
+
+def _on_walls(draw: Draw) -> Inputs:
+    """A grid of balls whose middle ones are cut by the walls between the boxes; the box of all is a cube."""
+    radius = draw.whole(8, 40) / 64
+    row = (-3.0, -1.5, 0.0, 1.5, 3.0)
+    column = row[:: draw.whole(1, 2)]
+    return _scene(tuple(Sphere((x, y, z), radius) for x in row for y in row for z in column))
+
+
 BUILD_OCTREE = Function(
     "build_octree",
     TREE,
@@ -65,6 +81,8 @@ BUILD_OCTREE = Function(
         Group("large ones among small ones", lambda d: _scene(large_and_small(d))),
         Group("all in one place", _in_one_place),
         Group("all in one plane", _in_one_plane),
+        Group("far from the centre of the world", _far_away),
+        Group("on the walls between the boxes", _on_walls),
         Group("a single surface", lambda d: _scene(small_scene(d, 1, 0) if d.chance(0.5) else small_scene(d, 0, 1))),
         Group("no surfaces", lambda d: _scene(()), telling=False),
     ),

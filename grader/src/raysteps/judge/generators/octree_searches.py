@@ -49,6 +49,8 @@ def _along_axis(draw: Draw) -> Inputs:
 _SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
 _BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16) - 6), 0.75) for i in range(64))
 
+_EDGE = 6.75  # of the box around the balls
+
 
 def _later_box(draw: Draw) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
@@ -57,22 +59,53 @@ def _later_box(draw: Draw) -> Inputs:
 
 def _ball_before_the_slope(draw: Draw) -> Inputs:
     """A ray that comes down from above meets one of the balls there, and the slope behind it."""
-    while True:
+
+    def make() -> tuple[Vector, Vector]:
         ball = _BALLS[draw.whole(0, 63)]
-        direction = rounded(unit((draw.real(-0.6, 0.6), draw.real(-0.6, 0.6), -1.0)))
-        x, y, z = add(ball.center, direction, 3.0)
-        if z > (x + y) / 2:
-            return _search((_SLOPE, *_BALLS), [Ray(rounded(add(ball.center, direction, -25)), direction)], own=False)
+        return ball.center, rounded(unit((draw.real(-0.6, 0.6), draw.real(-0.6, 0.6), -1.0)))
+
+    def is_above(found: tuple[Vector, Vector]) -> bool:
+        x, y, z = add(*found, 3.0)
+        return z > (x + y) / 2
+
+    center, direction = draw.until(is_above, make)
+    return _search((_SLOPE, *_BALLS), [Ray(rounded(add(center, direction, -25)), direction)], own=False)
+
+
+def _eighth(point: Vector) -> int:
+    """Of the space around 0, numbered as split does it."""
+    return sum(1 << axis for axis, x in enumerate(point) if x > 0)
 
 
 def _balls_in_a_row(draw: Draw) -> Inputs:
-    """Through two of the balls, the near one anywhere beside the far one: above it or below, left or right."""
-    while True:
+    """Through two of the balls, in any direction. The boxes along the ray come in another order than their numbers: who
+    searches by number and stops at the first box behind a hit never comes to the near ball."""
+
+    def make() -> tuple[Vector, Vector, Vector]:
         far, near = (_BALLS[draw.whole(0, 63)].center for _ in range(2))
-        way = minus(far, near)
-        if min(abs(x) for x in way) > 0:
-            direction = rounded(unit(add(way, draw.point(0.3))))
-            return _search(_BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
+        direction = draw.slanted() if far == near else rounded(unit(add(minus(far, near), draw.point(0.3))))
+        return far, near, direction
+
+    def costs_a_hasty_search(found: tuple[Vector, Vector, Vector]) -> bool:
+        far, near, direction = found
+        beyond = add(far, direction, 2)
+        inside = max(abs(x) for x in beyond) < _EDGE
+        return inside and _eighth(far) < _eighth(beyond) < _eighth(near)
+
+    _, near, direction = draw.until(costs_a_hasty_search, make)
+    return _search(_BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
+
+
+def _looking_away(draw: Draw) -> Inputs:
+    """Everything is behind the ray."""
+    surfaces = small_scene(draw, 25, 6)
+    direction = draw.direction()
+    return _search(surfaces, [Ray(rounded(times(draw.real(10, 20), direction)), direction)], own=draw.chance(0.5))
+
+
+def _from_far(draw: Draw) -> Inputs:
+    surfaces = small_scene(draw, 25, 6)
+    return _search(surfaces, [_aimed(draw, surfaces, 100)], own=draw.chance(0.5))
 
 
 def _over_a_ground(draw: Draw) -> Inputs:
@@ -96,6 +129,8 @@ CLOSEST_HIT_IN = Function(
         Group("from inside", _from_inside),
         Group("along an axis", _along_axis),
         Group("a nearer hit in a later box", _later_box, telling=False),
+        Group("from far away", _from_far),
+        Group("everything behind the ray", _looking_away, telling=False),
         Group("a ball before a slope", _ball_before_the_slope),
         Group("one ball behind another", _balls_in_a_row),
         Group("large ones among small ones", _over_a_ground),

@@ -42,6 +42,17 @@ def _scaled(draw: Draw) -> Inputs:
     return _mirror(rounded(times(draw.real(2, 9), draw.direction())), draw.direction())
 
 
+def _straight(draw: Draw) -> Inputs:
+    """Down onto the surface, or up from it."""
+    normal = draw.direction()
+    return _mirror(times(draw.sign(), normal), normal)
+
+
+def _tiny_or_huge(draw: Draw) -> Inputs:
+    size = draw.real(0.01, 0.05) if draw.chance(0.5) else draw.real(1e3, 1e5)
+    return _mirror(rounded(times(size, draw.direction())), draw.direction())
+
+
 def _diffuse(draw: Draw, low: float, high: float) -> Inputs:
     normal = draw.direction()
     return {
@@ -50,6 +61,27 @@ def _diffuse(draw: Draw, low: float, high: float) -> Inputs:
         "normal": Vec(normal),
         "to_light": Vec(draw.above(normal, low, high)),
     }
+
+
+def _around_right_angle(draw: Draw) -> Inputs:
+    """A little above the surface or below it, or exactly along it."""
+    if draw.chance(0.7):
+        side = draw.sign()
+        return _diffuse(draw, min(0.01 * side, 0.06 * side), max(0.01 * side, 0.06 * side))
+    normal = draw.axis()
+    along = times(draw.sign(), (normal[1], normal[2], normal[0]))
+    return {"fill": draw.fill(), "light": _light(draw), "normal": Vec(normal), "to_light": Vec(along)}
+
+
+def _extreme_colors(draw: Draw) -> Inputs:
+    """Channels of 0 and of much more than 1, kd from 0 to 1."""
+
+    def channel() -> float:
+        return 0.0 if draw.chance(0.3) else draw.real(0.001, 0.01) if draw.chance(0.3) else draw.real(10, 500)
+
+    inputs = _diffuse(draw, 0.2, 0.99)
+    fill = replace(draw.fill(), kd=(0.0, 1.0, 0.5)[draw.whole(0, 2)])
+    return {**inputs, "fill": fill, "light": Light(draw.point(5), (channel(), channel(), channel()))}
 
 
 def _simple_normals(draw: Draw) -> tuple[Vector, Vector]:
@@ -115,6 +147,29 @@ def _simple_specular(draw: Draw) -> Inputs:
     return {**inputs, "light": _WHITE}
 
 
+def _at_highlight(draw: Draw) -> Inputs:
+    """The eye where the light is brightest: the cosine is 1, or by rounding a little more."""
+    normal = draw.direction()
+    to_light = draw.above(normal, 0.1, 1.0)
+    brightest = rounded(unit(mirrored(times(-1.0, to_light), normal)))
+    return _specular(draw, replace(draw.fill(), shine=draw.real(1, 40)), to_light, normal, brightest)
+
+
+def _very_high_shine(draw: Draw) -> Inputs:
+    normal = draw.direction()
+    to_light = draw.above(normal, 0.1, 0.95)
+    brightest = unit(mirrored(times(-1.0, to_light), normal))
+    fill = replace(draw.fill(), shine=draw.real(100, 400))
+    return _specular(draw, fill, to_light, normal, draw.above(brightest, 0.993, 1.0))
+
+
+def _light_on_horizon(draw: Draw) -> Inputs:
+    """The light exactly along the surface, and the eye in its way: black."""
+    normal = draw.axis()
+    along = times(draw.sign(), (normal[1], normal[2], normal[0]))
+    return _specular(draw, draw.fill(), along, normal, times(-1.0, along))
+
+
 def _hit(draw: Draw) -> Hit:
     normal = draw.direction()
     return Hit(
@@ -132,6 +187,21 @@ def _lights(draw: Draw, hit: Hit, count: int, *, low: float = 0.1, near: float =
         draw.light(rounded(add(hit.position, draw.above(hit.normal, low, low + 0.85), draw.real(near, far))))
         for _ in range(count)
     ]
+    return {"hit": hit, "lights": Lights(tuple(lights))}
+
+
+def _near_lights(draw: Draw) -> Inputs:
+    hit = replace(_hit(draw), position=draw.point(0.5))
+    return _lights(draw, hit, draw.whole(1, 2), low=0.2, near=0.02, far=0.1)
+
+
+def _lights_around_horizon(draw: Draw) -> Inputs:
+    """Some a little above the surface, some a little below it."""
+    hit, lights = _hit(draw), []
+    for _ in range(3):
+        low, high = (0.01, 0.06) if draw.chance(0.5) else (-0.06, -0.01)
+        place = add(hit.position, draw.above(hit.normal, low, high), draw.real(3, 10))
+        lights.append(draw.light(rounded(place)))
     return {"hit": hit, "lights": Lights(tuple(lights))}
 
 
@@ -165,6 +235,8 @@ FUNCTIONS = (
             Group("simple numbers", _simple_mirror),
             Group("longer than 1", _scaled),
             Group("along the surface", _along_surface),
+            Group("straight down and up", _straight),
+            Group("very short and very long", _tiny_or_huge),
         ),
     ),
     Function(
@@ -173,6 +245,8 @@ FUNCTIONS = (
         (
             Group("light in front", lambda d: _diffuse(d, 0.1, 0.99)),
             Group("simple numbers", _simple_diffuse),
+            Group("extreme colours", _extreme_colors, telling=False),
+            Group("around a right angle", _around_right_angle, telling=False, exact=True),
             Group("light behind", lambda d: _diffuse(d, -0.99, -0.1), telling=False),
         ),
     ),
@@ -184,6 +258,10 @@ FUNCTIONS = (
             Group("simple numbers", _simple_specular),
             Group("shine 1", lambda d: _highlight(d, shine=1.0)),
             Group("high shine", lambda d: _highlight(d, shine=d.real(20, 40)), telling=False),
+            Group("exactly in the highlight", _at_highlight),
+            Group("shine 0", lambda d: _highlight(d, shine=0.0)),
+            Group("very high shine", _very_high_shine, telling=False),
+            Group("light on the horizon", _light_on_horizon, telling=False, exact=True),
             Group("far from the highlight", _no_highlight, telling=False),
             Group("light behind", _light_behind, telling=False),
         ),
@@ -198,6 +276,9 @@ FUNCTIONS = (
             Group("lights in front and behind", _front_and_back),
             Group("far lights", lambda d: _lights(d, _hit(d), 2, near=50, far=200)),
             Group("brighter than 1", _bright),
+            Group("very near lights", _near_lights),
+            Group("very far lights", lambda d: _lights(d, _hit(d), 2, near=1e3, far=1e5)),
+            Group("lights around the horizon", _lights_around_horizon, telling=False),
             Group("no light", lambda d: _lights(d, _hit(d), 0), telling=False),
         ),
     ),

@@ -75,6 +75,11 @@ def _far_hit(draw: Draw) -> Inputs:
     return {"hit": Hit(position, normal, rounded(times(-1.0, draw.above(normal, 0.3))))}
 
 
+def _head_on(draw: Draw) -> Inputs:
+    normal = draw.axis() if draw.chance(0.3) else draw.direction()
+    return {"hit": Hit(draw.point(3), normal, times(-1.0, normal))}
+
+
 def _scripted(draw: Draw, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
     """ks between low and high."""
     distances = [float(i + 1) + draw.real(0.1, 0.8) for i in range(count)]
@@ -121,6 +126,17 @@ def _too_deep(draw: Draw) -> Inputs:
     return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most + draw.whole(1, 3), most)
 
 
+def _faint(draw: Draw) -> Inputs:
+    """Any ks above 0 is a mirror, and so is a whole one."""
+    low, high = (0.001, 0.01) if draw.chance(0.5) else (1.0, 1.0)
+    return _trace(draw, _scripted(draw, draw.whole(1, 3), low, high), 1, 5)
+
+
+def _corridor(draw: Draw) -> Inputs:
+    """Very many mirrors in a row; the last rays miss, or the limit ends them."""
+    return _trace(draw, _scripted(draw, draw.whole(12, 20), 0.8, 0.95), 1, draw.whole(10, 25))
+
+
 FUNCTIONS = (
     Function(
         "reflected_ray",
@@ -130,6 +146,8 @@ FUNCTIONS = (
             Group("simple numbers", _simple_hit),
             Group("at a grazing angle", lambda d: _hit(d, 0.06, 0.15)),
             Group("far from the centre of the world", _far_hit),
+            Group("head-on", _head_on),
+            Group("almost along the surface", lambda d: _hit(d, 0.02, 0.06)),
         ),
     ),
     Function(
@@ -142,6 +160,9 @@ FUNCTIONS = (
             Group("a miss", lambda d: _trace(d, (), 1, 5)),
             Group("the depth limit", _depth_limit),
             Group("the deepest ray", _deepest),
+            Group("faint mirrors and whole ones", _faint),
+            Group("many mirrors", _corridor),
+            Group("no depth at all", lambda d: _trace(d, _scripted(d, 1, 0.3, 0.9), 1, 0), telling=False),
             Group("a bounced ray that misses", lambda d: _trace(d, (), d.whole(2, 4), 5), telling=False),
             Group("beyond the limit", _too_deep, telling=False),
         ),

@@ -109,6 +109,32 @@ def _refract(draw: Draw, eta: float, *, total: bool = False) -> Inputs:
     return {"direction": Vec(ray), "normal": Vec(normal), "eta": Real(eta)}
 
 
+def _close_to_critical(draw: Draw) -> Inputs:
+    """Out of glass, a little before total reflection or beyond it."""
+    eta, normal = _out_of(draw), draw.direction()
+    sine = (draw.fine(0.97, 0.985) if draw.chance(0.5) else draw.fine(1.015, 1.03)) / eta
+    cosine = math.sqrt(1 - sine * sine)
+    return {
+        "direction": Vec(rounded(times(-1.0, draw.above(normal, cosine, cosine)))),
+        "normal": Vec(normal),
+        "eta": Real(eta),
+    }
+
+
+def _head_on(draw: Draw) -> Inputs:
+    """1 - cos^2 is 0, or by rounding a little less."""
+    normal = draw.direction()
+    eta = _into(draw) if draw.chance(0.5) else _out_of(draw)
+    return {"direction": Vec(times(-1.0, normal)), "normal": Vec(normal), "eta": Real(eta)}
+
+
+def _grazing(draw: Draw) -> Inputs:
+    """Into glass, almost along its surface."""
+    normal = draw.direction()
+    direction = rounded(times(-1.0, draw.above(normal, 0.02, 0.08)))
+    return {"direction": Vec(direction), "normal": Vec(normal), "eta": Real(_into(draw))}
+
+
 def _into(draw: Draw) -> float:
     return f32(1 / draw.real(1.2, 2.2))
 
@@ -157,6 +183,13 @@ def _simple_hit(draw: Draw) -> Hit:
     return Hit((0.0, 0.0, 0.0), normal, times(-1.0, normal), 1.0, fill, draw.chance(0.5))
 
 
+def _faint(draw: Draw) -> Inputs:
+    """Any transmittance above 0 lets light through, and 1 all of it."""
+    hit = _any_hit(draw)
+    share = draw.real(0.001, 0.01) if draw.chance(0.5) else 1.0
+    return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=share)))
+
+
 def _light(draw: Draw, hit: Hit) -> Inputs:
     return {"hit": hit, "depth": Whole(draw.whole(1, 6)), "traced": Vec(draw.color())}
 
@@ -176,6 +209,10 @@ FUNCTIONS = (
             Group("into glass", lambda d: _refract(d, _into(d))),
             Group("out of glass", lambda d: _refract(d, _out_of(d))),
             Group("eta 1", lambda d: _refract(d, 1.0)),
+            Group("strong glass", lambda d: _refract(d, d.real(0.25, 0.4) if d.chance(0.5) else d.real(2.5, 4))),
+            Group("head-on", _head_on),
+            Group("almost along the surface", _grazing),
+            Group("close to the critical angle", _close_to_critical, telling=False),
             Group("total internal reflection", lambda d: _refract(d, _out_of(d), total=True), telling=False),
         ),
     ),
@@ -200,6 +237,7 @@ FUNCTIONS = (
             Group("any hit on glass", lambda d: _light(d, _any_hit(d))),
             Group("simple numbers", lambda d: _light(d, _simple_hit(d))),
             Group("total internal reflection", lambda d: _light(d, _hit(d, _index(d), outside=False, total=True))),
+            Group("hardly and wholly clear", _faint),
             Group("not of glass", _not_glass, telling=False),
         ),
     ),

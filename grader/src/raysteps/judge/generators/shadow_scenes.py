@@ -195,6 +195,42 @@ def _hollow_ball(draw: Draw) -> Inputs:
     return _scene([room], hit, Light(rounded(add(room.center, way, reach * room.radius))))
 
 
+def _low_light(draw: Draw) -> Inputs:
+    """Near the horizon of the ball that the hit is on; nothing is in the way."""
+    ball = Sphere(draw.simple_point(2), draw.real(1, 3))
+    normal = draw.direction()
+    hit = hit_at(add(ball.center, normal, ball.radius), normal)
+    return _scene([ball], hit, Light(rounded(add(hit.position, draw.above(normal, 0.1, 0.25), draw.real(4, 20)))))
+
+
+def _far_light(draw: Draw) -> Inputs:
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 1e3, 1e4)
+    way = unit(minus(light.position, hit.position))
+    radius, blocked = draw.real(0.5, 2), draw.chance(0.5)
+    off = draw.real(0.0, 0.7) if blocked else draw.real(1.3, 2.0)
+    place = add(add(hit.position, way, draw.real(5, 20)), _sideways(draw, hit, light), off * radius)
+    return _scene([Sphere(rounded(place), radius)], hit, light)
+
+
+def _before_light(draw: Draw) -> Inputs:
+    """Ends close before the light, or begins close behind it."""
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 4, 12)
+    way = unit(minus(light.position, hit.position))
+    radius = draw.real(0.3, 1)
+    gap = (radius + draw.real(0.03, 0.1)) * draw.sign()
+    return _scene([Sphere(rounded(add(light.position, way, gap)), radius)], hit, light)
+
+
+def _light_in_shell(draw: Draw) -> Inputs:
+    """A ball around the light is in its way."""
+    hit = any_hit(draw)
+    light = light_above(draw, hit, 4, 12)
+    center = add(light.position, draw.direction(), draw.real(0.0, 0.3))
+    return _scene([Sphere(rounded(center), draw.real(0.5, 2))], hit, light)
+
+
 IS_LIT = Function(
     "is_lit",
     _LIT,
@@ -210,6 +246,10 @@ IS_LIT = Function(
         Group("a ball does not shade itself", _own_ball, telling=False, exact=True),
         Group("a floor does not shade itself", _own_triangle, telling=False, exact=True),
         Group("small and close to the surface", _pebble, telling=False),
+        Group("close before or behind the light", _before_light, telling=False),
+        Group("a ball around the light", _light_in_shell, telling=False),
+        Group("a light near the horizon", _low_light, telling=False, exact=True),
+        Group("a light very far away", _far_light, telling=False),
     ),
     yes_or_no=True,
 )

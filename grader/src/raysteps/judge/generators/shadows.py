@@ -30,6 +30,16 @@ def _far_from_origin(draw: Draw) -> Inputs:
     return _ray_case(draw, hit_at(add((100.0, 100.0, 100.0), draw.point(3)), draw.direction()))
 
 
+def _near_or_far(draw: Draw) -> Inputs:
+    hit = any_hit(draw, 1.0)
+    return _ray_case(draw, hit, 0.1, 0.3) if draw.chance(0.5) else _ray_case(draw, hit, 1e3, 1e4)
+
+
+def _low_light(draw: Draw) -> Inputs:
+    hit = any_hit(draw)
+    return {"hit": hit, "light": Light(rounded(add(hit.position, draw.above(hit.normal, 0.03, 0.1), draw.real(2, 30))))}
+
+
 _SHADOW_RAY = Function(
     "shadow_ray",
     SHADOW_RAY,
@@ -38,6 +48,8 @@ _SHADOW_RAY = Function(
         Group("simple numbers", _simple_ray),
         Group("a light close by", lambda d: _ray_case(d, any_hit(d), 0.5, 1.0)),
         Group("far from the centre of the world", _far_from_origin),
+        Group("a light very near or very far", _near_or_far),
+        Group("a light near the horizon", _low_light),
         Group("a light behind the surface", _light_behind),
     ),
 )

@@ -3,7 +3,7 @@
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import HIT
-from raysteps.judge.numbers import add, cross, rounded, unit
+from raysteps.judge.numbers import add, cross, rounded, times, unit
 from raysteps.judge.surfaces import Sphere
 from raysteps.judge.values import Inputs, Ray
 
@@ -63,6 +63,43 @@ def _far_sphere(draw: Draw) -> Inputs:
     return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(15, 25)), draw)
 
 
+def _nearly_tangent(draw: Draw) -> Inputs:
+    s = draw.sphere(reach=3.0, low=1.0)
+    low, high = (0.95, 0.985) if draw.chance(0.5) else (1.015, 1.05)
+    return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(0.5, 3)), draw)
+
+
+def _close_origin(draw: Draw) -> Inputs:
+    """Just outside the sphere or just inside, on the way in or out."""
+    s = draw.sphere(reach=2.0, low=1.0)
+    outward, off = draw.direction(), draw.real(0.02, 0.08) * draw.sign()
+    direction = draw.above(times(draw.sign(), outward), 0.4)
+    return _case(s, Ray(rounded(add(s.center, outward, s.radius + off)), direction), draw)
+
+
+def _on_sphere(draw: Draw) -> Inputs:
+    """One of the two distances is exactly 0, even for a method that divides by the radius."""
+    outward = draw.axis()
+    s = Sphere(draw.simple_point(4), float(2 ** draw.whole(-1, 2)))
+    return _case(s, Ray(add(s.center, outward, s.radius), times(draw.sign(), outward)), draw)
+
+
+def _tiny_or_huge(draw: Draw) -> Inputs:
+    if draw.chance(0.5):
+        s = Sphere(draw.point(1), draw.real(0.02, 0.05))
+        return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(0.3, 1)), draw)
+    s = Sphere(draw.point(100), draw.real(200, 1000))
+    return _case(s, _at_sphere(draw, s, 0.0, 0.7, s.radius + draw.real(20, 200)), draw)
+
+
+def _signed_zeros(draw: Draw) -> Inputs:
+    """Along an axis; the zeros of the direction have either sign."""
+    s, axis, sign = Sphere(draw.simple_point(4), float(draw.whole(1, 5))), draw.whole(0, 2), draw.sign()
+    way = [sign if i == axis else draw.sign() * 0.0 for i in range(3)]
+    direction = (way[0], way[1], way[2])
+    return _case(s, Ray(add(s.center, direction, -float(draw.whole(6, 12))), direction), draw)
+
+
 SPHERE_INTERSECT = Function(
     "Sphere::intersect",
     HIT,
@@ -72,6 +109,11 @@ SPHERE_INTERSECT = Function(
         Group("origin inside", _inside_sphere),
         Group("origin in the centre", _from_center),
         Group("far away", _far_sphere),
+        Group("tiny and huge", _tiny_or_huge),
+        Group("along an axis, with zeros of either sign", _signed_zeros, exact=True),
+        Group("nearly tangent", _nearly_tangent, telling=False),
+        Group("origin close to the sphere", _close_origin, telling=False),
+        Group("origin on the sphere", _on_sphere, telling=False, exact=True),
         Group("behind the origin", _sphere_behind, telling=False),
         Group("passed by", _beside_sphere, telling=False),
     ),

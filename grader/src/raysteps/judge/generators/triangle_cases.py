@@ -41,6 +41,13 @@ def _towards(draw: Draw, t: Triangle, point: Vector, side: float, distance: floa
     return Ray(rounded(add(point, direction, -distance)), rounded(direction))
 
 
+def _at_edge(draw: Draw, t: Triangle) -> Vector:
+    """Within an edge or beyond it, by a little that float can tell; or so beside a corner."""
+    off, along = draw.real(0.005, 0.02) * draw.sign(), draw.real(0.1, 0.8)
+    points = [(off, along), (along, off), (along, 1 - along - off), (-abs(off), -abs(off)), (abs(off), abs(off))]
+    return _at(t, *points[draw.whole(0, 4)])
+
+
 def _any_triangle(draw: Draw) -> Inputs:
     t = draw.triangle()
     point = _inside(draw, t) if draw.chance(0.7) else _beside(draw, t)
@@ -116,6 +123,55 @@ def _small_triangle(draw: Draw) -> Inputs:
     return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), draw.real(1, 4)), draw)
 
 
+def _close_to_edge(draw: Draw) -> Inputs:
+    t = draw.triangle()
+    return _case(t, _towards(draw, t, _at_edge(draw, t), draw.sign(), draw.real(1, 5)), draw)
+
+
+def _sliver(draw: Draw) -> Inputs:
+    """Long and thin, hit well within or missed beside its long edge."""
+    a, along = draw.point(2), draw.direction()
+    side = unit(cross(along, draw.across(along)))
+    tip = add(add(a, along, draw.real(8, 20)), side, draw.real(-0.2, 0.2))
+    t = Triangle(a, rounded(tip), rounded(add(a, side, draw.real(0.1, 0.3))))
+    u = draw.real(0.2, 0.7)
+    v = draw.real(0.1, 0.9 - u) if draw.chance(0.7) else -draw.real(0.2, 1)
+    return _case(t, _towards(draw, t, _at(t, u, v), draw.sign(), draw.real(1, 5)), draw)
+
+
+def _grazing(draw: Draw) -> Inputs:
+    t, side = draw.triangle(), draw.sign()
+    direction = times(-1.0, draw.above(times(side, _normal(t)), 0.02, 0.08))
+    return _case(t, Ray(rounded(add(_inside(draw, t), direction, -draw.real(1, 5))), rounded(direction)), draw)
+
+
+def _close_origin(draw: Draw) -> Inputs:
+    """Just before the triangle, or just behind it."""
+    t = draw.triangle(2.0)
+    distance = draw.real(0.02, 0.08) * draw.sign()
+    return _case(t, _towards(draw, t, _inside(draw, t), draw.sign(), distance), draw)
+
+
+def _tiny_or_huge(draw: Draw) -> Inputs:
+    shape, tiny = draw.triangle(4.0), draw.chance(0.5)
+    factor, place = (draw.real(0.006, 0.02), draw.point(0.5)) if tiny else (draw.real(50, 500), draw.point(20))
+    a, b, c = (rounded(add(place, corner, factor)) for corner in (shape.a, shape.b, shape.c))
+    t = Triangle(a, b, c)
+    direction = times(-1.0, draw.above(times(draw.sign(), _normal(t)), 0.5))
+    distance = draw.real(0.5, 2) if tiny else draw.real(10, 500)
+    return _case(t, Ray(rounded(add(_inside(draw, t), direction, -distance)), rounded(direction)), draw)
+
+
+def _signed_zeros(draw: Draw) -> Inputs:
+    """Straight at it or past it, along an axis; the zeros of the direction have either sign."""
+    t, axis = _flat_triangle(draw)
+    u, v = ((0.25, 0.375), (0.5, 0.25), (0.75, 0.75), (-0.25, 0.5))[draw.whole(0, 3)]
+    sign, distance = draw.sign(), float(draw.whole(1, 6))
+    way = [sign if i == axis else draw.sign() * 0.0 for i in range(3)]
+    direction = (way[0], way[1], way[2])
+    return _case(t, Ray(add(_at(t, u, v), direction, -distance), direction), draw)
+
+
 TRIANGLE_INTERSECT = Function(
     "Triangle::intersect",
     HIT,
@@ -125,7 +181,13 @@ TRIANGLE_INTERSECT = Function(
         Group("seen from the front", lambda d: _from_side(d, 1.0)),
         Group("seen from behind", lambda d: _from_side(d, -1.0)),
         Group("small triangles", _small_triangle),
-        Group("on an edge", _on_edge),
+        Group("at a grazing angle", _grazing),
+        Group("tiny and huge", _tiny_or_huge),
+        Group("long and thin", _sliver, telling=False),
+        Group("close to an edge", _close_to_edge, telling=False),
+        Group("origin close to the triangle", _close_origin, telling=False),
+        Group("along an axis, with zeros of either sign", _signed_zeros, telling=False, exact=True),
+        Group("on an edge", _on_edge, exact=True),
         Group("beside an edge", _beside_edge, telling=False),
         Group("behind the origin", _triangle_behind, telling=False),
         Group("along the plane", _in_plane, telling=False, exact=True),
