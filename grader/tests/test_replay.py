@@ -13,7 +13,10 @@ from raysteps import cli
 from raysteps.commands.check_and_grade import clear
 from raysteps.commands.replay import replay
 from raysteps.common.errors import StudentBuildError, UsageError
+from raysteps.grading.one import grade_one
+from raysteps.grading.settings import Settings
 from raysteps.judge.case_files import CaseFile, place_of, read_case, write_case
+from raysteps.judge.feedback import Feedback
 from raysteps.judge.functions import Case
 from raysteps.judge.generators import functions_of
 from raysteps.judge.judging import make_cases
@@ -23,6 +26,8 @@ from raysteps.judge.tokens import Garbled
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
+from raysteps.sandbox.open_air import OpenAir
+from raysteps.submission.intake import take_in
 
 _LINE = "1 Sphere::intersect 0 0 0 1 1 1 1 1 1 2 0 1 0 0 2 0 0 -1"
 _CASE = CaseFile(
@@ -190,3 +195,22 @@ def test_old_cases_are_cleared_and_nothing_else(steps: list[Step], tmp_path: Pat
     (tmp_path / "cases" / "02-notes.json").write_text("mine")
     clear(tmp_path, steps)
     assert [path.name for path in (tmp_path / "cases").iterdir()] == ["02-notes.json"]
+
+
+def test_the_file_of_a_graded_case(
+    kit: BuiltKit, project: Project, solved: Sources, make_submission: MakeSubmission, tmp_path: Path
+) -> None:
+    """It is named in the results, and asked again it is wrong again; who must not see it does not get it."""
+    source = solved["07-tone-mapping"].replace("std::lround(", "static_cast<int>(")
+    folder = make_submission("ann", {"07-tone-mapping": source})
+    submission = take_in(folder, kit.steps)
+    feedbacks: tuple[Feedback, ...] = ("full", "diagnosis", "score")
+    for feedback in feedbacks:
+        out = tmp_path / feedback
+        settings = Settings(only=("07-tone-mapping",), feedback=feedback)
+        grade_one(kit, submission, settings, OpenAir(), out)
+        (step,) = json.loads((out / "results.json").read_text("utf-8"))["steps"]
+        named = [item["case"] for item in step["hidden"] if item["case"]]
+        there = sorted(path.relative_to(out).as_posix() for path in out.rglob("cases/*"))
+        assert named == there == (["cases/07-to-byte.json"] if feedback == "full" else [])
+    assert replay(project, tmp_path / "full" / "cases/07-to-byte.json", folder, Console(file=io.StringIO())) == 1
