@@ -60,6 +60,9 @@ def test_a_margin_under_two_is_a_complaint() -> None:
     assert "max_wrong is 0.05, measured 0.01" in complaints([Calibrated(limited, stale)], check=True)[0]
     fresh = replace(stale, written=0.012)
     assert complaints([Calibrated(limited, fresh)], check=True) == []
+    assert (stale.stands, fresh.stands) == (0.01, 0.012)
+    narrow = Gate(Share(0.008, "a"), Share(0.018, "mild"), (), 0.012, 0.008)
+    assert not narrow.is_written, "near enough, and yet a correct solution would not pass"
     page = calibration_page([Calibrated(limited, stale)], [], ["no FMA here"])
     assert "| 02-intersection | balls-twin | 0.1 % (a) | 10 % (mild) | 100 | 0.01 |  |" in page
     assert "- no FMA here" in page

@@ -80,6 +80,8 @@ TEST_CASE("trace: a primary ray that misses sees the background", "[05-reflectio
     tracer.background_color = k_sky;
     follow_bounces(tracer);
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear(k_sky));
+    INFO("only closest_hit knows that it misses: one ray was cast to find out");
+    CHECK(tracer.cast.size() == 1);
 }
 
 TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection][trace][part]") {

@@ -95,7 +95,7 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
     }
 }
 
-TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree][build_octree][closest_hit_in][any]") {
+TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree][build_octree][closest_hit_in]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);

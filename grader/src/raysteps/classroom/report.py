@@ -85,6 +85,7 @@ class _Report:
                 if one["before"] is not None and one["before"]["points"] != one["points"]
             ],
             "outdated": [one["name"] for one in submissions if one["outdated"]],
+            "mistakes": standings.mistakes(),
             "gone": self._names("gone"),
             "ignored": json.loads(self._last["ignored"]),
             "unknown_extensions": self._unknown_extensions(submissions),

@@ -2,6 +2,7 @@
 
 import json
 import sqlite3
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,6 +17,17 @@ Document = dict[str, Any]
 
 def _step(step: Document) -> Document:
     return {"points": step["points"], "max": step["max"], "status": step["status"]}
+
+
+def _mistakes(row: sqlite3.Row | None) -> set[tuple[str, str]]:
+    """Step and title of the known mistakes in a result."""
+    document = json.loads(row["document"]) if row is not None and row["document"] else {"steps": []}
+    return {
+        (step["id"], found["title"])
+        for step in document["steps"]
+        for found in step.get("diagnoses", ())
+        if found["kind"] == "mistake"
+    }
 
 
 def _result(row: sqlite3.Row | None) -> Document:
@@ -43,6 +55,7 @@ class Standings:
         self._policy = policy
         self._runs = {row["number"]: row for row in runs}
         people = self._query("SELECT id, email FROM students").fetchall()
+        self._mistakes: Counter[tuple[str, str]] = Counter()
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
 
     def _students(self, submission: int) -> list[Document]:
@@ -79,8 +92,14 @@ class Standings:
         query = f"SELECT 1 FROM reused WHERE submission = ? AND run IN ({marks})"  # noqa: S608
         return self._query(query, (row["id"], *mine)).fetchone() is None
 
+    def mistakes(self) -> list[Document]:
+        """Of all submissions whose standing was asked for; what most of them did comes first."""
+        found = sorted(self._mistakes.items(), key=lambda item: (-item[1], item[0]))
+        return [{"step": step, "title": title, "submissions": amount} for (step, title), amount in found]
+
     def of(self, row: sqlite3.Row) -> Document:
         current = self._database.current(row["name"])
+        self._mistakes.update(_mistakes(current))
         students = self._students(row["id"])
         result = _result(current)
         late = None

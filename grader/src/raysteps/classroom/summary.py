@@ -13,6 +13,7 @@ from raysteps.classroom.progress import first_line
 from raysteps.common.text import count, number
 
 _MARKS = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
+_MOST_MISTAKES = 10
 _LEGEND = "b does not build, c crashed, t took too long, - not started"
 
 
@@ -92,6 +93,12 @@ def _mean(document: dict[str, Any]) -> str:
     return f"{count(facts['graded'], 'submission')} graded: {points}{others}"
 
 
+def _mistakes(document: dict[str, Any]) -> list[str]:
+    """What several did."""
+    common = [found for found in document["mistakes"] if found["submissions"] > 1][:_MOST_MISTAKES]
+    return [f"{found['submissions']} in {found['step']}: {found['title']}" for found in common]
+
+
 def _print_apart(console: Console, document: dict[str, Any]) -> None:
     """What a table cannot say."""
     by_name = {one["name"]: one for one in document["submissions"]}
@@ -110,6 +117,7 @@ def _print_apart(console: Console, document: dict[str, Any]) -> None:
     ]
     _print_list(console, "Inconsistent (!): the program claims what the judge did not see; look at the code", claims)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
+    _print_list(console, "The most common mistakes, by submissions", _mistakes(document))
     changed = [
         f"{one['name']}: {_points(one['before'])} before, {_points(one['after'])} now" for one in document["changed"]
     ]

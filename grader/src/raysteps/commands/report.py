@@ -28,7 +28,8 @@ def _points(result: StepResult) -> str:
 def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
     """The word before it says how sure one can be."""
     word = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}[diagnosis.kind]
-    where = f" (seen in {', '.join(diagnosis.seen_in)})" if diagnosis.seen_in else ""
+    seen = ", ".join(diagnosis.seen_in) if diagnosis.kind != "finding" else ""
+    where = f" (seen in {seen})" if seen else ""
     console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
     for other in diagnosis.alike:
         console.print(f"             or  {escape(other)}")

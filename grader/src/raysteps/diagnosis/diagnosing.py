@@ -18,7 +18,7 @@ from raysteps.programs.pictures import Pixels
 from raysteps.programs.rendering import reference_picture
 from raysteps.results.model import Diagnosis, StepResult
 
-_MOST_SECONDS = 2.0  # of one run of a student's worker: it has answered as many cases before
+_MOST_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,8 @@ class Diagnostician:
         if not mutants or not evidence.is_wrong:
             return [], set()
         known = known_mistakes(self.kit, self.step, self.plan, mutants, self.say)
-        matches = [match(mutant, known[mutant.id], evidence) for mutant in mutants]
+        forms = [(name, form) for mutant in mutants for name, form in mutant.choices().items()]
+        matches = [match(form, known[name], evidence) for name, form in forms]
         named = name_mistakes(matches)
         spoilt = {
             name

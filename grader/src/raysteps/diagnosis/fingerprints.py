@@ -25,7 +25,7 @@ class Fingerprint:
     pictures: Mapping[str, Pixels]
 
 
-Known: TypeAlias = Mapping[str, Fingerprint]  # by id of the mistake
+Known: TypeAlias = Mapping[str, Fingerprint]  # by the name of the form of a mistake
 
 
 def write_known(path: Path, known: Known) -> None:

@@ -41,8 +41,8 @@ class _Learner:
         self._limits = replace(limits_of(step, {}), seconds=_SECONDS, compile_seconds=_COMPILE_SECONDS)
         self._reference = reference_source(kit.project, step)
 
-    def learn(self, mutant: Mutant) -> Fingerprint:
-        build = StudentBuild(self._kit, self._air, self._folder / mutant.id)
+    def learn(self, name: str, mutant: Mutant) -> Fingerprint:
+        build = StudentBuild(self._kit, self._air, self._folder / name)
         compiled = build.compile(self._step, mutant.applied(self._reference).encode(), self._limits)
         if compiled.binary is None:
             said = shorten(compiled.ran.outcome.stderr.strip(), 1000)
@@ -89,7 +89,7 @@ def _found(path: Path) -> Known | None:
 
 
 def known_mistakes(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], say: Say) -> Known:
-    """By id. A mistake of the catalogue that does not build is the kit's fault."""
+    """By the names of their forms. A mistake of the catalogue that does not build is the kit's fault."""
     path = kit.folder / "mistakes" / f"{step.number}.npz"
     known = _found(path)
     if known is None:
@@ -105,5 +105,6 @@ def known_mistakes(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequen
 def _learn(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant]) -> Known:
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder, ThreadPoolExecutor(_AT_A_TIME) as pool:
         learner = _Learner(kit, step, plan, Path(folder))
-        learned = list(pool.map(learner.learn, mutants))
-    return {mutant.id: fingerprint for mutant, fingerprint in zip(mutants, learned, strict=True)}
+        forms = {name: form for mutant in mutants for name, form in mutant.choices().items()}
+        learned = list(pool.map(learner.learn, forms, forms.values()))
+    return dict(zip(forms, learned, strict=True))

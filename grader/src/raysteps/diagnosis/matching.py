@@ -7,34 +7,36 @@ from raysteps.diagnosis.answers import Questions, Said
 from raysteps.diagnosis.evidence import Evidence, Picture, differing
 from raysteps.diagnosis.fingerprints import Fingerprint
 from raysteps.diagnosis.sameness import likeness
+from raysteps.judge.trees import TREE
 from raysteps.mistakes.catalogue import Mutant
 from raysteps.programs.pictures import Pixels
 
 GOOD = 0.7  # of the wrong cases of a function: from there on a mistake explains it
 _GOOD_PICTURE = 0.8  # of the wrong pixels
 _GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictures that are wrong
-_GOOD_YES_OR_NO = 0.95  # of the cases, where all wrong answers are the same and no picture is explained
+_GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture is explained
+_GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
 _NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures name
 _FEWEST_CASES = 2.0
-_FEWEST_YES_OR_NO = 4.0  # where all wrong answers are the same
+_FEWEST_WEAK = 4.0  # where wrong answers hardly differ
 _FEWEST_PIXELS = 12
 
 
 @dataclass(frozen=True)
 class Agreement:
     """Of a mistake and the student in one function: the cases in which either is wrong, and how alike they are where
-    both are."""
+    both are. `weak`: wrong answers hardly differ, so that they prove less."""
 
     mine: frozenset[int]
     mistake: frozenset[int]
     alike: Mapping[int, float]
-    yes_or_no: bool = False
+    weak: bool = False
 
     @property
     def score(self) -> float:
         """The share of the cases where one of the two is wrong in which both are, in the same way."""
         whole = sum(self.alike.values())
-        enough = whole >= (_FEWEST_YES_OR_NO if self.yes_or_no else _FEWEST_CASES)
+        enough = whole >= (_FEWEST_WEAK if self.weak else _FEWEST_CASES)
         return whole / len(self.mine | self.mistake) if enough else 0.0
 
 
@@ -62,8 +64,11 @@ class Match:
 
     def _least(self, one: Agreement) -> float:
         drawn = self._drawn()
-        if one.yes_or_no:
-            return GOOD if drawn.keys() & self.telling else _GOOD_YES_OR_NO
+        telling = drawn.keys() & self.telling
+        if one.weak:
+            return GOOD if telling else _GOOD_WEAK
+        if self.telling and not telling:
+            return _GOOD_AGAINST_PICTURES
         return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD
 
     def named_by_pictures(self) -> bool:
@@ -84,7 +89,8 @@ def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[i
         for number in both
     }
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
-    return Agreement(wrong, other, alike, questions.function.yes_or_no)
+    weak = questions.function.yes_or_no or questions.function.answer is TREE
+    return Agreement(wrong, other, alike, weak)
 
 
 def picture_score(mistake: Pixels | None, picture: Picture) -> float:

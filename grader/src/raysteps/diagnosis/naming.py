@@ -25,7 +25,7 @@ class Named:
 
     def diagnosis(self) -> Diagnosis:
         mutant = self.mutant
-        alike = [other.name for other in self.alike]
+        alike = list(dict.fromkeys(other.name for other in self.alike if other.name != mutant.name))
         seen = list(self.explains)
         return Diagnosis("mistake", mutant.id, mutant.name, mutant.sees, mutant.cause, mutant.hint, seen, alike)
 

@@ -29,6 +29,7 @@ def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | 
     scored = [
         (pair_score(one.functions[function], other.functions[function]), (one, other))
         for one, other in combinations(here, 2)
+        if one.mutant.id != other.mutant.id
     ]
     best = max(scored, key=lambda item: item[0], default=None)
     return best[1] if best is not None and best[0] >= GOOD else None

@@ -88,9 +88,24 @@ def items_of(result: Mapping[str, Any], step: Step | None) -> list[Item]:
     return [*items, _together(result["cumulative"], weights[3])] if items and weights[3] else items
 
 
+def _diagnosis(diagnosis: Mapping[str, Any]) -> str:
+    """What explains a wrong step, in a line."""
+    title = one_line(diagnosis["title"], 600)
+    if diagnosis["kind"] == "finding":
+        said = title
+    else:
+        others = "".join(f", or when {one_line(other, 600)}" for other in diagnosis["alike"])
+        said = f"This is what you get when {title}{others}. {one_line(diagnosis['cause'], 600)}".rstrip()
+    seen = ", ".join(one_line(name) for name in diagnosis["seen_in"])
+    where = f"Seen in {seen}. " if seen and diagnosis["kind"] != "finding" else ""
+    hint = f"Hint: {one_line(diagnosis['hint'], 600)}" if diagnosis["hint"] else ""
+    return f"{said} {where}{hint}".rstrip()
+
+
 def step_text(result: Mapping[str, Any]) -> str:
     """What there is to say about a step as a whole."""
     said = [clean(message) for message in result["messages"]]
+    said += [_diagnosis(diagnosis) for diagnosis in result.get("diagnoses", ())]
     if result["status"] == "does-not-build" and result["build_log"]:
         said.append(clean(result["build_log"]))
     return "\n".join(said)

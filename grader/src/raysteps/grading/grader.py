@@ -138,7 +138,9 @@ class StepGrader:
         doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
         try:
             self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
-        except (ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
+        except GraderFault:
+            raise
+        except Exception as error:
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
 
     def finish(self, right: Collection[str]) -> StepResult:

@@ -1,7 +1,7 @@
 """The known mistakes of a step: solutions/NN-name/mutants.toml."""
 
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,8 @@ from raysteps.kit.stubs import without_markers
 class Mutant:
     """One mistake that students make, as a small change of the reference.
 
-    `name` ends the sentence "this is what you get when ..."; `hint` helps without giving the line away.
+    `name` ends the sentence "this is what you get when ..."; `hint` helps without giving the line away. `others`: the
+    same mistake at another place or with another number, so that it is known there too.
     """
 
     id: str
@@ -29,6 +30,13 @@ class Mutant:
     hint: str
     find: str
     replace: str
+    others: tuple[tuple[str, str], ...] = ()
+
+    def choices(self) -> dict[str, "Mutant"]:
+        """All forms of the mistake, the one of the catalogue first, each with a name of its own."""
+        changes = [(self.find, self.replace), *self.others]
+        forms = [replace(self, find=find, replace=other, others=()) for find, other in changes]
+        return {f"{self.id}~{number}" if number else self.id: form for number, form in enumerate(forms)}
 
     def applied(self, reference: str) -> str:
         """The reference's source with the mistake in it."""
@@ -47,7 +55,9 @@ def _mutant(step: Step, table: dict[str, Any]) -> Mutant:
     if table["function"] not in step.functions:
         raise GraderFault(f"{step.id}/mutants.toml: {table['id']}: {table['function']} is no function of the step")
     words = {key: " ".join(str(table[key]).split()) for key in ("name", "sees", "cause", "hint")}
-    return Mutant(table["id"], step.id, table["function"], **words, find=table["find"], replace=table["replace"])
+    others = tuple((other["find"], other["replace"]) for other in table.get("others", []))
+    change = {"find": table["find"], "replace": table["replace"]}
+    return Mutant(table["id"], step.id, table["function"], **words, **change, others=others)
 
 
 @lru_cache(maxsize=64)

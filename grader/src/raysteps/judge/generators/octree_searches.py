@@ -49,6 +49,8 @@ def _along_axis(draw: Draw) -> Inputs:
 _SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
 _BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16) - 6), 0.75) for i in range(64))
 
+_EDGE = 6.75  # of the box around the balls
+
 
 def _later_box(draw: Draw) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
@@ -70,13 +72,27 @@ def _ball_before_the_slope(draw: Draw) -> Inputs:
     return _search((_SLOPE, *_BALLS), [Ray(rounded(add(center, direction, -25)), direction)], own=False)
 
 
+def _eighth(point: Vector) -> int:
+    """Of the space around 0, numbered as split does it."""
+    return sum(1 << axis for axis, x in enumerate(point) if x > 0)
+
+
 def _balls_in_a_row(draw: Draw) -> Inputs:
-    """Through two of the balls, the near one anywhere beside the far one: above it or below, left or right."""
-    far, near = draw.until(
-        lambda two: min(abs(x) for x in minus(*two)) > 0,
-        lambda: (_BALLS[draw.whole(0, 63)].center, _BALLS[draw.whole(0, 63)].center),
-    )
-    direction = rounded(unit(add(minus(far, near), draw.point(0.3))))
+    """Through two of the balls, in any direction. The boxes along the ray come in another order than their numbers: who
+    searches by number and stops at the first box behind a hit never comes to the near ball."""
+
+    def make() -> tuple[Vector, Vector, Vector]:
+        far, near = (_BALLS[draw.whole(0, 63)].center for _ in range(2))
+        direction = draw.slanted() if far == near else rounded(unit(add(minus(far, near), draw.point(0.3))))
+        return far, near, direction
+
+    def costs_a_hasty_search(found: tuple[Vector, Vector, Vector]) -> bool:
+        far, near, direction = found
+        beyond = add(far, direction, 2)
+        inside = max(abs(x) for x in beyond) < _EDGE
+        return inside and _eighth(far) < _eighth(beyond) < _eighth(near)
+
+    _, near, direction = draw.until(costs_a_hasty_search, make)
     return _search(_BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
 
 

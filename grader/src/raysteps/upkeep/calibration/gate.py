@@ -1,4 +1,4 @@
-"""Where the limit of a picture belongs: between the worst correct solution and the mildest mistake."""
+"""Where the limit of a picture belongs: midway between the worst correct solution and the mildest mistake."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -41,7 +41,13 @@ class Gate:
     @property
     def is_written(self) -> bool:
         """Whether the manifest says so, but for what differs from machine to machine."""
-        return self.limit / _NOISE <= self.written <= self.limit * _NOISE
+        apart = self.worst.value < self.written and (self.mildest is None or self.written < self.mildest.value)
+        return apart and self.limit / _NOISE <= self.written <= self.limit * _NOISE
+
+    @property
+    def stands(self) -> float:
+        """The limit that is in the manifest once it is written: one that is near enough stays."""
+        return self.written if self.is_written else self.limit
 
 
 def rounded(value: float) -> float:

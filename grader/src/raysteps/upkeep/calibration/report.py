@@ -53,7 +53,7 @@ def _row(one: Calibrated) -> tuple[str, ...]:
         _share(one.gate.worst),
         _share(one.gate.mildest),
         _margin(one),
-        plain(one.gate.limit),
+        plain(one.gate.stands),
     )
 
 

@@ -21,10 +21,10 @@ def _contents(project: Project, say: Say) -> tuple[dict[Path, str], dict[Path, P
     pictures: dict[Path, Pixels] = {}
     for step, shown in every:
         texts[folder / f"{step.id}.md"] = step_page(step, shown)
-        for name, pixels in references(kit, step).items():
-            pictures[folder / picture_path(step, f"right-{name}")] = pixels
+        right = references(kit, step)
         for exhibit in shown:
-            if exhibit.pixels is not None:
+            if exhibit.picture is not None and exhibit.pixels is not None:
+                pictures[folder / picture_path(step, f"right-{exhibit.picture}")] = right[exhibit.picture]
                 pictures[folder / picture_path(step, exhibit.mutant.id)] = exhibit.pixels
     return texts, pictures
 

@@ -16,7 +16,7 @@ from raysteps.programs.rendering import reference_picture
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A mistake, the picture that shows it best, and all in which it shows."""
+    """A mistake, the picture with the most wrong pixels, and all in which it shows."""
 
     mutant: Mutant
     picture: str | None  # none where all pictures stay right
@@ -36,7 +36,7 @@ def _exhibit(step: Step, mutant: Mutant, known: Fingerprint, right: Mapping[str,
         for case in step.images
         if case.name in known.pictures
     }
-    shown = {name: seen.wrong_share for name, seen in wrong.items() if not seen.passed}
+    shown = {name: seen.wrong_share * right[name].size for name, seen in wrong.items() if not seen.passed}
     best = max(shown, key=lambda name: shown[name], default=None)
     functions = [name for name in step.functions if known.answers.get(name)]
     return Exhibit(mutant, best, known.pictures[best] if best else None, list(shown), functions)

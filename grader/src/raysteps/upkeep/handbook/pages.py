@@ -42,7 +42,10 @@ def _shows_in(exhibit: Exhibit) -> str:
 
 def _row(step: Step, exhibit: Exhibit) -> str:
     mutant = exhibit.mutant
-    picture = f"![{mutant.id}]({picture_path(step, mutant.id)})" if exhibit.picture else ""
+    right = mine = ""
+    if exhibit.picture:
+        right = f"![{exhibit.picture}]({picture_path(step, f'right-{exhibit.picture}')})"
+        mine = f"![{mutant.id}]({picture_path(step, mutant.id)})"
     words = (
         f"**{mutant.name[0].upper()}{mutant.name[1:]}** (`{mutant.id}` in `{mutant.function}`)",
         mutant.sees,
@@ -50,22 +53,16 @@ def _row(step: Step, exhibit: Exhibit) -> str:
         f"*Hint:* {mutant.hint}",
         _shows_in(exhibit),
     )
-    return f"| {picture} | {'<br>'.join(_cell(word) for word in words)} |"
+    return f"| {right} | {mine} | {'<br>'.join(_cell(word) for word in words)} |"
 
 
 def step_page(step: Step, shown: Sequence[Exhibit]) -> str:
-    """The right pictures, then a row for each mistake."""
-    names = [case.name for case in step.images]
-    right = " ".join(f"![{name}]({picture_path(step, f'right-{name}')})" for name in names)
+    """A row for each mistake: the right picture, the wrong one, and what there is to say."""
     lines = [
         f"# {step.number} {step.title}: known mistakes",
         "",
-        f"What is right, {listed(names)}:",
-        "",
-        right,
-        "",
-        "| picture | mistake |",
-        "|---|---|",
+        "| right | wrong | mistake |",
+        "|---|---|---|",
         *(_row(step, exhibit) for exhibit in shown),
     ]
     return "\n".join(lines) + "\n"

@@ -1,0 +1,80 @@
+"""Wrong files that were written apart from the catalogue: its mistakes must be named, others must not be."""
+
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import MakeSubmission, Sources
+
+from raysteps.exports.items import step_text
+from raysteps.grading.one import grade_one
+from raysteps.grading.settings import Settings
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.mistakes.catalogue import read_mutants
+from raysteps.results.model import Results
+from raysteps.sandbox.choice import find_sandbox
+from raysteps.submission.intake import take_in
+
+_FOLDER = Path(__file__).parent / "held_out"
+_CASES: list[dict[str, Any]] = tomllib.loads((_FOLDER / "cases.toml").read_text(encoding="utf-8"))["cases"]
+_QUICK = ("02-intersection", "04-shadows")  # to learn the mistakes of a step takes half a minute
+
+
+def _source(case: dict[str, Any]) -> str:
+    source = (_FOLDER / f"{case['step']}.cpp").read_text(encoding="utf-8")
+    for find, replace in case["edits"]:
+        assert source.count(find) == 1, f"{case['name']}: {find!r} occurs {source.count(find)} times"
+        source = source.replace(find, replace)
+    return source
+
+
+def _grade(kit: BuiltKit, make: MakeSubmission, out: Path, sources: Sources) -> Results:
+    return grade_one(
+        kit, take_in(make("held-out", sources), kit.steps), Settings(only=tuple(sources)), find_sandbox(), out
+    )
+
+
+def _params() -> Iterator[Any]:
+    for case in _CASES:
+        marks = [] if case["step"] in _QUICK else [pytest.mark.slow]
+        yield pytest.param(case, id=f"{case['step'][:2]} {case['name']}", marks=marks)
+
+
+@pytest.mark.parametrize("case", _params())
+def test_a_mistake_is_named_or_has_no_name(
+    case: dict[str, Any], kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission
+) -> None:
+    (result,) = _grade(kit, make_submission, tmp_path / "out", {case["step"]: _source(case)}).steps
+    assert result.status != "passed"
+    named = {found.id for found in result.diagnoses if found.kind == "mistake"}
+    assert named == set(case["expect"]), result.diagnoses
+
+
+def test_the_files_without_a_mistake_are_right(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, steps: list[Step]
+) -> None:
+    sources = {step.id: (_FOLDER / f"{step.id}.cpp").read_text(encoding="utf-8") for step in steps}
+    results = _grade(kit, make_submission, tmp_path / "out", sources)
+    assert {step.status for step in results.steps} == {"passed"}
+    assert not any(step.diagnoses for step in results.steps)
+
+
+def test_two_steps_have_a_mistake_each(kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission) -> None:
+    cases = {name: next(case for case in _CASES if case["name"] == name) for name in ("far root first", "no offset")}
+    results = _grade(kit, make_submission, tmp_path / "out", {case["step"]: _source(case) for case in cases.values()})
+    first, second = (step.diagnoses[0] for step in results.steps)
+    assert (first.id, second.id) == ("far-end-of-sphere", "no-threshold")
+    assert first.seen_in[0] == "Sphere::intersect"
+    said = step_text(results.to_json()["steps"][0])
+    assert f"This is what you get when {first.title}." in said
+    assert f"Hint: {first.hint}" in said
+
+
+def test_every_expected_mistake_is_in_the_catalogue(kit: BuiltKit) -> None:
+    known = {step.id: {mutant.id for mutant in read_mutants(kit.project, step)} for step in kit.steps}
+    assert all(set(case["expect"]) <= known[case["step"]] for case in _CASES)
+    assert sum(bool(case["expect"]) for case in _CASES) >= 12
+    assert any(not case["expect"] for case in _CASES)

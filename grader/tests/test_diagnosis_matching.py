@@ -1,0 +1,177 @@
+"""Matching on made-up answers: the same, different, ties and noise."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from raysteps.diagnosis.answers import Answers, Questions, Said
+from raysteps.diagnosis.evidence import Evidence, Picture
+from raysteps.diagnosis.fingerprints import Fingerprint, read_known, write_known
+from raysteps.diagnosis.matching import Match, agreement, match
+from raysteps.diagnosis.naming import name_mistakes
+from raysteps.diagnosis.pairs import pair_score
+from raysteps.diagnosis.sameness import likeness
+from raysteps.judge.drawing import Draw
+from raysteps.judge.functions import Case
+from raysteps.judge.generators import functions_of
+from raysteps.kit.manifest import ImageCase
+from raysteps.mistakes.catalogue import Mutant
+from raysteps.programs.pictures import Pixels
+
+_AMOUNT = 40
+
+
+def _mutant(name: str, function: str = "mirror") -> Mutant:
+    return Mutant(name, "03-phong-shading", function, f"it is {name}", "sees", "cause", "hint", "a", "b")
+
+
+def _questions(function: str = "mirror") -> Questions:
+    known = functions_of("03")[function]
+    draw = Draw(f"made-up/{function}")
+    cases = [Case(function, "any", known.groups[0].make(draw)) for _ in range(_AMOUNT)]
+    return Questions(known, cases, ["1 2 3"] * _AMOUNT)
+
+
+def _wrong(line: str, *numbers: int, problem: str = "the direction is wrong") -> dict[int, Said]:
+    return {number: Said(line, problem) for number in numbers}
+
+
+def _score(mistake: Mapping[int, Said], mine: Mapping[int, Said]) -> float:
+    return agreement(_questions(), mistake, mine).score
+
+
+def test_the_same_numbers_are_the_same_answer() -> None:
+    questions = _questions()
+    function, case = questions.function, questions.cases[0]
+    said = Said("4 5 6", "it is wrong")
+    assert likeness(function, case, "1 2 3", said, said) == 1
+    assert likeness(function, case, "1 2 3", said, Said("4.0001 5 6", "it is wrong")) == 1
+    assert likeness(function, case, "1 2 3", said, Said("4 5 -6", "it is wrong")) > 0.6
+    assert likeness(function, case, "1 2 3", said, Said("-4 -5 -6", "it is wrong")) == 0.25, "only signs agree"
+    assert likeness(function, case, "1 2 3", said, Said("7 8 9", "it is wrong")) == 0.25
+    assert likeness(function, case, "1 2 3", said, Said("7 8 9", "it is too long")) == 0
+    assert likeness(function, case, "1 2 3", said, Said("", "crashed")) == 0
+    assert likeness(function, case, "1 2 3", Said("nan 1 1", "x"), Said("nan 1 1", "x")) == 1
+
+
+@pytest.mark.parametrize(
+    "line", ["", "threw up", "4 5", "4 5 six", "1e999 -inf nan", "\x00", "#" + "0" * 32, "9" * 5000]
+)
+def test_whatever_is_said_is_compared(line: str) -> None:
+    questions = _questions()
+    for other in ("4 5 6", "threw it", "inf inf inf"):
+        value = likeness(questions.function, questions.cases[0], "1 2 3", Said(other, "a"), Said(line, "a"))
+        assert 0 <= value <= 1
+
+
+def test_a_score_is_the_share_of_wrong_cases_that_agree() -> None:
+    assert _score(_wrong("4 5 6", *range(10)), _wrong("4 5 6", *range(10))) == 1
+    assert _score(_wrong("4 5 6", *range(10)), _wrong("4 5 6", *range(20))) == 0.5
+    assert _score(_wrong("4 5 6", *range(20)), _wrong("4 5 6", *range(10))) == 0.5
+    assert _score(_wrong("4 5 6", *range(10)), _wrong("4 5 6", *range(10, 20))) == 0
+    assert _score(_wrong("4 5 6", 1), _wrong("4 5 6", 1)) == 0, "one case is no evidence"
+
+
+def test_cases_that_were_never_asked_count_for_nothing() -> None:
+    unasked = {number: Said("", "", known=False) for number in range(10, 40)}
+    assert _score(_wrong("4 5 6", *range(40)), _wrong("4 5 6", *range(10)) | unasked) == 1
+
+
+def _evidence(mine: Answers) -> Evidence:
+    return Evidence({name: _questions(name) for name in mine}, mine, {})
+
+
+def _matched(
+    mine: Mapping[str, Mapping[int, Said]], known: Mapping[Mutant, Mapping[str, Mapping[int, Said]]]
+) -> list[Match]:
+    return [match(mutant, Fingerprint(answers, {}), _evidence(mine)) for mutant, answers in known.items()]
+
+
+def test_one_mistake_upstream_explains_what_it_spoils_further_down() -> None:
+    spoilt = _wrong("4 5 6", *range(30))
+    mine = {"mirror": spoilt, "specular": spoilt}
+    known = {_mutant("down", "specular"): {"specular": spoilt}, _mutant("up"): mine}
+    (named,) = name_mistakes(_matched(mine, known))
+    assert named.mutant.id == "up"
+    assert named.explains == ("mirror", "specular")
+    assert not named.alike
+
+
+def test_a_mistake_further_down_is_not_taken_for_one_upstream() -> None:
+    spoilt = _wrong("4 5 6", *range(30))
+    known = {_mutant("up"): {"mirror": spoilt, "specular": spoilt}, _mutant("down", "specular"): {"specular": spoilt}}
+    (named,) = name_mistakes(_matched({"mirror": {}, "specular": spoilt}, known))
+    assert named.mutant.id == "down"
+
+
+def test_two_mistakes_in_two_functions_are_two() -> None:
+    one, other = _wrong("4 5 6", *range(30)), _wrong("7 8 9", *range(20))
+    known = {_mutant("first"): {"mirror": one}, _mutant("second", "diffuse"): {"diffuse": other}}
+    named = name_mistakes(_matched({"mirror": one, "diffuse": other}, known))
+    assert {found.mutant.id for found in named} == {"first", "second"}
+
+
+def test_mistakes_that_cannot_be_told_apart_are_both_said() -> None:
+    spoilt = _wrong("4 5 6", *range(30))
+    known = {_mutant("one"): {"mirror": spoilt}, _mutant("other"): {"mirror": spoilt}}
+    (named,) = name_mistakes(_matched({"mirror": spoilt}, known))
+    assert named.diagnosis().alike == ["it is other"]
+
+
+def test_noise_has_no_name() -> None:
+    mine = {number: Said(f"{number} {number + 1} 7", "the direction is wrong") for number in range(30)}
+    known = {_mutant("one"): {"mirror": _wrong("4 5 6", *range(30))}}
+    assert not name_mistakes(_matched({"mirror": mine}, known))
+
+
+def test_two_mistakes_in_one_function() -> None:
+    one, other = _wrong("4 5 6", *range(10)), _wrong("7 8 9", *range(10, 25), problem="it is too long")
+    questions, mine = _questions(), one | other
+    pair = agreement(questions, one, mine), agreement(questions, other, mine)
+    assert max(found.score for found in pair) < 0.7
+    assert pair_score(*pair) == 1
+    assert pair_score(pair[0], pair[0]) == 0
+    known = {_mutant("first"): {"mirror": one}, _mutant("second"): {"mirror": other}}
+    named = name_mistakes(_matched({"mirror": mine}, known))
+    assert [found.mutant.id for found in named] == ["first", "second"]
+
+
+def _picture(mine: Pixels, reference: Pixels) -> Picture:
+    return Picture(ImageCase("lit", "scenes/x.nff", (), 0.003), mine, reference)
+
+
+def test_pictures_alone_name_a_mistake_where_there_is_no_judge() -> None:
+    reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
+    wrong, other = reference.copy(), reference.copy()
+    wrong[:15] //= 2
+    other[15:] //= 2
+    evidence = Evidence({}, {}, {"lit": _picture(wrong, reference)})
+    matches = [
+        match(_mutant(name), Fingerprint({}, {"lit": pixels}), evidence)
+        for name, pixels in (("b", other), ("a", wrong))
+    ]
+    (named,) = name_mistakes(matches)
+    assert (named.mutant.id, named.explains) == ("a", ("lit",))
+
+
+def test_a_picture_of_one_colour_has_no_name() -> None:
+    reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
+    black = np.zeros_like(reference)
+    evidence = Evidence({}, {}, {"lit": _picture(black, reference)})
+    assert not name_mistakes([match(_mutant("dark"), Fingerprint({}, {"lit": black}), evidence)])
+
+
+def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
+    answers = {"mirror": {3: Said("1 2 3", "it is wrong"), 4: Said("", "", known=False)}}
+    known = {"one": Fingerprint(answers, {"lit": np.ones((2, 3, 3), dtype=np.uint8)}), "two": Fingerprint({}, {})}
+    write_known(tmp_path / "03.npz", known)
+    found = read_known(tmp_path / "03.npz")
+    assert found is not None
+    assert found["one"].answers == answers
+    assert (found["one"].pictures["lit"] == 1).all()
+    assert found["two"] == Fingerprint({}, {})
+    (tmp_path / "03.npz").write_bytes(b"half of a file")
+    assert read_known(tmp_path / "03.npz") is None
+    assert read_known(tmp_path / "04.npz") is None
