@@ -81,18 +81,17 @@ def _balls_in_a_row(draw: Draw) -> Inputs:
     """Through two of the balls, in any direction. The boxes along the ray come in another order than their numbers: who
     searches by number and stops at the first box behind a hit never comes to the near ball."""
 
-    def make() -> tuple[Vector, Vector, Vector]:
+    def make() -> tuple[Vector, Vector, Vector, Vector]:
         far, near = (_BALLS[draw.whole(0, 63)].center for _ in range(2))
         direction = draw.slanted() if far == near else rounded(unit(add(minus(far, near), draw.point(0.3))))
-        return far, near, direction
+        return far, near, direction, add(far, direction, draw.real(1, 5))
 
-    def costs_a_hasty_search(found: tuple[Vector, Vector, Vector]) -> bool:
-        far, near, direction = found
-        beyond = add(far, direction, 2)
+    def costs_a_hasty_search(found: tuple[Vector, Vector, Vector, Vector]) -> bool:
+        far, near, _, beyond = found
         inside = max(abs(x) for x in beyond) < _EDGE
         return inside and _eighth(far) < _eighth(beyond) < _eighth(near)
 
-    _, near, direction = draw.until(costs_a_hasty_search, make)
+    _, near, direction, _ = draw.until(costs_a_hasty_search, make)
     return _search(_BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
 
 
