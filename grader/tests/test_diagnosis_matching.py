@@ -49,6 +49,7 @@ def test_the_same_numbers_are_the_same_answer() -> None:
     assert likeness(function, case, "1 2 3", said, said) == 1
     assert likeness(function, case, "1 2 3", said, Said("4.0001 5 6", "it is wrong")) == 1
     assert likeness(function, case, "1 2 3", said, Said("4 5 -6", "it is wrong")) > 0.6
+    assert likeness(function, case, "1 2 3", said, Said("-4 -5 -6", "it is wrong")) == 0.25, "only signs agree"
     assert likeness(function, case, "1 2 3", said, Said("7 8 9", "it is wrong")) == 0.25
     assert likeness(function, case, "1 2 3", said, Said("7 8 9", "it is too long")) == 0
     assert likeness(function, case, "1 2 3", said, Said("", "crashed")) == 0

@@ -189,6 +189,24 @@ def test_who_spares_nothing(project: Project, steps: list[Step], kind: str) -> N
     assert _shared(octree, plan, {kind: amount - 1}, wasteful=True)[0] == []
 
 
+@pytest.mark.parametrize(("shares", "kept"), [((0.9, 0.3), 1), ((0.9, 0.01), 0), ((0.4, 0.3), 0)])
+def test_who_owns_up_to_the_work(project: Project, steps: list[Step], shares: tuple[float, float], kept: int) -> None:
+    """In one picture the rays tested too much by the program's own count: then the other one may be mostly sky."""
+    octree = next(step for step in steps if step.number == "06")
+    plan = read_plan(project, octree)
+    assert plan is not None
+    function = next(function for function in plan.functions if function.name == "build_octree")
+    groups = [CaseGroup(kind, n, 0, 0, n) for kind, n in function.cases.items()]
+    result = StepResult(octree.id, "partial", 0, 20, False)
+    result.images = [
+        ImageResult(image.name, image.scene, share <= 0.6, image.max_wrong, max_share=0.6, share_tested=share)
+        for image, share in zip(octree.images, shares, strict=False)
+    ]
+    result.hidden = [HiddenResult(function.name, "function", 0.5, groups=groups, outcome="wrong")]
+    contradictions(octree, plan, result, {})
+    assert sum(image.passed for image in result.images) == kept
+
+
 def test_only_pictures_with_a_share_fall(project: Project, steps: list[Step]) -> None:
     octree = next(step for step in steps if step.number == "06")
     plan = read_plan(project, octree)

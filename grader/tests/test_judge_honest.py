@@ -83,6 +83,26 @@ def test_a_transmitted_ray_on_the_wrong_side(honest: _Honest, steps: list[Step])
     }
 
 
+@pytest.mark.parametrize(
+    "wrong", ["Ray{hit.position + 0.2F * hit.normal, direction}", "Ray{hit.position + 0.001F * hit.normal, hit.normal}"]
+)
+def test_a_reflected_ray_that_alone_is_wrong(honest: _Honest, steps: list[Step], wrong: str) -> None:
+    """By its origin, or by its direction: what trace does with it still counts."""
+    old = "return {hit.position + k_bounce_threshold * hit.normal, glm::normalize(direction)};"
+    result = honest.grade(steps[4], old, f"return {wrong};")
+    assert result.inconsistent == []
+    shares = {item.name: item.share for item in result.hidden if item.kind == "function"}
+    assert shares["reflected_ray"] == 0
+    assert shares["trace"] == 1
+
+
+def test_a_tree_that_spares_nothing(honest: _Honest, steps: list[Step]) -> None:
+    """Rays into the sky test few objects all the same, and nobody says that the program counts wrongly."""
+    result = honest.grade(steps[5], "k_leaf_size = 8", "k_leaf_size = 100000")
+    assert result.inconsistent == []
+    assert sum(image.passed for image in result.images) <= 1
+
+
 def test_a_tree_that_is_too_large_to_be_told(honest: _Honest, steps: list[Step], solved: Sources) -> None:
     """It costs the kinds in which it is; nobody says that it is wrong."""
     step = steps[5]

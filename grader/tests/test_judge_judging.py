@@ -83,8 +83,8 @@ def test_one_kind_wrong(step: Step, plan: Plan) -> None:
 
     results = judge(step, plan, FakeWorker(no_infinity))
     result = results["tone_map"]
-    assert result.share == pytest.approx(5 / 6)
-    assert "5 of 6 kinds of cases are right" in result.message
+    assert result.share == pytest.approx(6 / 7)
+    assert "6 of 7 kinds of cases are right" in result.message
     assert "infinite (0 of 24 right)" in result.message
     assert "is NaN" in result.message
     assert "inf" in result.given
@@ -114,7 +114,7 @@ def test_a_few_ordinary_cases_may_be_wrong_but_cost_their_kind(step: Step, plan:
 
     result = judge(step, plan, FakeWorker(two_slips))["tone_map"]
     assert result.groups[0].right == result.groups[0].cases - 2
-    assert result.share == pytest.approx(5 / 6)
+    assert result.share == pytest.approx(6 / 7)
 
 
 def test_rounding_is_forgiven(step: Step, plan: Plan) -> None:

@@ -30,7 +30,8 @@ def _close(one: str, other: str) -> bool:
 
 def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
     """Of the words that are wrong in one of the two, the share in which they are the same. Opposite signs count less:
-    who takes the wrong end of a sphere turns its normal in one way or the other."""
+    who takes the wrong end of a sphere turns its normal in one way or the other. Without any word that is the same they
+    count nothing: light that is taken away is not light that is added."""
     rights, mistakes, mines = right_line.split(), mistake_line.split(), my_line.split()
     if not len(mistakes) == len(mines) <= _MOST_WORDS:
         return 0.0
@@ -40,7 +41,10 @@ def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
         for right, mistake, own in zip(rights, mistakes, mines, strict=True)
         if not (_close(right, mistake) and _close(right, own))
     ]
-    return sum(_worth(*pair) for pair in pairs) / len(pairs) if pairs else 1.0
+    worth = [_worth(*pair) for pair in pairs]
+    if not pairs:
+        return 1.0
+    return sum(worth) / len(worth) if max(worth) == 1.0 else 0.0
 
 
 def _worth(mistake: str, mine: str) -> float:

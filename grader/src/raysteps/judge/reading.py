@@ -64,8 +64,8 @@ def _frame(n: _Numbers) -> Frame:
 
 def _surface(n: _Numbers) -> Surface:
     kind = n.whole()
-    if kind == 0:
-        return Sphere(n.vector(), n.real())
+    if kind in (0, 4):
+        return Sphere(n.vector(), n.real(), glass=kind == 4)
     if kind == 1:
         return Triangle(n.vector(), n.vector(), n.vector())
     if kind in (2, 3):

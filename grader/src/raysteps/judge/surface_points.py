@@ -1,6 +1,6 @@
 """Points on surfaces, to see which boxes a surface touches."""
 
-from collections.abc import Sequence
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -36,7 +36,8 @@ def _points(surface: Surface, draw: Draw) -> Points:
     return np.array(_triangle_points(surface, draw))
 
 
-def points_on(surfaces: Sequence[Surface]) -> list[Points]:
+@lru_cache(maxsize=128)  # the reference's tree and a student's are looked at with the same ones
+def points_on(surfaces: tuple[Surface, ...]) -> tuple[Points, ...]:
     """The same ones every time."""
     draw = Draw("points on surfaces")
-    return [_points(surface, draw) for surface in surfaces]
+    return tuple(_points(surface, draw) for surface in surfaces)

@@ -1,6 +1,5 @@
 """Answers that are trees: any division of space that loses no surface is right."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -96,7 +95,7 @@ def tree_words(tree: Tree) -> str:
     return f"a tree of {len(tree.nodes)} boxes; {leaves.sum()} leaves with {mean:.3g} surfaces on average"
 
 
-def _lost(tree: Tree, surfaces: Sequence[Surface], own: _Table, every: _Table) -> str:
+def _lost(tree: Tree, surfaces: tuple[Surface, ...], own: _Table, every: _Table) -> str:
     points = points_on(surfaces)
     together = np.concatenate(points)
     margin = _MARGIN * float((together.max(axis=0) - together.min(axis=0)).max())
