@@ -1,6 +1,6 @@
 """How well a known mistake explains what was seen, function by function and picture by picture."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from raysteps.diagnosis.answers import Questions, Said
@@ -44,39 +44,45 @@ class Agreement:
 class Match:
     """What a mistake has to do with what is wrong, by the name of a function or picture.
 
-    `telling`: the pictures that are not of one colour, which may have any cause. `against`: what the mistake spoils and
-    is right.
+    `telling`: the pictures that are not of one colour, which may have any cause. `spoilt`: wrong pictures in which the
+    mistake shows. `against`: what the mistake spoils and is right.
     """
 
     mutant: Mutant
     functions: dict[str, Agreement] = field(default_factory=dict)
     pictures: dict[str, float] = field(default_factory=dict)
     telling: set[str] = field(default_factory=set)
+    spoilt: set[str] = field(default_factory=set)
     against: list[str] = field(default_factory=list)
 
-    def explains(self) -> dict[str, float]:
-        """With a score from 0 to 1."""
-        scores = {name: one.score for name, one in self.functions.items() if one.score >= self._least(one)}
+    def explains(self, told: Collection[str] = ()) -> dict[str, float]:
+        """With a score from 0 to 1. `told`: pictures that other mistakes spoil: they do not speak against it."""
+        least = {name: self._least(one, told) for name, one in self.functions.items()}
+        scores = {name: one.score for name, one in self.functions.items() if one.score >= least[name]}
         return scores | self._drawn()
 
     def _drawn(self) -> dict[str, float]:
         return {name: score for name, score in self.pictures.items() if score >= _GOOD_PICTURE}
 
-    def _least(self, one: Agreement) -> float:
+    def _least(self, one: Agreement, told: Collection[str]) -> float:
         drawn = self._drawn()
         telling = drawn.keys() & self.telling
         if one.weak:
             return GOOD if telling else _GOOD_WEAK
-        if self.telling and not telling:
+        if self.telling - set(told) and not telling:
             return _GOOD_AGAINST_PICTURES
         return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD
 
+    def is_another(self) -> bool:
+        """Whether the function in which the mistake sits is wrong in another way."""
+        own = self.functions.get(self.mutant.function)
+        return own is not None and own.score < _NOT_AGAINST
+
     def named_by_pictures(self) -> bool:
         """Whether it explains all pictures that say something, and its own function does not speak against it."""
-        own = self.functions.get(self.mutant.function)
         if not self.telling or not self.telling <= self._drawn().keys():
             return False
-        return not self.functions or (own is not None and own.score >= _NOT_AGAINST)
+        return not self.functions or (self.mutant.function in self.functions and not self.is_another())
 
 
 def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[int, Said]) -> Agreement:
@@ -124,6 +130,7 @@ def match(mutant: Mutant, fingerprint: Fingerprint, evidence: Evidence) -> Match
         if picture.is_wrong:
             found.pictures[name] = picture_score(drawn, picture)
             found.telling |= {name} if picture.says_something else set()
+            found.spoilt |= {name} if spoils(drawn, picture) else set()
         elif spoils(drawn, picture):
             found.against.append(name)
     return found

@@ -30,40 +30,46 @@ class Named:
         return Diagnosis("mistake", mutant.id, mutant.name, mutant.sees, mutant.cause, mutant.hint, seen, alike)
 
 
-def _worth(match: Match, open_: Collection[str]) -> float:
-    explained = {name: score for name, score in match.explains().items() if name in open_}
-    worth = sum(score * (_PICTURE if name in match.pictures else 1.0) for name, score in explained.items())
-    worth -= _AGAINST * len(match.against)
-    return worth - (_NOT_ITS_OWN if match.functions and match.mutant.function not in match.explains() else 0.0)
+@dataclass
+class _Open:
+    """What is not explained yet, and the pictures that are spoilt by what was named."""
 
+    names: set[str]
+    told: set[str]
 
-def _is_named_by(match: Match, open_: set[str]) -> bool:
-    """By a function, or by pictures alone."""
-    explained = match.explains().keys() & open_
-    return bool(explained & match.functions.keys()) or (bool(explained) and match.named_by_pictures())
+    def explained_by(self, match: Match) -> dict[str, float]:
+        return {name: score for name, score in match.explains(self.told).items() if name in self.names}
+
+    def worth(self, match: Match) -> float:
+        """Above 0 for a mistake that can be named: by a function, or by pictures alone."""
+        explained = self.explained_by(match)
+        functions = explained.keys() & match.functions.keys()
+        if not explained or match.is_another() or not (functions or match.named_by_pictures()):
+            return 0.0
+        worth = sum(score * (_PICTURE if name in match.pictures else 1.0) for name, score in explained.items())
+        worth -= _AGAINST * len(match.against)
+        return worth - (_NOT_ITS_OWN if match.functions and match.mutant.function not in functions else 0.0)
 
 
 def name_mistakes(matches: Sequence[Match]) -> list[Named]:
     """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
-    open_ = {name for match in matches for name in (*match.functions, *match.pictures)}
+    open_ = _Open({name for match in matches for name in (*match.functions, *match.pictures)}, set())
     named: list[Named] = []
     while len(named) < _MOST:
-        able = [(match, _worth(match, open_)) for match in matches if _is_named_by(match, open_)]
-        able = [(match, worth) for match, worth in able if worth > 0]
-        if not able:
+        worths = [(match, open_.worth(match)) for match in matches]
+        best, most = max(worths, key=lambda pair: pair[1], default=(None, 0.0))
+        if best is None or most <= 0:
             break
-        best, worth = max(able, key=lambda pair: pair[1])
-        explained = [name for name in best.explains() if name in open_]
+        explained = open_.explained_by(best)
         alike = [
             match.mutant
-            for match, other in able
-            if match is not best
-            and worth - other <= _HAIR
-            and [name for name in match.explains() if name in open_] == explained
+            for match, worth in worths
+            if match is not best and most - worth <= _HAIR and open_.explained_by(match).keys() == explained.keys()
         ]
         named.append(Named(best.mutant, tuple(explained), tuple(alike)))
-        open_ -= set(explained)
-    return named + _pairs(matches, open_)[: _MOST - len(named)]
+        open_.names -= explained.keys()
+        open_.told |= best.spoilt
+    return named + _pairs(matches, open_.names)[: _MOST - len(named)]
 
 
 def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[Named]:
