@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 from judge_fakes import Ended, FakeWorker
 
-from raysteps.grading.hidden import ask_student
 from raysteps.judge.candidates import Recipe, make
 from raysteps.judge.changes import Change, changes, live_choices
 from raysteps.judge.choices import Recorder, Replay, Unfit
@@ -27,7 +26,7 @@ from raysteps.judge.worker_client import Ask
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
-from raysteps.programs.asking import reference_unkept
+from raysteps.programs.asking import ask_student, reference_unkept
 from raysteps.programs.limits import limits_of
 from raysteps.programs.student_build import StudentBuild
 from raysteps.results.model import HiddenResult

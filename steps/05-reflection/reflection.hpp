@@ -9,7 +9,7 @@ namespace raysteps {
 inline constexpr float k_bounce_threshold = 1e-3F;
 
 /// The ray that leaves the hit as from a mirror; unit direction. It starts off the surface by the
-/// threshold, on the side that hit.normal points to.
+/// threshold, on the side that hit.normal points to; anywhere up to 0.01 from the hit will do.
 [[nodiscard]] Ray reflected_ray(const HitRecord& hit);
 
 /// The colour that arrives along the ray. Depth 1 is a primary ray, each bounce adds 1.

@@ -7,7 +7,7 @@
 
 namespace raysteps {
 
-/// A refracted ray starts this far behind the surface. World units.
+/// A refracted ray starts this far behind the surface; anywhere up to 0.01 from the hit will do. World units.
 inline constexpr float k_refraction_threshold = 1e-3F;
 
 /// Snell's law: n1 sin(angle 1) = n2 sin(angle 2), with eta = n1 / n2. Unit vectors; `normal` is on the side

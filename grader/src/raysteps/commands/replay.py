@@ -9,7 +9,6 @@ from rich.markup import escape
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.text import shorten
 from raysteps.grading.build_messages import link_message, why_not_built
-from raysteps.grading.hidden import ask_student
 from raysteps.judge.case_files import CaseFile, read_case
 from raysteps.judge.examples import LONGEST
 from raysteps.judge.functions import Case, Function
@@ -23,7 +22,7 @@ from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
-from raysteps.programs.asking import reference_unkept
+from raysteps.programs.asking import ask_student, reference_unkept
 from raysteps.programs.limits import limits_of
 from raysteps.programs.student_build import StudentBuild
 from raysteps.sandbox.choice import find_sandbox

@@ -16,16 +16,15 @@ from raysteps.judge.plan import Plan
 from raysteps.kit.built_kit import BuiltKit, Kind, Say
 from raysteps.kit.manifest import Step
 from raysteps.mistakes.catalogue import Mutant, reference_source
-from raysteps.programs.asking import ANSWERS_KB
+from raysteps.programs.asking import ask_student
 from raysteps.programs.limits import limits_of
 from raysteps.programs.pictures import Pixels
 from raysteps.programs.rendering import render
 from raysteps.programs.student_build import Program, StudentBuild
 from raysteps.sandbox.open_air import OpenAir
-from raysteps.sandbox.task import Ran, Task
 
 _AT_A_TIME = 2
-_SECONDS = 5.0  # for one program of a mistake: some hang
+_SECONDS = 20.0  # for one program of a mistake, on the clock of a busy machine
 _COMPILE_SECONDS = 300.0
 
 
@@ -59,11 +58,7 @@ class _Learner:
         return Fingerprint(answers, self._pictures(program("raytrace")))
 
     def _answers(self, worker: Program) -> Answers:
-        def ask(cases: bytes, seconds: float) -> Ran:
-            limits = replace(self._limits.of_program(seconds), output_kb=ANSWERS_KB)
-            return self._air.run(Task(worker.words, limits, stdin=cases))
-
-        return listen(self._questions, ask, _SECONDS)
+        return listen(self._questions, ask_student(self._air, worker, self._limits), _SECONDS)
 
     def _pictures(self, raytrace: Program) -> dict[str, Pixels]:
         """Those that it makes."""

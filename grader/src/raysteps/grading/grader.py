@@ -9,7 +9,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.text import listed
 from raysteps.diagnosis.diagnosing import Diagnostician
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.hidden import ask_functions, ask_student, render_scenes
+from raysteps.grading.hidden import ask_functions, render_scenes
 from raysteps.grading.scoring import is_right, most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
 from raysteps.grading.visible_images import Gallery, judge, judge_together
@@ -19,6 +19,7 @@ from raysteps.judge.plan import read_plan
 from raysteps.kit.built_kit import BuiltKit, Kind, Say
 from raysteps.kit.manifest import Step
 from raysteps.kit.stubs import same_code, stub_for, unfinished_functions
+from raysteps.programs.asking import ask_student
 from raysteps.programs.limits import StepLimits
 from raysteps.programs.student_build import Compiled, Program, StudentBuild
 from raysteps.results.model import Cumulative, StepResult
@@ -123,7 +124,7 @@ class StepGrader:
         result.images = [judge(self._gallery, raytrace, step, case) for case in step.images]
         if self._plan is not None and worker is not None:
             seed = work.settings.seed
-            result.hidden = ask_functions(self._gallery, worker, step, self._plan, work.settings)
+            result.hidden = ask_functions(self._gallery, worker, step, self._plan, work.settings, work.say)
             scenes = render_scenes(self._gallery, raytrace, step, self._plan, seed, work.folder / step.number)
             result.hidden += scenes
             result.inconsistent = contradictions(step, self._plan, result, tags)
@@ -138,9 +139,7 @@ class StepGrader:
         doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
         try:
             self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
-        except GraderFault:
-            raise
-        except Exception as error:
+        except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
 
     def finish(self, right: Collection[str]) -> StepResult:

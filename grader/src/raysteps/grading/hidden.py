@@ -1,7 +1,6 @@
 """The hidden part of a step: the judge's cases, and scenes that nobody has seen."""
 
 import hashlib
-from dataclasses import replace
 from pathlib import Path
 
 from raysteps.common.files import write_bytes
@@ -11,27 +10,19 @@ from raysteps.judge.examples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.judging import judge_functions
 from raysteps.judge.plan import Plan
-from raysteps.judge.worker_client import Ask
+from raysteps.kit.built_kit import Say
 from raysteps.kit.manifest import Step
-from raysteps.programs.asking import ANSWERS_KB, reference_answers, reference_unkept
-from raysteps.programs.limits import StepLimits
+from raysteps.programs.asking import ask_student, reference_answers, reference_unkept
 from raysteps.programs.pictures import compare
 from raysteps.programs.rendering import reference_picture
 from raysteps.programs.student_build import Program
 from raysteps.results.model import HiddenResult
-from raysteps.sandbox.task import Ran, Sandbox, Task
+from raysteps.sandbox.task import Ran
 
 
-def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Ask:
-    """The student's functions, asked in a process that knows no answer."""
-
-    def ask(cases: bytes, seconds: float) -> Ran:
-        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
-
-    return ask
-
-
-def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, settings: Settings) -> list[HiddenResult]:
+def ask_functions(
+    gallery: Gallery, worker: Program, step: Step, plan: Plan, settings: Settings, say: Say
+) -> list[HiddenResult]:
     """All functions of a step."""
     student = ask_student(gallery.sandbox, worker, gallery.limits)
 
@@ -42,7 +33,7 @@ def ask_functions(gallery: Gallery, worker: Program, step: Step, plan: Plan, set
         return reference_unkept(gallery.kit, cases)
 
     shown = settings.feedback == "full"  # else the cases are withheld, and nobody needs a small one
-    examples = Examples(student, unkept, gallery.out) if shown else None
+    examples = Examples(student, unkept, gallery.out, say) if shown else None
     return judge_functions(step, plan, student, reference, settings.seed, gallery.limits.seconds, examples)
 
 

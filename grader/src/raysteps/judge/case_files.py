@@ -9,6 +9,7 @@ from typing import Any
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
 from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.text import printable
 
 FOLDER = "cases"
 SCHEMA = "raysteps/case/v1"
@@ -60,4 +61,5 @@ def read_case(path: Path) -> CaseFile:
     if problem:
         raise _refuse(path, problem)
     del document["schema"]
-    return CaseFile(**document)
+    texts = {key: printable(value) for key, value in document.items() if key != "seed"}
+    return CaseFile(seed=document["seed"], **texts)

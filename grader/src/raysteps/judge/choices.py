@@ -59,11 +59,12 @@ class Recorder(Draw):
     def until(self, good: Callable[[T], bool], make: Callable[[], T]) -> T:
         """What was not good is forgotten."""
         before = len(self.choices)
-        while True:
-            found = make()
-            if good(found):
-                return found
+
+        def make_anew() -> T:
             del self.choices[before:]
+            return make()
+
+        return super().until(good, make_anew)
 
 
 class Replay(Draw):

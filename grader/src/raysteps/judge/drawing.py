@@ -5,11 +5,13 @@ import random
 from collections.abc import Callable
 from typing import TypeVar
 
+from raysteps.common.errors import GraderFault
 from raysteps.judge.numbers import Vector, add, cross, dot, f32, length, minus, rounded, times, unit
 from raysteps.judge.surfaces import Sphere, Triangle
 from raysteps.judge.values import Fill, Light, Ray
 
 T = TypeVar("T")
+MOST_TRIES = 100_000
 
 
 def circle(turn: float) -> tuple[float, float]:
@@ -46,11 +48,12 @@ class Draw:
         return rounded((radius * math.cos(angle), radius * math.sin(angle), z))
 
     def until(self, good: Callable[[T], bool], make: Callable[[], T]) -> T:
-        """The first that is good."""
-        while True:
+        """The first that is good. A kind of cases that finds none is the kit's fault, not an endless loop."""
+        for _ in range(MOST_TRIES):
             found = make()
             if good(found):
                 return found
+        raise GraderFault(f"of {MOST_TRIES} cases that were drawn for the judge not one is usable")
 
     def real(self, low: float, high: float) -> float:
         return f32(self.fine(low, high))

@@ -1,7 +1,9 @@
 """The example that a wrong function is shown with: the smallest that was found, kept in a file for `replay`."""
 
+from collections.abc import Callable
 from pathlib import Path
 
+from raysteps.common.errors import GraderFault
 from raysteps.common.text import shorten
 from raysteps.judge.case_files import CaseFile, place_of, write_case
 from raysteps.judge.choices import Choice, Recorder
@@ -29,14 +31,25 @@ def choices_of(group: Group, seed: str, place: int) -> list[Choice]:
 class Examples:
     """Of one step. `reference` is asked without keeping what it says: the questions are about one submission."""
 
-    def __init__(self, student: Ask, reference: Ask, folder: Path) -> None:
+    def __init__(
+        self, student: Ask, reference: Ask, folder: Path, say: Callable[[str], None] = lambda text: None
+    ) -> None:
         self._student = student
         self._reference = reference
         self._folder = folder
+        self._say = say
         self._patience = Patience(_PATIENCE)
 
     def smallest(self, step: Step, found: Judged, place: int, seed: int) -> tuple[Judged, str]:
-        """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results."""
+        """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results.
+        What goes wrong here costs no grade: the case is shown as it was asked, without a file."""
+        try:
+            return self._smallest(step, found, place, seed)
+        except (GraderFault, ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
+            self._say(f"no small case of {step.number} {found.case.function}: {error!r}")
+            return found, ""
+
+    def _smallest(self, step: Step, found: Judged, place: int, seed: int) -> tuple[Judged, str]:
         function = functions_of(step.number)[found.case.function]
         kind = found.case.group
         choices = choices_of(function.by_name[kind], seed_of(step.id, function.name, kind, seed), place)

@@ -1,5 +1,7 @@
 """The smallest counterexample: a wrong case, made simpler as long as it stays wrong in the same way."""
 
+import math
+import time
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
@@ -31,13 +33,18 @@ REFERENCE_SECONDS = 60.0
 
 class Patience:
     """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
-    not count, so that a busy machine shows the same examples."""
+    not count, so that a busy machine shows the same examples; but a program that sleeps, and a judge that is slow, come
+    to an end too: after `longest` seconds on the clock, from the first run on."""
 
-    def __init__(self, seconds: float) -> None:
+    def __init__(self, seconds: float, longest: float = 20.0) -> None:
         self._left = seconds
+        self._longest = longest
+        self._end = math.inf
 
     def next_run(self) -> float:
-        return _RUN_SECONDS if self._left > 0 else 0.0
+        now = time.monotonic()
+        self._end = min(self._end, now + self._longest)
+        return _RUN_SECONDS if self._left > 0 and now < self._end else 0.0
 
     def spend(self, seconds: float) -> None:
         self._left -= seconds

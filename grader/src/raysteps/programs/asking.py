@@ -1,16 +1,29 @@
-"""Asks the kit's own worker."""
+"""Asks workers: a student's and the kit's own."""
 
 import hashlib
+from collections.abc import Callable
+from dataclasses import replace
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
 from raysteps.kit.built_kit import BuiltKit
+from raysteps.programs.limits import StepLimits
+from raysteps.programs.student_build import Program
 from raysteps.sandbox.open_air import OpenAir
-from raysteps.sandbox.task import Input, Limits, Ran, Task
+from raysteps.sandbox.task import Input, Limits, Ran, Sandbox, Task
 
 ANSWERS_KB = 8192  # a tree of many boxes is a long answer
 _REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300, output_kb=ANSWERS_KB)
+
+
+def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Callable[[bytes, float], Ran]:
+    """The student's functions, asked in a process that knows no answer: cases, and how many seconds it may take."""
+
+    def ask(cases: bytes, seconds: float) -> Ran:
+        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
+
+    return ask
 
 
 def reference_unkept(kit: BuiltKit, cases: bytes) -> Ran:

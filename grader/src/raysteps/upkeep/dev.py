@@ -17,6 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name, made in (("stubs", "the stubs in steps/"), ("samples", "the samples in grader/samples/")):
         add = commands.add_parser(name, help=f"make {made} from the solutions")
         add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    commands.add_parser(
+        "learn", help="learn the known mistakes of all steps now, and not with the first wrong submission"
+    )
     add = commands.add_parser("mistakes", help="make docs/mistakes/ from the catalogue of mistakes")
     add.add_argument("--check", action="store_true", help="only tell what is out of date")
     add = commands.add_parser("calibrate", help="measure how many pixels of each picture may be wrong (15 minutes)")
@@ -38,6 +41,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return maintenance.stubs(project, check=arguments.check)
         case "samples":
             return maintenance.samples(project, check=arguments.check)
+        case "learn":
+            with console.status("starting") as status:
+                return maintenance.learn(project, progress(console, status))
         case "mistakes":
             with console.status("starting") as status:
                 return maintenance.mistakes(project, progress(console, status), check=arguments.check)

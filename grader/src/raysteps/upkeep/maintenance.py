@@ -2,10 +2,14 @@
 
 from pathlib import Path
 
+from raysteps.diagnosis.learning import known_mistakes
+from raysteps.judge.plan import read_plan
 from raysteps.kit.built_kit import Say
+from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import outdated_stubs, write_stubs
+from raysteps.mistakes.catalogue import read_mutants
 from raysteps.upkeep.handbook import command as handbook
 from raysteps.upkeep.samples import outdated_samples, write_samples
 
@@ -27,6 +31,14 @@ def mistakes(project: Project, say: Say, *, check: bool) -> int:
     """Makes the pages of docs/mistakes/, or tells which are out of date."""
     changed = (handbook.out_of_date if check else handbook.write)(project, say)
     return _tell(changed, "dev mistakes", check=check)
+
+
+def learn(project: Project, say: Say) -> int:
+    """Keeps what the known mistakes of all steps answer and draw."""
+    kit = build_kit(project, say)
+    for step in kit.steps:
+        known_mistakes(kit, step, read_plan(project, step), read_mutants(project, step), say)
+    return 0
 
 
 def _tell(changed: list[str], command: str, *, check: bool) -> int:
