@@ -43,7 +43,7 @@ def _share(share: Share | None) -> str:
 
 
 def _margin(one: Calibrated) -> str:
-    return "" if math.isinf(one.gate.margin) else f"{one.gate.margin:.3g}"
+    return "" if math.isinf(one.gate.margin) else f"{float(f'{one.gate.margin:.3g}'):g}"
 
 
 def _row(one: Calibrated) -> tuple[str, ...]:
