@@ -10,7 +10,8 @@ from raysteps.judge.choices import Choice, Recorder
 from raysteps.judge.functions import Group, seed_of
 from raysteps.judge.generators import functions_of
 from raysteps.judge.judged import Judged
-from raysteps.judge.shrinking import Patience, Shrinker
+from raysteps.judge.patience import Patience
+from raysteps.judge.shrinking import Shrinker
 from raysteps.judge.worker_client import Ask
 from raysteps.kit.manifest import Step
 

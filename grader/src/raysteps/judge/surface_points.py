@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.judge.drawing import Draw
-from raysteps.judge.numbers import Vector, add, minus
+from raysteps.judge.numbers import Vector, add
 from raysteps.judge.surfaces import Sphere, Surface, Triangle
 
 Points: TypeAlias = npt.NDArray[np.float64]  # one in each row
@@ -25,7 +25,7 @@ def _triangle_points(t: Triangle, draw: Draw) -> list[Vector]:
     while len(points) < _POINTS:
         u, v = draw.real(0, 1), draw.real(0, 1)
         if u + v <= 1:
-            points.append(add(add(t.a, minus(t.b, t.a), u), minus(t.c, t.a), v))
+            points.append(t.at(u, v))
     return points
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from raysteps.judge.numbers import Number, Vector, text
+from raysteps.judge.numbers import Number, Vector, add, minus, text
 from raysteps.judge.values import Fill, vector_words
 
 _MOST_IN_WORDS = 12
@@ -32,6 +32,10 @@ class Triangle:
 
     def numbers(self) -> list[Number]:
         return [*self.a, *self.b, *self.c, *(self.fill.numbers() if self.fill else [])]
+
+    def at(self, u: float, v: float) -> Vector:
+        """The point a + u (b - a) + v (c - a)."""
+        return add(add(self.a, minus(self.b, self.a), u), minus(self.c, self.a), v)
 
     def words(self) -> str:
         fill = f" {self.fill.words()}" if self.fill else ""

@@ -2,7 +2,9 @@
 
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.generators.shadow_scenes import IS_LIT, any_hit, hit_at, light_above
+from raysteps.judge.generators.axes import next_axis
+from raysteps.judge.generators.shadow_blockers import any_hit, hit_at, light_above
+from raysteps.judge.generators.shadow_scenes import IS_LIT
 from raysteps.judge.numbers import add, rounded
 from raysteps.judge.rays import SHADOW_RAY
 from raysteps.judge.values import Hit, Inputs, Light
@@ -14,7 +16,7 @@ def _ray_case(draw: Draw, hit: Hit, near: float = 2.0, far: float = 30.0) -> Inp
 
 def _simple_ray(draw: Draw) -> Inputs:
     hit = hit_at(draw.simple_point(3), draw.axis())
-    side = (hit.normal[1], hit.normal[2], hit.normal[0])
+    side = next_axis(hit.normal)
     across, up = (0.0, 5.0) if draw.chance(0.5) else (3.0, 4.0)
     return {"hit": hit, "light": Light(add(add(hit.position, hit.normal, up), side, across))}
 

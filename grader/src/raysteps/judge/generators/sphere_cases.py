@@ -2,6 +2,7 @@
 
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
+from raysteps.judge.generators.axes import next_axis, with_zeros
 from raysteps.judge.hits import HIT
 from raysteps.judge.numbers import add, cross, rounded, times, unit
 from raysteps.judge.surfaces import Sphere
@@ -49,7 +50,7 @@ def _simple_sphere(draw: Draw) -> Inputs:
     start = add(center, direction, -float(draw.whole(6, 12)))
     if draw.chance(0.5):
         return _case(Sphere(center, float(draw.whole(1, 5))), Ray(start, direction), draw)
-    beside = (direction[1], direction[2], direction[0])
+    beside = next_axis(direction)
     return _case(Sphere(center, 5.0), Ray(add(start, beside, 3.0), direction), draw)
 
 
@@ -95,8 +96,7 @@ def _tiny_or_huge(draw: Draw) -> Inputs:
 def _signed_zeros(draw: Draw) -> Inputs:
     """Along an axis; the zeros of the direction have either sign."""
     s, axis, sign = Sphere(draw.simple_point(4), float(draw.whole(1, 5))), draw.whole(0, 2), draw.sign()
-    way = [sign if i == axis else draw.sign() * 0.0 for i in range(3)]
-    direction = (way[0], way[1], way[2])
+    direction = with_zeros(draw, axis, sign)
     return _case(s, Ray(add(s.center, direction, -float(draw.whole(6, 12))), direction), draw)
 
 
