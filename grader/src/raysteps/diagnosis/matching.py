@@ -16,6 +16,7 @@ _GOOD_PICTURE = 0.8  # of the wrong pixels
 _GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictures that are wrong
 _GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture is explained
 _GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
+_ANOTHER = 0.2  # of the cases of its own function: below, that is wrong in another way; the same words alone give 0.25
 _NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures name
 _FEWEST_CASES = 2.0
 _FEWEST_WEAK = 4.0  # where wrong answers hardly differ
@@ -76,13 +77,14 @@ class Match:
     def is_another(self) -> bool:
         """Whether the function in which the mistake sits is wrong in another way."""
         own = self.functions.get(self.mutant.function)
-        return own is not None and own.score < _NOT_AGAINST
+        return own is not None and own.score < _ANOTHER
 
     def named_by_pictures(self) -> bool:
         """Whether it explains all pictures that say something, and its own function does not speak against it."""
         if not self.telling or not self.telling <= self._drawn().keys():
             return False
-        return not self.functions or (self.mutant.function in self.functions and not self.is_another())
+        own = self.functions.get(self.mutant.function)
+        return not self.functions or (own is not None and own.score >= _NOT_AGAINST)
 
 
 def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[int, Said]) -> Agreement:
