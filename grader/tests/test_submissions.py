@@ -18,7 +18,7 @@ def test_only_old_results_are_deleted(tmp_path: Path, steps: list[Step]) -> None
     for name in [*old, *others, "results.json"]:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x")
-    clear(tmp_path, steps)
+    clear(tmp_path, steps, steps)
     left = sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file())
     assert left == sorted(others)
     assert not (tmp_path / "pictures" / steps[0].id).exists()
@@ -28,7 +28,7 @@ def test_folders_that_become_empty_go(tmp_path: Path, steps: list[Step]) -> None
     folder = tmp_path / "pictures" / steps[0].id
     folder.mkdir(parents=True)
     (folder / "a-mine.png").touch()
-    clear(tmp_path, steps)
+    clear(tmp_path, steps, steps)
     assert not list(tmp_path.iterdir())
 
 
@@ -39,7 +39,7 @@ def test_links_are_not_followed(tmp_path: Path, steps: list[Step]) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "pictures").symlink_to(outside.parent)
-    clear(out, steps)
+    clear(out, steps, steps)
     assert (outside / "a-mine.png").exists()
 
 

@@ -53,7 +53,7 @@ def _parser() -> argparse.ArgumentParser:
 
     add = commands.add_parser("replay", help="ask a hidden case again, as `check` or `grade` wrote it")
     add.add_argument("case", type=Path, help="such as cases/02-sphere-intersect.json")
-    add.add_argument("--submission", type=Path, metavar="FOLDER", help="whose steps (your own)")
+    add.add_argument("--submission", type=Path, metavar="PATH", help="whose steps: a folder, zip or tar (your own)")
 
     add = commands.add_parser("grade", help="grade a submission: a folder, zip or tar")
     add.add_argument("submission", type=Path)

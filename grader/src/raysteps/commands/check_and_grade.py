@@ -35,8 +35,9 @@ def exit_code(results: Results) -> int:
     return 3 if all(step.status == "does-not-build" for step in open_steps) else 1
 
 
-def clear(out: Path, steps: list[Step]) -> None:
-    """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any."""
+def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
+    """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any. Cases
+    stay for `replay` until their step is graded again."""
     usable_folder(out)
     try:
         (out / "results.json").unlink(missing_ok=True)
@@ -50,7 +51,7 @@ def clear(out: Path, steps: list[Step]) -> None:
             if not any(folder.iterdir()):
                 folder.rmdir()
         if not (out / CASES).is_symlink():
-            for name in (place_of(step.number, function) for step in steps for function in step.functions):
+            for name in (place_of(step.number, function) for step in asked_again for function in step.functions):
                 (out / name).unlink(missing_ok=True)
         for room in (out / "pictures", out / CASES):
             if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
@@ -66,7 +67,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
     with console.status("starting") as status, one_at_a_time(project.build / "check.lock"):
         say = progress(console, status)
         kit = build_kit(project, say)
-        clear(out, kit.steps)
+        clear(out, kit.steps, chosen)
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
@@ -98,7 +99,7 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         say = progress(console, status)
         submission = take_in(wish.submission, read_steps(project))
         kit = build_kit(project, say)
-        clear(out, kit.steps)
+        clear(out, kit.steps, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
 

@@ -84,7 +84,7 @@ def _print(console: Console, file: CaseFile, judged: Judged) -> int:
     for label, text in words:
         console.print(f"  {label:<9} {escape(shorten(text, LONGEST))}", highlight=False)
     if not verdict.problem:
-        console.print("[green]right now[/green]")
+        console.print("[green]now right[/green]")
         return 0
     before = f" (before: {file.problem})" if file.problem and file.problem != verdict.problem else ""
     console.print(f"[red]still wrong[/red]: {escape(verdict.problem + before)}")

@@ -25,8 +25,17 @@ def _before(kit: BuiltKit, step: Step, picture: Picture) -> Mapping[str, Pixels]
     return {name: Terms(kit, step.index, picture).at_step(earlier)}
 
 
-def _name(changed: Changed, picture: Picture) -> str:
-    return "normals-reversed" if changed.id == "negative" and "normals" in picture.case.args else changed.id
+_OF_VECTORS = {
+    "negative": "normals-reversed",
+    "red-and-blue-swapped": "axes-exchanged",
+    "channels-permuted": "axes-exchanged",
+}
+
+
+def _name(changed: Changed, step: Step, picture: Picture) -> str:
+    """Where colours are directions, another order of the channels is another order of the axes."""
+    shows_vectors = step.index == 1 or "normals" in picture.case.args
+    return _OF_VECTORS.get(changed.id, changed.id) if shows_vectors else changed.id
 
 
 def transformations(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iterator[Diagnosis]:
@@ -35,7 +44,7 @@ def transformations(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) 
     for name, picture in pictures.items():
         changed = transformation_of(picture, _before(kit, step, picture))
         if changed is not None:
-            found.setdefault((_name(changed, picture), changed.detail), []).append(name)
+            found.setdefault((_name(changed, step, picture), changed.detail), []).append(name)
     for (name, detail), seen_in in sorted(found.items(), key=lambda item: -len(item[1]))[:_MOST]:
         yield in_words(name, detail, seen_in)
 

@@ -77,6 +77,12 @@ _TABLE: Mapping[str, Words] = {
         "The three numbers of a colour or of a vector changed places.",
         "Which of the three numbers comes first, second and third?",
     ),
+    "axes-exchanged": Words(
+        "the numbers x, y and z of the vectors are in another order",
+        "The picture shows directions as colours, x as red, y as green, z as blue. Its colours changed places.",
+        "Two components of a vector were exchanged.",
+        "Which of the three numbers of the vector comes first, second and third?",
+    ),
     "grey": Words(
         "the colours are lost",
         "The light is right, but everything is grey.",

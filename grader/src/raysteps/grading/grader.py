@@ -74,7 +74,9 @@ class StepGrader:
         source = self._work.source(step)
         if source is None:
             handed_in = step.id in self._work.submission.sources
-            missing = f"{step.file} is still the stub." if handed_in else f"{step.file} was not handed in."
+            missing = f"{step.file} was not handed in."
+            if handed_in:
+                missing = f"{step.file} is still the stub. What to do stands in steps/{step.id}/README.md."
             result.messages = [self._work.submission.notes.get(step.id) or missing]
             result.cumulative = Cumulative(False, "This step was not started.")
             return result

@@ -53,6 +53,8 @@ def read_case(path: Path) -> CaseFile:
         if len(data) > _LARGEST:
             raise _refuse(path, "too large")
         document: Any = json.loads(data.decode("utf-8"))
+    except IsADirectoryError as error:
+        raise _refuse(path, "a folder; name a file in it") from error
     except OSError as error:
         raise _refuse(path, f"cannot be read ({error.strerror or error})") from error
     except (ValueError, RecursionError) as error:

@@ -58,4 +58,5 @@ def withhold(document: dict[str, Any], feedback: Feedback) -> dict[str, Any]:
     document = copy.deepcopy(document)
     if feedback != "full":
         document["steps"] = [_withheld_step(step, feedback) for step in document["steps"]]
+        document["seed"] = None  # whoever has it can make the cases
     return document
