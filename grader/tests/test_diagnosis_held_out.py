@@ -43,7 +43,7 @@ def _params() -> Iterator[Any]:
         yield pytest.param(case, id=f"{case['step'][:2]} {case['name']}", marks=marks)
 
 
-@pytest.mark.parametrize("case", _params())
+@pytest.mark.parametrize("case", list(_params()))
 def test_a_mistake_is_named_or_has_no_name(
     case: dict[str, Any], kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission
 ) -> None:
