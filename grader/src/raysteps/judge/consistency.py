@@ -35,7 +35,7 @@ ANY = "any"
 PART = "part"
 _HALF = 0.5
 _GROSSLY = 10  # times what the twin's gate allows
-_GROSS_SHARE = 0.05
+_GROSS_SHARE = 0.1
 
 Tags = Mapping[str, frozenset[str]]
 
