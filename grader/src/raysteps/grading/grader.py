@@ -12,7 +12,6 @@ from raysteps.grading.build_messages import build_log, link_message, why_not_bui
 from raysteps.grading.hidden import ask_functions, render_scenes
 from raysteps.grading.scoring import is_right, most_points, status_and_points, sum_up
 from raysteps.grading.settings import Settings
-from raysteps.grading.share_bounds import ShareBounds
 from raysteps.grading.visible_images import Gallery, judge, judge_together
 from raysteps.grading.visible_tests import run_tests
 from raysteps.judge.consistency import contradictions
@@ -128,10 +127,9 @@ class StepGrader:
         if self._plan is not None and worker is not None:
             seed = work.settings.seed
             result.hidden = ask_functions(self._gallery, worker, step, self._plan, work.settings, work.say)
-            folder = work.folder / step.number
-            result.hidden += render_scenes(self._gallery, raytrace, step, self._plan, seed, folder)
-            least = ShareBounds(self._gallery, worker, step, self._plan, seed, folder)
-            result.inconsistent = contradictions(step, self._plan, result, tags, least.least_shares)
+            scenes = render_scenes(self._gallery, raytrace, step, self._plan, seed, work.folder / step.number)
+            result.hidden += scenes
+            result.inconsistent = contradictions(step, self._plan, result, tags)
         result.messages += sum_up(result)
         if not is_right(result):
             self._diagnose(worker)

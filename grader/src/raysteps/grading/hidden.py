@@ -37,15 +37,9 @@ def ask_functions(
     return judge_functions(step, plan, student, reference, settings.seed, gallery.limits.seconds, examples)
 
 
-def scene_file(scene: HiddenScene, folder: Path) -> Path:
-    """Written there under a name that says nothing about what it is for."""
+def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
     path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
     write_bytes(path, scene.nff.encode())
-    return path
-
-
-def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
-    path = scene_file(scene, folder)
     reference = reference_picture(gallery.kit, path, scene.args)
     rendered = gallery.render(program, path, scene.args)
     result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
@@ -55,10 +49,8 @@ def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder:
         return result
     verdict = compare(rendered.pixels, reference, scene.max_wrong)
     problem = verdict.message
-    if scene.max_share is not None:
-        result.share_tested = None if rendered.share_tested is None else round(rendered.share_tested, 6)
-        if verdict.passed:
-            problem = too_many_tests(rendered.share_tested, scene.max_share)
+    if verdict.passed and scene.max_share is not None:
+        problem = too_many_tests(rendered.share_tested, scene.max_share)
     result.wrong_share = round(verdict.wrong_share, 6)
     result.message, result.share = problem, 0.0 if problem else 1.0
     result.outcome = "wrong" if problem else "ok"
@@ -68,6 +60,6 @@ def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder:
 def render_scenes(
     gallery: Gallery, program: Program, step: Step, plan: Plan, seed: int, folder: Path
 ) -> list[HiddenResult]:
-    """Scenes made for this seed."""
+    """Scenes made for this seed. The file's name says nothing about what it is for."""
     scenes = hidden_scenes(gallery.kit.project, step, plan, seed)
     return [_judge_scene(gallery, program, scene, folder) for scene in scenes]

@@ -10,8 +10,7 @@ a contradiction only where no honest program makes it, however many mistakes it 
   to a few inputs, and these may come out right where most others do not;
 - a test tagged [part] proves nothing alone: it asks for a part of the answer, or a function hardly begun passes it;
 - a picture passes, but its twin is grossly wrong;
-- a picture says that few objects were tested, but the tree or the search spares the rays nothing, and asked for rays
-  of that very scene it tests far more (judge/scene_probes.py).
+- a picture says that few objects were tested, but the tree or the search spares the rays nothing.
 
 Of the cases only those count in which the judge saw what the function does: it was asked, and its answer could be read.
 A case in which it crashed or hung is one of them, so that silence is no way out.
@@ -27,7 +26,7 @@ from raysteps.judge.functions import Function
 from raysteps.judge.generators import functions_of
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan
-from raysteps.judge.share_claims import MESSAGE, LeastShares, false_shares
+from raysteps.judge.share_claims import MESSAGE, false_shares
 from raysteps.kit.manifest import Step
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
@@ -118,8 +117,7 @@ def _images(plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenRe
     return lines
 
 
-def contradictions(step: Step, plan: Plan, result: StepResult, tags: Tags, least: LeastShares) -> list[str]:
-    """Takes back the claims that the judge did not see, and says so for the instructor, one line each. `least` is asked
-    only where something wasteful was seen."""
+def contradictions(step: Step, plan: Plan, result: StepResult, tags: Tags) -> list[str]:
+    """Takes back the claims that the judge did not see, and says so for the instructor, one line each."""
     lines = _tests(step, result, tags) + _images(plan, result.images, result.hidden)
-    return lines + false_shares(step, result.images, result.hidden, least)
+    return lines + false_shares(step, plan, result.images, result.hidden)

@@ -28,17 +28,6 @@ class Rendered:
     share_tested: float | None = None
 
 
-@dataclass(frozen=True)
-class RayCounts:
-    """How many surfaces a scene has; how many rays left the eye, how many of these met one, and how many left from a
-    surface."""
-
-    surfaces: int
-    eye: int
-    eye_hit: int
-    onward: int
-
-
 def _share_tested(stats: bytes) -> float | None:
     """From the statistics of raytrace: how much of the scene each ray was tested against."""
     try:
@@ -62,44 +51,24 @@ def render(sandbox: Sandbox, program: Program, scene: Path, args: tuple[str, ...
     return Rendered(ran, pixels, share_tested=_share_tested(ran.outputs.get("stats", b"")))
 
 
-def _kept(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Path:
-    """Where the reference's picture is kept, or will be; its statistics lie beside it."""
+def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+    """Rendered at the first call; a reference that cannot is the kit's fault."""
     if not scene.is_file():
         raise GraderFault(f"the scene {scene} is missing")
     key = hashlib.sha256(scene.read_bytes() + "\0".join(args).encode()).hexdigest()
-    return kit.pictures / f"{key[:32]}.ppm"
-
-
-def _render_reference(kit: BuiltKit, scene: Path, args: tuple[str, ...], path: Path) -> Pixels:
+    path = kit.pictures / f"{key[:32]}.ppm"
+    try:
+        return read_ppm(path)
+    except PictureError:
+        pass
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        picture, stats = Path(folder) / "picture.ppm", Path(folder) / "stats.json"
+        picture = Path(folder) / "picture.ppm"
         command: list[str | Path] = [kit.reference("raytrace"), scene, *args, "-o", picture, "--quiet"]
-        outcome = run([*command, "--stats", stats], seconds=_REFERENCE_SECONDS, cwd=Path(folder))
+        outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder))
         try:
             pixels = read_ppm(picture)
         except PictureError as error:
             said = outcome.stderr.strip() or str(error)
             raise GraderFault(f"the reference cannot render {scene.name}: {said}") from error
-        write_bytes(path.with_suffix(".json"), stats.read_bytes())
         write_bytes(path, picture.read_bytes())
     return pixels
-
-
-def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
-    """Rendered at the first call; a reference that cannot is the kit's fault."""
-    path = _kept(kit, scene, args)
-    try:
-        return read_ppm(path)
-    except PictureError:
-        return _render_reference(kit, scene, args, path)
-
-
-def reference_rays(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> RayCounts:
-    """From the statistics of that picture."""
-    path = _kept(kit, scene, args)
-    if not path.with_suffix(".json").is_file():
-        _render_reference(kit, scene, args, path)
-    stats = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
-    rays = stats["rays"]
-    onward = rays["shadow"] + rays["reflect"] + rays["refract"]
-    return RayCounts(stats["surfaces"], rays["eye"], rays["eye_hit"], onward)

@@ -68,7 +68,6 @@ class HiddenResult:
     share: float  # of this item's points that were earned, from 0 to 1
     weight: float = 1.0  # among the hidden items of the step
     wrong_share: float | None = None  # of the pixels of a scene
-    share_tested: float | None = None  # of its objects, by a ray on average; where that is limited
     groups: list[CaseGroup] = field(default_factory=list)
     message: str = ""  # what is wrong, without the input
     given: str = ""  # the input of the first wrong case, in words and numbers
