@@ -14,11 +14,12 @@ from raysteps.mistakes.alternatives import read_alternatives
 from raysteps.upkeep.calibration.gate import Gate, Share, gate_between, plain
 from raysteps.upkeep.calibration.manifest import with_limits
 from raysteps.upkeep.calibration.marks import mark
-from raysteps.upkeep.calibration.measuring import Calibrated, correct_candidates
+from raysteps.upkeep.calibration.measuring import Calibrated
 from raysteps.upkeep.calibration.report import calibration_page, complaints
 from raysteps.upkeep.calibration.scenes import Limited, View, limited_pictures
 from raysteps.upkeep.calibration.settings import KIT, all_settings, fused_flags, own_setting
-from raysteps.upkeep.calibration.shares import Candidate, PictureShares
+from raysteps.upkeep.calibration.shares import PictureShares
+from raysteps.upkeep.entrants import Entrant, right_ones
 
 _PIXELS = 20_000
 
@@ -126,22 +127,22 @@ def test_one_picture_from_end_to_end(kit: BuiltKit, project: Project, steps: lis
     image = read_step(project.steps / step.id / "step.toml").images[0]
     measuring = PictureShares(kit, step, [View(project.root / image.scene, image.args)])
     own = own_setting(kit)
-    reference, other = correct_candidates(project, step)[:2]
+    reference, other = right_ones(project, step)[:2]
     assert measuring.shares(reference, own) == (0.0,)
     assert measuring.shares(other, own)[0] <= image.max_wrong
-    flat = Candidate("flat", reference.source.replace("c / (c + 1.0F)", "0.5F"), correct=False)
+    flat = Entrant("mutant", step.id, "flat", reference.source.replace("c / (c + 1.0F)", "0.5F"))
     assert flat.source != reference.source
     assert measuring.shares(flat, own)[0] > image.max_wrong
     assert measuring.shares(reference, own) == (0.0,)
     assert measuring.binaries == 3, "a binary that was seen before is not rendered again"
-    broken = Candidate("broken", "no C++", correct=False)
+    broken = Entrant("mutant", step.id, "broken", "no C++")
     with pytest.raises(GraderFault, match="broken, the kit's own setting: does not compile"):
         measuring.shares(broken, own)
 
 
 def test_a_correct_solution_gets_full_marks(kit: BuiltKit, project: Project, steps: list[Step]) -> None:
     step = steps[6]
-    other = correct_candidates(project, step)[1]
+    other = right_ones(project, step)[1]
     assert mark(kit, step, other, own_setting(kit)).is_full
     wrong = replace(other, source=other.source.replace("255", "250"))
     found = mark(kit, step, wrong, own_setting(kit))

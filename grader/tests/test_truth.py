@@ -9,7 +9,7 @@ from raysteps.kit.project import Project
 from raysteps.mistakes.alternatives import read_alternatives
 from raysteps.mistakes.catalogue import read_mutants
 from raysteps.results.model import Diagnosis, StepResult, TestResult
-from raysteps.upkeep.truth.entrants import Entrant, Kind, mutants
+from raysteps.upkeep.entrants import Entrant, Kind, mutants
 from raysteps.upkeep.truth.report import problems_of, row_of, shortfalls, total
 from raysteps.upkeep.truth.rounds import random_pairs, rounds_of
 from raysteps.upkeep.truth.verdicts import Seen

@@ -9,10 +9,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from raysteps.common.errors import GraderFault
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.generators import functions_of
-from raysteps.judge.judging import make_cases
+from raysteps.judge.judging import make_cases, reference_lines
 from raysteps.judge.plan import Plan
 from raysteps.judge.time_budget import TimeBudget
 from raysteps.judge.worker_client import Ask, Reply, ask_worker
@@ -23,7 +22,6 @@ from raysteps.sandbox.task import Ran
 
 _SEED = "diagnosis"
 _LONGEST = 6000  # characters; of a longer answer its hash will do
-_REFERENCE_SECONDS = 600
 
 
 @dataclass(frozen=True)
@@ -51,10 +49,7 @@ def _right_answers(kit: BuiltKit, function: str, cases: Sequence[Case]) -> list[
     def ask(stdin: bytes, _seconds: float) -> Ran:
         return reference_answers(kit, stdin)
 
-    replies = ask_worker(ask, cases, TimeBudget(_REFERENCE_SECONDS, 1)).replies
-    if any(reply.outcome != "ok" for reply in replies):
-        raise GraderFault(f"{function}: the reference does not answer the cases of the diagnosis")
-    return [reply.line for reply in replies]
+    return reference_lines(ask, cases, function)
 
 
 def questions_of(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str]) -> dict[str, Questions]:

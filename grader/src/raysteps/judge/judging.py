@@ -37,7 +37,8 @@ def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case
     return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
 
 
-def _reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
+def reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
+    """What the reference answers; one that does not is the kit's fault."""
     replies = ask_worker(ask, cases, TimeBudget(_REFERENCE_SECONDS, 1)).replies
     bad = next((reply for reply in replies if reply.outcome != "ok" or reply.line.startswith("bad-case")), None)
     if bad is not None:
@@ -122,7 +123,7 @@ def judge_functions(
     for function_plan in plan.functions:
         function = functions_of(step.number)[function_plan.name]
         cases = make_cases(step, function_plan, seed)
-        expected = _reference_lines(reference, cases, function.name)
+        expected = reference_lines(reference, cases, function.name)
         replies = ask_worker(student, cases, budget)
         judged = [judge_reply(function, *three) for three in zip(cases, expected, replies.replies, strict=True)]
         result = _result(step, function_plan, judged, seed, examples)

@@ -19,9 +19,9 @@ from raysteps.kit.manifest import Step
 from raysteps.results.model import StepResult
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.submission.intake import Submission
-from raysteps.upkeep.calibration.measuring import correct_candidates, counted
+from raysteps.upkeep.calibration.measuring import counted
 from raysteps.upkeep.calibration.settings import Setting, own_setting
-from raysteps.upkeep.calibration.shares import Candidate
+from raysteps.upkeep.entrants import Entrant, right_ones
 
 _SECONDS = 60.0  # without optimisation, and beside other work, a program takes longer
 
@@ -31,7 +31,7 @@ class Mark:
     """What a correct solution got."""
 
     step: Step
-    candidate: Candidate
+    candidate: Entrant
     setting: Setting
     result: StepResult
 
@@ -50,7 +50,7 @@ class Mark:
         )
 
 
-def mark(kit: BuiltKit, step: Step, candidate: Candidate, setting: Setting, seed: int = 1) -> Mark:
+def mark(kit: BuiltKit, step: Step, candidate: Entrant, setting: Setting, seed: int = 1) -> Mark:
     """As a submission of this one step would be graded."""
     submission = Submission(candidate.name, {step.id: candidate.source.encode()}, {})
     wished = Settings(seed, (step.id,), limits={"seconds": _SECONDS})
@@ -78,12 +78,12 @@ def marks(kit: BuiltKit, steps: Sequence[Step], settings: Sequence[Setting], con
     work = [
         (step, candidate, setting)
         for step in steps
-        for candidate in correct_candidates(kit.project, step)
+        for candidate in right_ones(kit.project, step)
         for setting in (own_setting(kit), *settings)
     ]
     one_more = counted(say, "graded", len(work))
 
-    def one(item: tuple[Step, Candidate, Setting]) -> Mark:
+    def one(item: tuple[Step, Entrant, Setting]) -> Mark:
         found = mark(kit, *item)
         one_more()
         return found

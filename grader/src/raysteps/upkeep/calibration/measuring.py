@@ -8,13 +8,11 @@ from pathlib import Path
 
 from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.mistakes.alternatives import read_alternatives
-from raysteps.mistakes.catalogue import read_mutants, reference_source
 from raysteps.upkeep.calibration.gate import Gate, gate_between
 from raysteps.upkeep.calibration.scenes import Limited, limited_pictures
 from raysteps.upkeep.calibration.settings import Setting, own_setting
-from raysteps.upkeep.calibration.shares import Candidate, PictureShares, patient
+from raysteps.upkeep.calibration.shares import PictureShares, patient
+from raysteps.upkeep.entrants import Entrant, mutants, right_ones
 
 SEEDS = range(1, 4)
 _EVERY = 25  # measurements between two lines of progress
@@ -32,20 +30,9 @@ class Calibrated:
 class Measured:
     """One candidate in one setting, with a share for each picture."""
 
-    candidate: Candidate
+    candidate: Entrant
     setting: Setting
     shares: tuple[float, ...]
-
-
-def correct_candidates(project: Project, step: Step) -> list[Candidate]:
-    """The reference and the other correct ways."""
-    found = [Candidate("the reference", reference_source(project, step), correct=True)]
-    return found + [Candidate(other.name, other.source, correct=True) for other in read_alternatives(project, step)]
-
-
-def _mistaken(project: Project, step: Step) -> list[Candidate]:
-    reference = reference_source(project, step)
-    return [Candidate(mutant.id, mutant.applied(reference), correct=False) for mutant in read_mutants(project, step)]
 
 
 def counted(say: Say, what: str, total: int) -> Callable[[], None]:
@@ -60,12 +47,10 @@ def counted(say: Say, what: str, total: int) -> Callable[[], None]:
     return one_more
 
 
-def _measure(
-    measuring: PictureShares, work: Sequence[tuple[Candidate, Setting]], jobs: int, say: Say
-) -> list[Measured]:
+def _measure(measuring: PictureShares, work: Sequence[tuple[Entrant, Setting]], jobs: int, say: Say) -> list[Measured]:
     one_more = counted(say, "measured", len(work))
 
-    def one(item: tuple[Candidate, Setting]) -> Measured:
+    def one(item: tuple[Entrant, Setting]) -> Measured:
         measured = Measured(*item, measuring.shares(*item))
         one_more()
         return measured
@@ -77,14 +62,16 @@ def _measure(
 def _worst(measured: Sequence[Measured], views: slice) -> dict[str, float]:
     """Of each correct solution in each setting."""
     return {
-        f"{one.candidate.name}, {one.setting.name}": max(one.shares[views]) for one in measured if one.candidate.correct
+        f"{one.candidate.name}, {one.setting.name}": max(one.shares[views])
+        for one in measured
+        if one.candidate.is_right
     }
 
 
 def calibrate_step(kit: BuiltKit, step: Step, settings: Sequence[Setting], jobs: int, say: Say) -> list[Calibrated]:
     """Correct solutions in every setting, mistakes as students are graded."""
     own = own_setting(kit)
-    correct, mistaken = correct_candidates(kit.project, step), _mistaken(kit.project, step)
+    correct, mistaken = right_ones(kit.project, step), mutants(kit.project, step)
     work = [(one, own) for one in mistaken]
     work += [(one, setting) for one in correct for setting in (own, *settings)]
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -99,7 +86,7 @@ def calibrate_step(kit: BuiltKit, step: Step, settings: Sequence[Setting], jobs:
     found, start = [], 0
     for limited in limits:
         views = slice(start, start + len(limited.views))
-        mistakes = {one.candidate.name: one.shares[views] for one in measured if not one.candidate.correct}
+        mistakes = {one.candidate.name: one.shares[views] for one in measured if not one.candidate.is_right}
         pixels = min(measuring.pixels[views])
         found.append(Calibrated(limited, gate_between(_worst(measured, views), mistakes, pixels, limited.max_wrong)))
         start = views.stop

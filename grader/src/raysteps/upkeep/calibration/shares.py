@@ -3,7 +3,7 @@
 import hashlib
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from threading import Lock
 
@@ -18,17 +18,9 @@ from raysteps.programs.student_build import Compiled, Program, StudentBuild
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.upkeep.calibration.scenes import View
 from raysteps.upkeep.calibration.settings import Setting
+from raysteps.upkeep.entrants import Entrant
 
 _NO_PICTURE = 1.0
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """A file of the step: the reference, another correct one, or one with a known mistake."""
-
-    name: str
-    source: str
-    correct: bool
 
 
 class PictureShares:
@@ -52,7 +44,7 @@ class PictureShares:
         """How many different ones were rendered."""
         return len(self._known)
 
-    def shares(self, candidate: Candidate, setting: Setting) -> tuple[float, ...]:
+    def shares(self, candidate: Entrant, setting: Setting) -> tuple[float, ...]:
         """One for each view; a program that makes no picture has every pixel wrong."""
         limits = limits_of(self._step, {})
         with tempfile.TemporaryDirectory(prefix="raysteps-") as name:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
-from raysteps.upkeep.truth.entrants import Entrant, alternatives, mutants, reference, stub
+from raysteps.upkeep.entrants import Entrant, alternatives, mutants, reference, stub
 
 _RIGHT_EVERY = 4  # a step is wrong in so many rounds less one, then right
 

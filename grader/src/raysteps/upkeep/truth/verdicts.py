@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from raysteps.results.model import StepResult
-from raysteps.upkeep.truth.entrants import Entrant
+from raysteps.upkeep.entrants import Entrant
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ class Entrant:
 
 def reference(project: Project, step: Step) -> Entrant:
     """The kit's own solution, as a student would hand it in."""
-    return Entrant("reference", step.id, "reference", reference_source(project, step))
+    return Entrant("reference", step.id, "the reference", reference_source(project, step))
 
 
 def stub(project: Project, step: Step) -> Entrant:
@@ -44,6 +44,11 @@ def mutants(project: Project, step: Step) -> list[Entrant]:
     right = reference_source(project, step)
     known = read_mutants(project, step)
     return [Entrant("mutant", step.id, mutant.id, mutant.applied(right), mutant) for mutant in known]
+
+
+def right_ones(project: Project, step: Step) -> list[Entrant]:
+    """The reference, then the other correct ways."""
+    return [reference(project, step), *alternatives(project, step)]
 
 
 def alternatives(project: Project, step: Step) -> list[Entrant]:
