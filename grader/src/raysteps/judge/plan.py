@@ -1,6 +1,5 @@
 """What the judge asks of a step: solutions/NN-name/cases.toml."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -8,7 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.tables import parse_table, read_text
 from raysteps.judge.generators import functions_of
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -96,13 +95,7 @@ def _check_names(plan: Plan, step: Step) -> None:
 
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> Plan:
-    try:
-        table = tomllib.loads(text)
-    except ValueError as error:
-        raise GraderFault(f"{path}: not a plan of hidden cases: {error}") from error
-    problem = complaint(table, read_schema("raysteps.judge", "cases.schema.json"))
-    if problem:
-        raise GraderFault(f"{path}: not a plan of hidden cases: {problem}")
+    table = parse_table(text, path, "a plan of hidden cases", "raysteps.judge", "cases.schema.json")
     plan = Plan(
         tuple(_function(name, function) for name, function in table["functions"].items()),
         tuple(_twin(twin) for twin in table.get("twins", [])),
@@ -117,8 +110,4 @@ def read_plan(project: Project, step: Step) -> Plan | None:
     path = project.solutions / step.id / "cases.toml"
     if not path.is_file():
         return None
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise GraderFault(f"{path}: cannot be read: {error}") from error
-    return _parse(text, step, path)
+    return _parse(read_text(path), step, path)

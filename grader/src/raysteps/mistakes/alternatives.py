@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.tables import read_text
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
@@ -20,8 +20,5 @@ def read_alternatives(project: Project, step: Step) -> tuple[Alternative, ...]:
     """Sorted by name; none in a student's kit, which has no solutions."""
     found = []
     for path in sorted((project.solutions / step.id / "alternatives").glob("*.cpp")):
-        try:
-            found.append(Alternative(path.stem, step.id, path.read_text(encoding="utf-8")))
-        except (OSError, UnicodeDecodeError) as error:
-            raise GraderFault(f"{path}: cannot be read: {error}") from error
+        found.append(Alternative(path.stem, step.id, read_text(path)))
     return tuple(found)

@@ -1,13 +1,12 @@
 """The known mistakes of a step: solutions/NN-name/mutants.toml."""
 
-import tomllib
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.tables import parse_table, read_text
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import without_markers
@@ -62,13 +61,7 @@ def _mutant(step: Step, table: dict[str, Any]) -> Mutant:
 
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> tuple[Mutant, ...]:
-    try:
-        table = tomllib.loads(text)
-    except ValueError as error:
-        raise GraderFault(f"{path}: not a catalogue of mistakes: {error}") from error
-    problem = complaint(table, read_schema("raysteps.mistakes", "mutants.schema.json"))
-    if problem:
-        raise GraderFault(f"{path}: not a catalogue of mistakes: {problem}")
+    table = parse_table(text, path, "a catalogue of mistakes", "raysteps.mistakes", "mutants.schema.json")
     mutants = tuple(_mutant(step, entry) for entry in table["mutants"])
     names = [mutant.id for mutant in mutants]
     twice = next((name for name in names if names.count(name) > 1), None)
@@ -82,8 +75,4 @@ def read_mutants(project: Project, step: Step) -> tuple[Mutant, ...]:
     path = project.solutions / step.id / "mutants.toml"
     if not path.is_file():
         return ()
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise GraderFault(f"{path}: cannot be read: {error}") from error
-    return _parse(text, step, path)
+    return _parse(read_text(path), step, path)
