@@ -14,7 +14,7 @@ from raysteps.programs.pictures import Pixels
 GOOD = 0.7  # of the wrong cases of a function: from there on a mistake explains it
 _GOOD_PICTURE = 0.8  # of the wrong pixels
 _GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictures that are wrong
-_GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture is explained
+GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture is explained
 _GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
 _ANOTHER = 0.2  # of the cases of its own function: below, that is wrong in another way; the same words alone give 0.25
 _NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures name
@@ -69,7 +69,7 @@ class Match:
         drawn = self._drawn()
         telling = drawn.keys() & self.telling
         if one.weak:
-            return GOOD if telling else _GOOD_WEAK
+            return GOOD if telling else GOOD_WEAK
         if self.telling - set(told) and not telling:
             return _GOOD_AGAINST_PICTURES
         return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import combinations
 
-from raysteps.diagnosis.matching import GOOD, Agreement, Match
+from raysteps.diagnosis.matching import GOOD, GOOD_WEAK, Agreement, Match
 
 _SAME = 0.6  # of a case from which on the answers are taken for the same
 _OWN = 4  # cases that only this one of the two explains
@@ -32,4 +32,5 @@ def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | 
         if one.mutant.id != other.mutant.id
     ]
     best = max(scored, key=lambda item: item[0], default=None)
-    return best[1] if best is not None and best[0] >= GOOD else None
+    least = GOOD_WEAK if any(match.functions[function].weak for match in here) else GOOD
+    return best[1] if best is not None and best[0] >= least else None
