@@ -57,7 +57,7 @@ def python_checks(project: Project) -> list[Check]:
 
 
 def run_pytest(project: Project, marked: str) -> Report:
-    words: list[str | Path] = [sys.executable, "-m", "pytest", "-q", "-m", marked]
+    words: list[str | Path] = [sys.executable, "-m", "pytest", "-q", "-n", "auto", "--dist", "worksteal", "-m", marked]
     return command(words, project.root / "grader", _PYTEST_SECONDS)
 
 
