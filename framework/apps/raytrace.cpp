@@ -1,13 +1,12 @@
 // raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 #include "apps/options.hpp"
 #include "apps/spd_report.hpp"
 #include "apps/stats_json.hpp"
 #include "apps/terminal.hpp"
+#include "core/threads.hpp"
 #include "io/nff_reader.hpp"
 #include "io/ppm.hpp"
 #include "io/read_error.hpp"
@@ -19,10 +18,6 @@ namespace {
 using namespace raysteps;
 
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
-
-int thread_count(const RaytraceOptions& options) {
-    return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
     return options.acceleration.value_or(options.step < 6 && !options.spd ? Acceleration::none : Acceleration::octree);
@@ -37,14 +32,14 @@ void check_crop(const Rect& crop, const Camera& camera) {
 
 void print_spd_counts(const Scene& scene, const RaytraceOptions& options) {
     const auto accelerator = make_accelerator(acceleration_of(options), scene.surfaces());
-    const Stats stats = count_spd_rays(scene, *accelerator, thread_count(options));
+    const Stats stats = count_spd_rays(scene, *accelerator, default_threads());
     std::fputs(spd_report(std::filesystem::path(options.scene).stem().string(), stats).c_str(), stdout);
 }
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
     RenderOptions render_options{{options.step, options.view, options.depth},
                                  acceleration_of(options),
-                                 thread_count(options),
+                                 default_threads(),
                                  options.crop,
                                  !options.quiet && stderr_is_terminal()};
     const Rendering rendering = render(scene, render_options);
@@ -55,6 +50,9 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
 }
 
 void run(const RaytraceOptions& options) {
+    if (options.threads > 0) {
+        set_default_threads(options.threads);
+    }
     Scene scene = read_nff(std::filesystem::path(options.scene));
     if (options.size) {
         scene.camera.width = options.size->width;

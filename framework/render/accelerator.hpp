@@ -1,5 +1,6 @@
 #pragma once
 // The structures that the renderer can look for hits with. All give the same hits.
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -14,12 +15,27 @@ enum class Acceleration {
     octree,  ///< the tree of step 06
 };
 
+/// What a structure costs before the first ray.
+struct StructureSize {
+    std::uint64_t boxes = 0;
+    std::uint64_t references = 0;  ///< entries in the lists of its boxes; a surface may be in several
+    std::uint64_t bytes = 0;       ///< of boxes and lists, without the surfaces themselves
+};
+
 class Accelerator {
 public:
     virtual ~Accelerator() = default;
 
     /// The nearest hit with distance > 0, or nothing. Safe to call from many threads at once.
     [[nodiscard]] virtual std::optional<HitRecord> closest_hit(const Ray& ray) const = 0;
+
+    /// Whether any surface is hit nearer than `distance`.
+    [[nodiscard]] virtual bool any_hit(const Ray& ray, float distance) const {
+        const std::optional<HitRecord> hit = closest_hit(ray);
+        return hit && hit->distance < distance;
+    }
+
+    [[nodiscard]] virtual StructureSize size() const { return {}; }
 
 protected:
     Accelerator() = default;

@@ -6,7 +6,7 @@
 
 #include "render/encode.hpp"
 #include "render/progress.hpp"
-#include "render/threads.hpp"
+#include "core/threads.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "core/tracer.hpp"
-#include "render/threads.hpp"
+#include "core/threads.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"

@@ -11,7 +11,18 @@
 namespace raysteps {
 
 std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) {
-    const std::optional<HitRecord> hit = accelerator_.closest_hit(ray);
+    std::optional<HitRecord> hit = accelerator_.closest_hit(ray);
+    count(hit.has_value());
+    return hit;
+}
+
+bool StepTracer::any_hit(const Ray& ray, float distance) {
+    const bool hit = accelerator_.any_hit(ray, distance);
+    count(hit);
+    return hit;
+}
+
+void StepTracer::count(bool hit) {
     Stats& stats = thread_stats();
     switch (next_) {
         case RayKind::eye:
@@ -20,7 +31,7 @@ std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) {
             break;
         case RayKind::shadow:
             ++stats.shadow;
-            return hit;
+            return;
         case RayKind::reflect:
             ++stats.reflect;
             break;
@@ -29,7 +40,6 @@ std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) {
             break;
     }
     next_ = RayKind::reflect;  // what step 05 casts after the ray that it was given
-    return hit;
 }
 
 std::vector<Light> StepTracer::lights_that_reach(const HitRecord& hit) {

@@ -25,6 +25,7 @@ public:
     [[nodiscard]] Color primary_color(const Ray& ray);
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) override;
     [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return options_.max_ray_depth; }
@@ -33,6 +34,7 @@ public:
 private:
     enum class RayKind { eye, shadow, reflect, refract };
 
+    void count(bool hit);
     [[nodiscard]] std::vector<Light> lights_that_reach(const HitRecord& hit);
     [[nodiscard]] Color surface_color(const HitRecord& hit) const;
 

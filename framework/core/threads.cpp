@@ -1,0 +1,53 @@
+#include "core/threads.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace raysteps {
+namespace {
+
+std::atomic<int>& chosen_threads() {
+    static std::atomic<int> count{std::max(1, static_cast<int>(std::thread::hardware_concurrency()))};
+    return count;
+}
+
+}  // namespace
+
+int default_threads() { return chosen_threads(); }
+
+void set_default_threads(int count) { chosen_threads() = std::max(1, count); }
+
+void run_on_threads(int count, const std::function<void()>& work) {
+    std::exception_ptr failed;
+    std::mutex guard;
+    const auto guarded = [&] {
+        try {
+            work();
+        } catch (...) {
+            const std::lock_guard lock(guard);
+            failed = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    try {
+        for (int i = 1; i < count; ++i) {
+            others.emplace_back(guarded);
+        }
+    } catch (const std::system_error&) {
+        // fewer threads than asked for: slower, and the same result
+    }
+    guarded();
+    for (std::thread& other : others) {
+        other.join();
+    }
+    if (failed) {
+        std::rethrow_exception(failed);
+    }
+}
+
+}  // namespace raysteps
