@@ -176,21 +176,42 @@ void ask_build_octree(Words& words, Answer& answer) {
     write_tree(answer, build_octree(scene.surfaces()), scene.surfaces());
 }
 
+std::vector<Ray> read_rays(Words& words) {
+    std::vector<Ray> rays;
+    for (int left = words.count(); left > 0; --left) {
+        rays.push_back(read_ray(words));
+    }
+    return rays;
+}
+
 // Whose tree (1: of the step's own build_octree), surfaces, rays. For each ray the surfaces asked, and the hit.
 void ask_closest_hit_in(Words& words, Answer& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
-    std::vector<Ray> rays;
-    for (int left = words.count(); left > 0; --left) {
-        rays.push_back(read_ray(words));
-    }
+    const std::vector<Ray> rays = read_rays(words);
     const Node root = own ? build_octree(scene.surfaces()) : simple_tree(scene.surfaces());
     for (const Ray& ray : rays) {
         const long long before = asked.times;
         const std::optional<HitRecord> hit = closest_hit_in(root, ray);
         answer.whole(asked.times - before);
         write_hit(answer, hit);
+    }
+}
+
+// The same, with a distance at the end that counts for all rays. For each ray the surfaces asked, and 0 or 1.
+void ask_any_hit_in(Words& words, Answer& answer) {
+    Asked asked;
+    const bool own = words.flag();
+    const Scene scene = read_surfaces(words, asked);
+    const std::vector<Ray> rays = read_rays(words);
+    const float distance = words.number();
+    const Node root = own ? build_octree(scene.surfaces()) : simple_tree(scene.surfaces());
+    for (const Ray& ray : rays) {
+        const long long before = asked.times;
+        const bool hit = any_hit_in(root, ray, distance);
+        answer.whole(asked.times - before);
+        answer.whole(hit ? 1 : 0);
     }
 }
 
@@ -249,6 +270,7 @@ const std::map<std::string_view, Function> k_functions{
     {"split", ask_split},
     {"build_octree", ask_build_octree},
     {"closest_hit_in", ask_closest_hit_in},
+    {"any_hit_in", ask_any_hit_in},
     {"tone_map", ask_tone_map},
     {"to_byte", ask_to_byte},
     {"refract", ask_refract},

@@ -1,5 +1,7 @@
 #include "render/accelerator.hpp"
 
+#include <algorithm>
+
 #include "render/paper_boxes.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
@@ -7,12 +9,23 @@
 namespace raysteps {
 namespace {
 
+bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
+    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface* surface) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        return hit && hit->distance < distance;
+    });
+}
+
 class BruteForce final : public Accelerator {
 public:
     explicit BruteForce(const SurfaceList& surfaces) : surfaces_(surfaces) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return raysteps::closest_hit(surfaces_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return any_of_list(surfaces_, ray, distance);
     }
 
 private:
@@ -25,6 +38,10 @@ public:
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return closest_hit_in(root_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return any_hit_in(root_, ray, distance);
     }
 
 private:

@@ -1,6 +1,9 @@
 // All structures give brute force's hits, to the last bit.
 #include "render/accelerator.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
 #include "core/stats.hpp"
@@ -64,6 +67,55 @@ TEST_CASE("Boxes and octree find what brute force finds", "[render][accelerator]
         INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
         check_same(brute->closest_hit(ray), other->closest_hit(ray));
     }
+}
+
+TEST_CASE("Whether anything is nearer than a distance, all structures say as the closest hit does",
+          "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    const int surfaces = GENERATE(0, 1, 7, 60, 400);
+    const float size = GENERATE(0.5F, 5.0F);
+    const Scene scene = random_scene(random, surfaces, size);
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    const auto other = make_accelerator(GENERATE(Acceleration::none, Acceleration::boxes, Acceleration::octree),
+                                        scene.surfaces());
+    constexpr float k_infinity = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < 2000; ++i) {
+        const Ray ray = any_ray(random, i);
+        const std::optional<HitRecord> closest = brute->closest_hit(ray);
+        INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
+        CHECK(other->any_hit(ray, k_infinity) == closest.has_value());
+        CHECK_FALSE(other->any_hit(ray, 0.0F));
+        const float between = random.uniform(0.0F, 30.0F);
+        CHECK(other->any_hit(ray, between) == (closest && closest->distance < between));
+        if (closest) {
+            INFO("closest hit at " << closest->distance);
+            CHECK_FALSE(other->any_hit(ray, std::nextafter(closest->distance, 0.0F)));
+            CHECK_FALSE(other->any_hit(ray, closest->distance));
+            CHECK(other->any_hit(ray, std::nextafter(closest->distance, k_infinity)));
+        }
+    }
+}
+
+TEST_CASE("A search for any hit ends sooner than one for the closest", "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    const Scene scene = random_scene(random, 400, 2.0F);
+    const auto structure =
+        make_accelerator(GENERATE(Acceleration::none, Acceleration::boxes, Acceleration::octree), scene.surfaces());
+    std::uint64_t closest_tests = 0;
+    std::uint64_t any_tests = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray = random.ray(5.0F);
+        const std::uint64_t start = thread_stats().surface_tests;
+        static_cast<void>(structure->closest_hit(ray));
+        const std::uint64_t middle = thread_stats().surface_tests;
+        static_cast<void>(structure->any_hit(ray, 100.0F));
+        closest_tests += middle - start;
+        any_tests += thread_stats().surface_tests - middle;
+    }
+    CHECK(any_tests > 0);
+    CHECK(any_tests < closest_tests);
 }
 
 TEST_CASE("Many copies of one triangle do not make the octree grow without end", "[render][accelerator]") {

@@ -10,7 +10,7 @@ from raysteps.judge.surfaces import Surfaces
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Inputs, Ray
 
-_MOST_RAYS = 1000
+MOST_RAYS = 1000
 _MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
 
 
@@ -47,7 +47,7 @@ class Search:
 def _read(tokens: Tokens) -> tuple[Search, ...]:
     searches: list[Search] = []
     while not tokens.at_end():
-        if len(searches) == _MOST_RAYS:
+        if len(searches) == MOST_RAYS:
             raise Garbled("the answer is too long")
         searches.append(Search(tokens.whole(), read_hit(tokens)))
     return tuple(searches)
@@ -63,18 +63,24 @@ def _one_problem(expected: Search, actual: Search) -> str:
     return first(found_problem(expected.found, actual.found), "a hit came without asking a surface" if unasked else "")
 
 
-def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
+def too_many_asked(inputs: Inputs, asked: Sequence[int]) -> str:
+    """Where there are many rays, the boxes must spare them most of the surfaces."""
     surfaces = inputs["surfaces"]
     assert isinstance(surfaces, Surfaces)
-    if len(expected) != len(actual):
-        return "no proper answer came"
-    problem = first(*(_one_problem(*pair) for pair in zip(expected, actual, strict=True)))
-    asked = sum(search.asked for search in actual)
-    if not problem and len(actual) > 1 and asked > _MOST_ASKED * len(surfaces.surfaces) * len(actual):
+    if len(asked) > 1 and sum(asked) > _MOST_ASKED * len(surfaces.surfaces) * len(asked):
         return Wasteful(
             "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
         )
-    return problem
+    return ""
+
+
+def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
+    if len(expected) != len(actual):
+        return "no proper answer came"
+    return first(
+        *(_one_problem(*pair) for pair in zip(expected, actual, strict=True)),
+        too_many_asked(inputs, [search.asked for search in actual]),
+    )
 
 
 SEARCHES = Answer(_read, _words, _problem)
