@@ -86,7 +86,7 @@ def _balls_in_a_row(draw: Draw) -> Inputs:
         direction = draw.slanted() if far == near else rounded(unit(add(minus(far, near), draw.point(0.3))))
         return far, near, direction, add(far, direction, draw.real(1, 5))
 
-    def costs_a_hastysearch(found: tuple[Vector, Vector, Vector, Vector]) -> bool:
+    def costs_a_hasty_search(found: tuple[Vector, Vector, Vector, Vector]) -> bool:
         far, near, _, beyond = found
         inside = max(abs(x) for x in beyond) < _EDGE
         return inside and _eighth(far) < _eighth(beyond) < _eighth(near)
