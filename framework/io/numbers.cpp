@@ -40,12 +40,12 @@ struct Decimal {
 
 /// Takes the digits from there, and says where they end.
 std::size_t take_digits(std::string_view text, std::size_t from, Decimal& decimal) {
-    const std::size_t end = skip_digits(text, from);
-    for (std::size_t i = from; i < end; ++i) {
-        decimal.digits = 10 * decimal.digits + static_cast<std::uint64_t>(text[i] - '0');
+    std::size_t at = from;
+    for (; at < text.size() && is_digit(text[at]); ++at) {
+        decimal.digits = 10 * decimal.digits + static_cast<std::uint64_t>(text[at] - '0');
     }
-    decimal.count += end - from;
-    return end;
+    decimal.count += at - from;
+    return at;
 }
 
 /// `e` and a whole number that ends the text; nothing for any other text. At most 99999, or as much below 0.
