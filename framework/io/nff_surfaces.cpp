@@ -42,9 +42,7 @@ SmoothTriangle::Corner read_smooth_corner(TokenScanner& scanner) {
     return {position, read_normal(scanner)};
 }
 
-int read_count(TokenScanner& scanner) {
-    return FieldReader(scanner).whole("number of vertices", 3, k_most_corners);
-}
+int read_count(TokenScanner& scanner) { return FieldReader(scanner).whole("number of vertices", 3, k_most_corners); }
 
 // Large scenes are made of triangles: they need no lists.
 void read_triangle(TokenScanner& scanner, const Fill& fill, Scene& scene) {
