@@ -40,6 +40,19 @@ Ray any_ray(Random& random, int i) {
     return ray;
 }
 
+/// Rays that run in the faces of the surfaces' own boxes, where rounding decides on which side they are.
+Ray ray_in_a_face(Random& random, const Scene& scene, int i) {
+    const SurfaceList& surfaces = scene.surfaces();
+    const Box box = surfaces[static_cast<std::size_t>(i) % surfaces.size()]->bounds();
+    const int along = i % 3;
+    const int across = (along + 1) % 3;
+    Ray ray{0.5F * (box.min + box.max), glm::vec3(0.0F)};
+    ray.direction[along] = i % 2 == 0 ? 1.0F : -1.0F;
+    ray.origin[along] -= ray.direction[along] * random.uniform(0.0F, 20.0F);
+    ray.origin[across] = i % 4 < 2 ? box.min[across] : box.max[across];
+    return ray;
+}
+
 void check_same(const std::optional<HitRecord>& expected, const std::optional<HitRecord>& actual) {
     REQUIRE(actual.has_value() == expected.has_value());
     if (expected) {
@@ -51,22 +64,27 @@ void check_same(const std::optional<HitRecord>& expected, const std::optional<Hi
 
 }  // namespace
 
-TEST_CASE("Boxes and octree find what brute force finds", "[render][accelerator]") {
+TEST_CASE("Boxes, octree and bounding volumes find what brute force finds", "[render][accelerator]") {
     Random random;
     INFO(random);
     const int surfaces = GENERATE(0, 1, 7, 60, 400);
     const float size = GENERATE(0.5F, 5.0F);
     const Scene scene = random_scene(random, surfaces, size);
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
-    const auto other = make_accelerator(GENERATE(Acceleration::boxes, Acceleration::octree), scene.surfaces());
+    const auto other = make_accelerator(GENERATE(Acceleration::boxes, Acceleration::octree, Acceleration::bvh),
+                                        scene.surfaces());
     for (int i = 0; i < 2000; ++i) {
-        const Ray ray = any_ray(random, i);
+        const Ray ray = i % 5 == 4 && surfaces > 0 ? ray_in_a_face(random, scene, i) : any_ray(random, i);
         INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
-        check_same(brute->closest_hit(ray), other->closest_hit(ray));
+        const std::optional<HitRecord> hit = brute->closest_hit(ray);
+        check_same(hit, other->closest_hit(ray));
+        const float distance = hit && i % 3 == 0 ? hit->distance : random.uniform(0.0F, 30.0F);
+        INFO("any hit nearer than " << distance);
+        CHECK(other->any_hit(ray, distance) == (hit && hit->distance < distance));
     }
 }
 
-TEST_CASE("Many copies of one triangle do not make the octree grow without end", "[render][accelerator]") {
+TEST_CASE("Many copies of one triangle do not make a tree grow without end", "[render][accelerator]") {
     Scene scene;
     for (int i = 0; i < 3000; ++i) {
         Fill fill;
@@ -74,8 +92,9 @@ TEST_CASE("Many copies of one triangle do not make the octree grow without end",
         scene.add(std::make_unique<Triangle>(glm::vec3(0.0F), glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 1.0F, 0.0F),
                                              fill));
     }
-    const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
-    const auto hit = octree->closest_hit({{0.2F, 0.2F, 3.0F}, {0.0F, 0.0F, -1.0F}});
+    const auto tree = make_accelerator(GENERATE(Acceleration::octree, Acceleration::bvh), scene.surfaces());
+    const auto hit = tree->closest_hit({{0.2F, 0.2F, 3.0F}, {0.0F, 0.0F, -1.0F}});
+    CHECK(tree->size().boxes < 3000);
     REQUIRE(hit);
     INFO("of coincident surfaces the first in the scene counts, as with brute force");
     CHECK(hit->fill.kd == 0.0F);
@@ -97,26 +116,45 @@ TEST_CASE("A huge ground and small squares in the same plane: the first in the s
         add_square(static_cast<float>(i % 5), static_cast<float>(i / 5), 0.25F, 1.0F);
     }
     add_square(-8.0F, -8.0F, 32.0F, 2.0F);  // the ground comes last, so the squares are seen
-    const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
+    const auto tree = make_accelerator(GENERATE(Acceleration::octree, Acceleration::bvh), scene.surfaces());
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
     for (int i = 0; i < 400; ++i) {
         const Ray ray{{0.05F + 0.25F * static_cast<float>(i % 20), 0.1F + 0.25F * static_cast<float>(i / 20), 4.0F},
                       {0.0F, 0.0F, -1.0F}};
         INFO("ray " << i);
-        check_same(brute->closest_hit(ray), octree->closest_hit(ray));
+        check_same(brute->closest_hit(ray), tree->closest_hit(ray));
     }
 }
 
-TEST_CASE("The octree spares nearly all tests", "[render][accelerator]") {
+TEST_CASE("The trees spare nearly all tests", "[render][accelerator]") {
     Random random;
     INFO(random);
     const Scene scene = random_scene(random, 2000, 0.3F);
-    const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
+    const auto tree = make_accelerator(GENERATE(Acceleration::octree, Acceleration::bvh), scene.surfaces());
     const auto tests_before = thread_stats().surface_tests;
     constexpr int k_rays = 1000;
     for (int i = 0; i < k_rays; ++i) {
-        static_cast<void>(octree->closest_hit(random.ray(15.0F)));
+        static_cast<void>(tree->closest_hit(random.ray(15.0F)));
     }
     const auto tests = thread_stats().surface_tests - tests_before;
     CHECK(tests < k_rays * scene.surfaces().size() / 50);
+}
+
+TEST_CASE("Each structure tells its size", "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    const Scene scene = random_scene(random, 300, 0.5F);
+    const StructureSize none = make_accelerator(Acceleration::none, scene.surfaces())->size();
+    CHECK(none.boxes + none.references + none.bytes == 0);
+    const StructureSize boxes = make_accelerator(Acceleration::boxes, scene.surfaces())->size();
+    CHECK(boxes.boxes == 1 + 8 + 64);
+    CHECK(boxes.references >= 300);
+    const StructureSize octree = make_accelerator(Acceleration::octree, scene.surfaces())->size();
+    CHECK(octree.references >= 300);
+    CHECK(octree.bytes > octree.boxes * sizeof(Box));
+    const StructureSize bvh = make_accelerator(Acceleration::bvh, scene.surfaces())->size();
+    INFO("each surface is in one leaf");
+    CHECK(bvh.references == 300);
+    CHECK(bvh.boxes > 30);
+    CHECK(bvh.bytes > bvh.boxes * sizeof(Box));
 }
