@@ -4,6 +4,7 @@
 // Where to cut a box into two is chosen by what the cut costs: the surface area heuristic (MacDonald and Booth 1990).
 // BvhNode and Bvh are in core/bvh.hpp.
 #include <cstddef>
+#include <optional>
 
 #include "core/bvh.hpp"
 #include "core/hit_record.hpp"
@@ -31,7 +32,8 @@ inline constexpr int k_most_bvh_levels = 64;
 /// How the surfaces are divided is yours to choose; in a scene of many, leaves have to be small.
 [[nodiscard]] Bvh build_bvh(const SurfaceList& surfaces);
 
-/// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Ask a box with
+/// The same answer as closest_hit over all surfaces of the tree, with fewer tests: of two hits at the same distance the
+/// surface with the smaller order() counts, and what begins behind the nearest hit is not searched. Ask a box with
 /// box.hit(ray) and a surface with surface->hit(ray): they count.
 [[nodiscard]] std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray);
 

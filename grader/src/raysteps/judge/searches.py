@@ -26,6 +26,12 @@ class WhoseTree:
 
 
 @dataclass(frozen=True)
+class WhoseBvh(WhoseTree):
+    def words(self) -> str:
+        return "made by build_bvh" if self.own else "lists halved along x, y and z in turn, up to 3 surfaces in a leaf"
+
+
+@dataclass(frozen=True)
 class Rays:
     rays: tuple[Ray, ...]
 
