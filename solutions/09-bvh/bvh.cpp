@@ -36,7 +36,7 @@ struct Item {
     Box bounds;
     const Surface* surface = nullptr;
 
-    [[nodiscard]] float twice_middle(int axis) const { return bounds.min[axis] + bounds.max[axis]; }
+    [[nodiscard]] glm::vec3 twice_middle() const { return bounds.min + bounds.max; }
 };
 
 /// Puts the middles of surfaces along one axis into bins of equal width.
@@ -46,7 +46,7 @@ struct Binning {
     float bins_per_length = 0.0F;
 
     [[nodiscard]] std::size_t bin_of(const Item& item) const {
-        const auto bin = static_cast<std::size_t>((item.twice_middle(axis) - low) * bins_per_length);
+        const auto bin = static_cast<std::size_t>((item.twice_middle()[axis] - low) * bins_per_length);
         return std::min(bin, k_bins - 1);
     }
 };
@@ -121,10 +121,8 @@ private:
         BvhNode& node = nodes_[range.node];
         Box middles;
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            const Box& bounds = items_[i].bounds;
-            grow(node.box, bounds);
-            const glm::vec3 twice_middle = bounds.min + bounds.max;
-            grow(middles, {twice_middle, twice_middle});
+            grow(node.box, items_[i].bounds);
+            grow(middles, {items_[i].twice_middle(), items_[i].twice_middle()});
         }
         const Cut cut = range.level < k_levels_by_cost ? best_cut(range, middles, node.box) : Cut{};
         const auto size = static_cast<float>(range.size());
@@ -147,7 +145,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const float low = middles.min[axis];
             const float bins_per_length = static_cast<float>(k_bins) / (middles.max[axis] - low);
-            if (!(bins_per_length < std::numeric_limits<float>::max()) || bins_per_length <= 0.0F) {
+            if (!(bins_per_length > 0.0F && bins_per_length < std::numeric_limits<float>::infinity())) {
                 continue;  // no width, or as good as none
             }
             const Binning binning{axis, low, bins_per_length};
