@@ -49,7 +49,7 @@ class Found:
 
 
 def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int]) -> str:
-    """Where there are many rays only: then most surfaces must be spared, and in a tree that is given nearly all that can."""
+    """Of many rays: most surfaces must be spared them, and in a tree that is given nearly all that can be."""
     surfaces, tree = inputs["surfaces"], inputs["tree"]
     assert isinstance(surfaces, Surfaces)
     assert isinstance(tree, WhoseTree)

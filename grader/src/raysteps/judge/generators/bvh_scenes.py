@@ -21,8 +21,8 @@ def _ball(draw: Draw, place: tuple[float, float, float], reach: float, low: int,
 
 
 def _clusters(draw: Draw) -> Inputs:
-    """Three heaps far from one another, of very different size: half of the list, or of the box, is a poor cut."""
-    sizes = (draw.whole(3, 8), draw.whole(20, 30), draw.whole(60, 80))
+    """Three heaps far from one another, of very different size."""
+    sizes = (draw.whole(3, 8), draw.whole(15, 20), draw.whole(35, 45))
     places = ((-20.0, -4.0, 0.0), (2.0, 3.0, 8.0), (9.0, -3.0, -6.0))
     return _scene(
         tuple(_ball(draw, place, 1.5, 4, 12) for place, n in zip(places, sizes, strict=True) for _ in range(n))
