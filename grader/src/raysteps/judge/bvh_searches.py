@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 from raysteps.judge.answers import Answer, Wasteful, first
 from raysteps.judge.numbers import Number, text
-from raysteps.judge.searches import SEARCHES, Search, WhoseTree
+from raysteps.judge.searches import SEARCHES, Search, WhoseTree, one_problem
 from raysteps.judge.surfaces import Surfaces
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Inputs, Ray
 
 _MOST_RAYS = 1000
 _MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
+_ALL_ASKED = 0.9  # no tree at all, or a single leaf: a poor tree spares the rays more than that
 _MOST_TIMES = 2.0  # what the reference asks, in a tree that is given
 
 
@@ -55,17 +56,19 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
     assert isinstance(tree, WhoseTree)
     if len(actual) < 2:
         return ""
-    if sum(actual) > _MOST_ASKED * len(surfaces.surfaces) * len(actual):
-        return Wasteful(
-            "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
-        )
+    share = sum(actual) / (len(surfaces.surfaces) * len(actual))
+    if share > _MOST_ASKED:
+        said = "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
+        return Wasteful(said) if share > _ALL_ASKED else said
     if not tree.own and sum(actual) > _MOST_TIMES * sum(expected):
         return "the hits are right, but surfaces were asked that the tree could have spared the rays"
     return ""
 
 
 def _closest_problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
-    problem = SEARCHES.problem(inputs, expected, actual)
+    if len(expected) != len(actual):
+        return "no proper answer came"
+    problem = first(*(one_problem(*pair) for pair in zip(expected, actual, strict=True)))
     return problem or work_problem(inputs, [search.asked for search in expected], [search.asked for search in actual])
 
 

@@ -64,7 +64,7 @@ def _words(searches: Sequence[Search]) -> str:
     return "; ".join(shown) + ("; and more" if len(searches) > 2 else "") or "nothing"
 
 
-def _one_problem(expected: Search, actual: Search) -> str:
+def one_problem(expected: Search, actual: Search) -> str:
     unasked = actual.found.hit is not None and actual.asked == 0
     return first(found_problem(expected.found, actual.found), "a hit came without asking a surface" if unasked else "")
 
@@ -74,7 +74,7 @@ def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search,
     assert isinstance(surfaces, Surfaces)
     if len(expected) != len(actual):
         return "no proper answer came"
-    problem = first(*(_one_problem(*pair) for pair in zip(expected, actual, strict=True)))
+    problem = first(*(one_problem(*pair) for pair in zip(expected, actual, strict=True)))
     asked = sum(search.asked for search in actual)
     if not problem and len(actual) > 1 and asked > _MOST_ASKED * len(surfaces.surfaces) * len(actual):
         return Wasteful(
