@@ -4,7 +4,9 @@
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
 #include "core/stats.hpp"
+#include "core/threads.hpp"
 #include "core/triangle.hpp"
+#include "steps/09-bvh/bvh.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -157,4 +159,28 @@ TEST_CASE("Each structure tells its size", "[render][accelerator]") {
     CHECK(bvh.references == 300);
     CHECK(bvh.boxes > 30);
     CHECK(bvh.bytes > bvh.boxes * sizeof(Box));
+}
+
+TEST_CASE("The bounding volumes are the same for any number of threads", "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    Scene scene = random_scene(random, 6000, 0.3F);
+    for (int i = 0; i < 6000; ++i) {
+        scene.add(std::make_unique<Sphere>(glm::vec3(1.0F), 1.0F, Fill{}));  // all in one place
+    }
+    const int before = default_threads();
+    set_default_threads(1);
+    const Bvh alone = build_bvh(scene.surfaces());
+    set_default_threads(3);
+    const Bvh together = build_bvh(scene.surfaces());
+    set_default_threads(before);
+    CHECK(alone.surfaces == together.surfaces);
+    REQUIRE(alone.nodes.size() == together.nodes.size());
+    bool same = true;
+    for (std::size_t i = 0; i < alone.nodes.size(); ++i) {
+        const BvhNode& a = alone.nodes[i];
+        const BvhNode& b = together.nodes[i];
+        same = same && a.first == b.first && a.count == b.count && a.box.min == b.box.min && a.box.max == b.box.max;
+    }
+    CHECK(same);
 }
