@@ -5,6 +5,7 @@
 #include "render/paper_boxes.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
+#include "steps/09-bvh/bvh.hpp"
 
 namespace raysteps {
 namespace {
@@ -43,9 +44,42 @@ public:
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
         return any_hit_in(root_, ray, distance);
     }
+    [[nodiscard]] StructureSize size() const override { return size_below(root_); }
 
 private:
+    static StructureSize size_below(const Node& node) {
+        StructureSize sum{1, node.surfaces.size(), sizeof(Node) + node.surfaces.size() * sizeof(const Surface*)};
+        for (const Node& child : node.children) {
+            const StructureSize below = size_below(child);
+            sum.boxes += below.boxes;
+            sum.references += below.references;
+            sum.bytes += below.bytes;
+        }
+        return sum;
+    }
+
     Node root_;
+};
+
+class BoundingVolumes final : public Accelerator {
+public:
+    explicit BoundingVolumes(const SurfaceList& surfaces) : bvh_(build_bvh(surfaces)) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return closest_hit_in_bvh(bvh_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return any_hit_in_bvh(bvh_, ray, distance);
+    }
+
+    [[nodiscard]] StructureSize size() const override {
+        return {bvh_.nodes.size(), bvh_.surfaces.size(),
+                bvh_.nodes.size() * sizeof(BvhNode) + bvh_.surfaces.size() * sizeof(const Surface*)};
+    }
+
+private:
+    Bvh bvh_;
 };
 
 }  // namespace
@@ -58,6 +92,8 @@ std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceLi
             return std::make_unique<PaperBoxes>(surfaces);
         case Acceleration::octree:
             return std::make_unique<Octree>(surfaces);
+        case Acceleration::bvh:
+            return std::make_unique<BoundingVolumes>(surfaces);
     }
     return nullptr;
 }

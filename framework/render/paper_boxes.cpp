@@ -107,4 +107,18 @@ bool PaperBoxes::any_hit(const Ray& ray, float distance) const {
     });
 }
 
+StructureSize PaperBoxes::size() const {
+    StructureSize sum{1, 0, sizeof middle_ + sizeof main_};
+    for (const Middle& middle : middle_) {
+        sum.boxes += 1 + middle.small.size();
+        for (const Small& small : middle.small) {
+            sum.bytes += small.members.size() * sizeof(std::uint64_t);
+            for (const std::uint64_t word : small.members) {
+                sum.references += static_cast<std::uint64_t>(std::popcount(word));
+            }
+        }
+    }
+    return sum;
+}
+
 }  // namespace raysteps

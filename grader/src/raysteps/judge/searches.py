@@ -26,6 +26,12 @@ class WhoseTree:
 
 
 @dataclass(frozen=True)
+class WhoseBvh(WhoseTree):
+    def words(self) -> str:
+        return "made by build_bvh" if self.own else "lists halved along x, y and z in turn, up to 3 surfaces in a leaf"
+
+
+@dataclass(frozen=True)
 class Rays:
     rays: tuple[Ray, ...]
 
@@ -58,7 +64,7 @@ def _words(searches: Sequence[Search]) -> str:
     return "; ".join(shown) + ("; and more" if len(searches) > 2 else "") or "nothing"
 
 
-def _one_problem(expected: Search, actual: Search) -> str:
+def one_problem(expected: Search, actual: Search) -> str:
     unasked = actual.found.hit is not None and actual.asked == 0
     return first(found_problem(expected.found, actual.found), "a hit came without asking a surface" if unasked else "")
 
@@ -78,7 +84,7 @@ def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search,
     if len(expected) != len(actual):
         return "no proper answer came"
     return first(
-        *(_one_problem(*pair) for pair in zip(expected, actual, strict=True)),
+        *(one_problem(*pair) for pair in zip(expected, actual, strict=True)),
         too_many_asked(inputs, [search.asked for search in actual]),
     )
 

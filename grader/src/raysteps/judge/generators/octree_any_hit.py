@@ -4,7 +4,7 @@ from raysteps.judge.any_hits import ANY_HITS
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.generators.octree_scenes import large_and_small, small_scene
-from raysteps.judge.generators.octree_searches import BALLS, aimed, search, target_on
+from raysteps.judge.generators.octree_searches import BALLS, aimed, point_within, search
 from raysteps.judge.numbers import add, f32, minus, rounded, times, unit
 from raysteps.judge.surfaces import Surface, Triangle
 from raysteps.judge.values import Inputs, Ray, Real
@@ -26,14 +26,14 @@ def _one_ray(draw: Draw, *, own: bool) -> Inputs:
 def _from_inside(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     origin = draw.point(4)
-    way = minus(target_on(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
+    way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
     return _asked(surfaces, [Ray(origin, rounded(unit(way)))], draw.real(0.5, 6), own=draw.chance(0.5))
 
 
 def _along_axis(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     direction = draw.axis()
-    target = target_on(draw, surfaces[draw.whole(0, 34)])
+    target = point_within(draw, surfaces[draw.whole(0, 34)])
     return _asked(surfaces, [Ray(rounded(add(target, direction, -16)), direction)], draw.real(9, 18), own=False)
 
 

@@ -9,7 +9,7 @@ from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangl
 from raysteps.judge.values import Inputs, Ray
 
 
-def target_on(draw: Draw, surface: Surface) -> Vector:
+def point_within(draw: Draw, surface: Surface) -> Vector:
     """A point well within the surface's outline."""
     if isinstance(surface, Sphere):
         return add(surface.center, draw.direction(), 0.7 * surface.radius * draw.real(0, 1))
@@ -19,7 +19,7 @@ def target_on(draw: Draw, surface: Surface) -> Vector:
 
 def aimed(draw: Draw, surfaces: tuple[Surface, ...], distance: float) -> Ray:
     """At one of the surfaces; something else may stand before it."""
-    return draw.ray_towards(target_on(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), distance)
+    return draw.ray_towards(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), distance)
 
 
 def search(surfaces: tuple[Surface, ...], rays: list[Ray], *, own: bool) -> Inputs:
@@ -35,18 +35,18 @@ def _one_ray(draw: Draw, *, own: bool) -> Inputs:
 def _from_inside(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     origin = draw.point(4)
-    way = minus(target_on(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
+    way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
     return search(surfaces, [Ray(origin, rounded(unit(way)))], own=draw.chance(0.5))
 
 
 def _along_axis(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     direction = draw.axis()
-    target = target_on(draw, surfaces[draw.whole(0, 34)])
+    target = point_within(draw, surfaces[draw.whole(0, 34)])
     return search(surfaces, [Ray(rounded(add(target, direction, -16)), direction)], own=draw.chance(0.5))
 
 
-_SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
+SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
 BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16) - 6), 0.75) for i in range(64))
 
 _EDGE = 6.75  # of the box around the balls
@@ -54,7 +54,7 @@ _EDGE = 6.75  # of the box around the balls
 
 def _later_box(draw: Draw) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
-    return search((_SLOPE, *BALLS), [draw.ray_towards(draw.point(6), 25)], own=draw.chance(0.5))
+    return search((SLOPE, *BALLS), [draw.ray_towards(draw.point(6), 25)], own=draw.chance(0.5))
 
 
 def _ball_before_the_slope(draw: Draw) -> Inputs:
@@ -69,7 +69,7 @@ def _ball_before_the_slope(draw: Draw) -> Inputs:
         return z > (x + y) / 2
 
     center, direction = draw.until(is_above, make)
-    return search((_SLOPE, *BALLS), [Ray(rounded(add(center, direction, -25)), direction)], own=False)
+    return search((SLOPE, *BALLS), [Ray(rounded(add(center, direction, -25)), direction)], own=False)
 
 
 def _eighth(point: Vector) -> int:
