@@ -10,6 +10,7 @@
 #include "bench/replay.hpp"
 #include "bench/spread.hpp"
 #include "bench/structures.hpp"
+#include "bench/workload.hpp"
 #include "core/threads.hpp"
 #include "io/nff_reader.hpp"
 
@@ -60,43 +61,34 @@ Wish read_wish(const std::vector<std::string>& words) {
 struct Side {
     Structure structure;
     std::unique_ptr<Accelerator> accelerator;
-    double build_seconds = 0.0;
     Stats work;
     Agreement agreement;
+    std::vector<double> build_seconds;
     std::vector<double> ns_per_ray;
     std::vector<double> picture_seconds;
 };
 
-struct Workload {
-    Scene scene;
-    StepOptions options;
-    std::vector<RecordedRay> rays;
+/// What is asked, and of whom.
+struct Race {
+    Workload workload;
     std::vector<RecordedRay> sample;
+    std::vector<Side> sides;
 
     [[nodiscard]] const std::vector<RecordedRay>& rays_for(const Side& side) const {
-        return side.structure.slow ? sample : rays;
+        return side.structure.slow ? sample : workload.rays;
     }
 };
 
-Side build(const Structure& structure, const Scene& scene) {
-    Side side;
-    side.structure = structure;
-    const Clock::time_point start = Clock::now();
-    side.accelerator = structure.make(scene.surfaces());
-    side.build_seconds = seconds_since(start);
-    return side;
+Workload read_workload(const Wish& wish) {
+    Workload workload;
+    workload.scene = read_nff(std::filesystem::path(wish.scene));
+    workload.scene.camera.width = wish.size;
+    workload.scene.camera.height = wish.size;
+    workload.options.max_ray_depth = wish.depth;
+    return workload;
 }
 
-void record(Workload& workload, const Accelerator& accelerator, std::size_t n) {
-    thread_stats() = Stats{};
-    const Recorder recorder(accelerator, workload.rays);
-    (void)draw(workload.scene, recorder, workload.options);
-    recorder.finish();
-    workload.sample = every(n, workload.rays);
-}
-
-void check_agreement(const Workload& workload, const Accelerator& expected, Side& side) {
-    const std::vector<RecordedRay>& rays = workload.rays_for(side);
+void check_agreement(const std::vector<RecordedRay>& rays, const Accelerator& expected, Side& side) {
     const Measure measure = side.structure.foreign ? Measure::near : Measure::exact;
     side.agreement = compare(expected, *side.accelerator, rays, measure);
     const double bound = side.structure.foreign ? k_most_differing * static_cast<double>(rays.size()) : 0.0;
@@ -109,24 +101,29 @@ void check_agreement(const Workload& workload, const Accelerator& expected, Side
     }
 }
 
-void measure_once(const Workload& workload, bool pictures, Side& side, bool warm_up) {
-    const std::vector<RecordedRay>& rays = workload.rays_for(side);
+/// Builds, asks all rays, and draws; the first round only warms up.
+void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
+    const Workload& workload = race.workload;
+    const std::vector<RecordedRay>& rays = race.rays_for(side);
+    Clock::time_point start = Clock::now();
+    side.accelerator.reset();
+    side.accelerator = side.structure.make(workload.scene.surfaces());
+    const double build_seconds = seconds_since(start);
     const Replay result = replay(*side.accelerator, rays);
     side.work = result.work;
-    double picture_seconds = 0.0;
     const bool draws = pictures && !side.structure.slow;
+    start = Clock::now();
     if (draws) {
-        const Clock::time_point start = Clock::now();
         (void)draw(workload.scene, *side.accelerator, workload.options);
-        picture_seconds = seconds_since(start);
     }
     if (warm_up) {
         return;
     }
-    side.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(rays.size()));
     if (draws) {
-        side.picture_seconds.push_back(picture_seconds);
+        side.picture_seconds.push_back(seconds_since(start));
     }
+    side.build_seconds.push_back(build_seconds);
+    side.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(rays.size()));
 }
 
 void write_rays(Json& json, const std::vector<RecordedRay>& rays) {
@@ -148,7 +145,8 @@ void write_side(Json& json, const Side& side) {
     const StructureSize size = side.accelerator->size();
     const auto rays = static_cast<double>(side.agreement.rays);
     json.begin_object().field("name", side.structure.name).field("rays", side.agreement.rays);
-    json.field("differing", side.agreement.differing).field("build_seconds", side.build_seconds);
+    json.field("differing", side.agreement.differing).key("build_seconds");
+    write(json, side.build_seconds);
     json.field("boxes", size.boxes).field("references", size.references).field("bytes", size.bytes);
     json.field("surface_tests_per_ray", static_cast<double>(side.work.surface_tests) / rays);
     json.field("box_tests_per_ray", static_cast<double>(side.work.box_tests) / rays);
@@ -163,7 +161,8 @@ void write_side(Json& json, const Side& side) {
     json.end_object();
 }
 
-std::string report(const Wish& wish, const Workload& workload, const std::vector<Side>& sides) {
+std::string report(const Wish& wish, const Race& race) {
+    const Workload& workload = race.workload;
     Json json;
     json.begin_object().field("schema", std::string("raysteps/bench-rays/v1"));
     json.field("scene", std::filesystem::path(wish.scene).stem().string());
@@ -173,7 +172,7 @@ std::string report(const Wish& wish, const Workload& workload, const std::vector
     json.field("embree_version", embree_version());
     write_rays(json, workload.rays);
     json.key("structures").begin_array();
-    for (const Side& side : sides) {
+    for (const Side& side : race.sides) {
         write_side(json, side);
     }
     return json.end_array().end_object().text();
@@ -184,25 +183,22 @@ std::string report(const Wish& wish, const Workload& workload, const std::vector
 std::string bench_render(const std::vector<std::string>& words) {
     const Wish wish = read_wish(words);
     set_default_threads(1);
-    Workload workload;
-    workload.scene = read_nff(std::filesystem::path(wish.scene));
-    workload.scene.camera.width = wish.size;
-    workload.scene.camera.height = wish.size;
-    workload.options.max_ray_depth = wish.depth;
-
-    const auto truth = make_accelerator(Acceleration::octree, workload.scene.surfaces());
-    record(workload, *truth, wish.every);
-    std::vector<Side> sides;
+    Race race{read_workload(wish), {}, {}};
+    const auto truth = make_accelerator(Acceleration::octree, race.workload.scene.surfaces());
+    record(race.workload, *truth);
+    race.sample = every(wish.every, race.workload.rays);
     for (const Structure& structure : wish.structures) {
-        sides.push_back(build(structure, workload.scene));
-        check_agreement(workload, *truth, sides.back());
+        Side& side = race.sides.emplace_back();
+        side.structure = structure;
+        side.accelerator = structure.make(race.workload.scene.surfaces());
+        check_agreement(race.rays_for(side), *truth, side);
     }
     for (int round = 0; round <= wish.rounds; ++round) {
-        for (Side& side : sides) {
-            measure_once(workload, wish.pictures, side, round == 0);
+        for (Side& side : race.sides) {
+            measure_once(race, wish.pictures, side, round == 0);
         }
     }
-    return report(wish, workload, sides);
+    return report(wish, race);
 }
 
 }  // namespace raysteps::bench
