@@ -80,6 +80,12 @@ Json& Json::value(std::uint64_t number) {
     return *this;
 }
 
+Json& Json::value(bool truth) {
+    begin_value();
+    out_ << (truth ? "true" : "false");
+    return *this;
+}
+
 Json& Json::null() {
     begin_value();
     out_ << "null";

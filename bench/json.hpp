@@ -22,6 +22,8 @@ public:
     Json& value(std::string_view text);
     Json& value(double number);
     Json& value(std::uint64_t number);
+    Json& value(bool truth);
+    Json& value(const std::string& text) { return value(std::string_view(text)); }
     Json& null();
 
     template <typename Value>

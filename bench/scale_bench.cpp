@@ -1,6 +1,7 @@
 #include "bench/scale_bench.hpp"
 
 #include "bench/arguments.hpp"
+#include "bench/memory.hpp"
 #include "bench/procedural_scenes.hpp"
 #include "bench/replay.hpp"
 #include "bench/spread.hpp"
@@ -23,20 +24,35 @@ int count_of(const std::string& text) {
     return Arguments({"--count", text}, {"--count"}).number("--count", 0, 1, 100000000);
 }
 
-std::string report(const std::string& kind, const Workload& workload, const StructureSize& size, const Stats& work,
-                   const std::vector<double>& build_seconds, const std::vector<double>& ns_per_ray) {
+/// What was measured of one structure.
+struct Findings {
+    StructureSize size;
+    Stats work;
+    std::optional<std::uint64_t> peak_bytes;  ///< of the program with the scene and the structure
+    std::vector<double> build_seconds;
+    std::vector<double> ns_per_ray;
+};
+
+std::string report(const std::string& kind, const Workload& workload, const Findings& found) {
+    const StructureSize& size = found.size;
     const auto rays = static_cast<double>(workload.rays.size());
     Json json;
     json.begin_object().field("schema", std::string("raysteps/bench-structure/v1")).field("scene", kind);
     json.field("surfaces", static_cast<std::uint64_t>(workload.scene.surfaces().size()));
     json.field("rays", static_cast<std::uint64_t>(workload.rays.size()));
     json.field("boxes", size.boxes).field("references", size.references).field("bytes", size.bytes);
-    json.field("surface_tests_per_ray", static_cast<double>(work.surface_tests) / rays);
-    json.field("box_tests_per_ray", static_cast<double>(work.box_tests) / rays);
+    json.field("surface_tests_per_ray", static_cast<double>(found.work.surface_tests) / rays);
+    json.field("box_tests_per_ray", static_cast<double>(found.work.box_tests) / rays);
+    json.key("peak_bytes");
+    if (found.peak_bytes) {
+        json.value(*found.peak_bytes);
+    } else {
+        json.null();
+    }
     json.key("build_seconds");
-    write(json, build_seconds);
+    write(json, found.build_seconds);
     json.key("ns_per_ray");
-    write(json, ns_per_ray);
+    write(json, found.ns_per_ray);
     return json.end_object().text();
 }
 
@@ -57,23 +73,23 @@ std::string bench_scale(const std::vector<std::string>& words) {
     workload.scene.camera.width = size;
     workload.scene.camera.height = size;
     workload.options.step = k_step_with_shadows;
-    std::vector<double> build_seconds;
+    Findings found;
     std::unique_ptr<Accelerator> accelerator;
     for (int round = 0; round < rounds; ++round) {
         accelerator.reset();
         const Clock::time_point start = Clock::now();
         accelerator = structure.make(workload.scene.surfaces());
-        build_seconds.push_back(seconds_since(start));
+        found.build_seconds.push_back(seconds_since(start));
     }
+    found.size = accelerator->size();
+    found.peak_bytes = peak_memory();
     record(workload, *accelerator);  // and warms up
-    std::vector<double> ns_per_ray;
-    Stats work;
     for (int round = 0; round < rounds; ++round) {
         const Replay result = replay(*accelerator, workload.rays);
-        work = result.work;
-        ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(workload.rays.size()));
+        found.work = result.work;
+        found.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(workload.rays.size()));
     }
-    return report(kind, workload, accelerator->size(), work, build_seconds, ns_per_ray);
+    return report(kind, workload, found);
 }
 
 }  // namespace raysteps::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/arguments.hpp"
+#include "bench/json.hpp"
 #ifdef RAYSTEPS_EMBREE
 #include "bench/embree_accelerator.hpp"
 #endif
@@ -53,6 +54,20 @@ std::vector<Structure> chosen_structures(const std::vector<std::string>& names) 
         throw UsageError("--structures: expected names among " + known + ", parted by commas");
     }
     return chosen;
+}
+
+std::string list_structures(const std::vector<std::string>& words) {
+    if (!words.empty()) {
+        throw UsageError("list: expected nothing after it");
+    }
+    Json json;
+    json.begin_object().field("schema", std::string("raysteps/bench-structures/v1"));
+    json.field("embree_version", embree_version()).key("structures").begin_array();
+    for (const Structure& structure : all_structures()) {
+        json.begin_object().field("name", structure.name);
+        json.field("slow", structure.slow).field("foreign", structure.foreign).end_object();
+    }
+    return json.end_array().end_object().text();
 }
 
 std::string embree_version() {

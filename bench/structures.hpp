@@ -21,6 +21,9 @@ struct Structure {
 /// Those of the names, in the order of all; all when there are no names. Throws UsageError for an unknown one.
 [[nodiscard]] std::vector<Structure> chosen_structures(const std::vector<std::string>& names);
 
+/// JSON, schema raysteps/bench-structures/v1: their names, and which are slow or foreign.
+[[nodiscard]] std::string list_structures(const std::vector<std::string>& words);
+
 /// Embree's version, or nothing where it is missing.
 [[nodiscard]] std::string embree_version();
 
