@@ -2,9 +2,10 @@
 
 import statistics
 from collections.abc import Sequence
+from typing import Any
 
 
-def spread_of(values: Sequence[float]) -> dict[str, float | list[float]]:
+def spread_of(values: Sequence[float]) -> dict[str, Any]:
     """As raysteps-bench writes it: median, extremes, quartiles and every value."""
     ordered = sorted(values)
     quartiles = statistics.quantiles(ordered, n=4, method="inclusive") if len(ordered) > 1 else ordered * 3
