@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "bench/arguments.hpp"
-#include "bench/replay.hpp"
 #include "bench/spread.hpp"
+#include "bench/stopwatch.hpp"
 #include "io/nff_reader.hpp"
 #include "io/nff_writer.hpp"
 #include "io/read_file.hpp"
@@ -37,10 +37,10 @@ std::string bench_parse(const std::vector<std::string>& words) {
     std::size_t surfaces = 0;
     std::vector<double> megabytes_per_second;
     for (int round = 0; round <= rounds; ++round) {  // the first one warms up
-        const Clock::time_point start = Clock::now();
+        const ProcessorClock clock;
         surfaces = read_nff(text, display_name(path)).surfaces().size();
         if (round > 0) {
-            megabytes_per_second.push_back(1e-6 * static_cast<double>(text.size()) / seconds_since(start));
+            megabytes_per_second.push_back(1e-6 * static_cast<double>(text.size()) / clock.seconds());
         }
     }
     Json json;

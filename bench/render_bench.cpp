@@ -9,6 +9,7 @@
 #include "bench/picture.hpp"
 #include "bench/replay.hpp"
 #include "bench/spread.hpp"
+#include "bench/stopwatch.hpp"
 #include "bench/structures.hpp"
 #include "bench/workload.hpp"
 #include "core/threads.hpp"
@@ -105,14 +106,14 @@ void check_agreement(const std::vector<RecordedRay>& rays, const Accelerator& ex
 void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
     const Workload& workload = race.workload;
     const std::vector<RecordedRay>& rays = race.rays_for(side);
-    Clock::time_point start = Clock::now();
     side.accelerator.reset();
+    const ProcessorClock building;
     side.accelerator = side.structure.make(workload.scene.surfaces());
-    const double build_seconds = seconds_since(start);
+    const double build_seconds = building.seconds();
     const Replay result = replay(*side.accelerator, rays);
     side.work = result.work;
     const bool draws = pictures && !side.structure.slow;
-    start = Clock::now();
+    const ProcessorClock drawing;
     if (draws) {
         (void)draw(workload.scene, *side.accelerator, workload.options);
     }
@@ -120,7 +121,7 @@ void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
         return;
     }
     if (draws) {
-        side.picture_seconds.push_back(seconds_since(start));
+        side.picture_seconds.push_back(drawing.seconds());
     }
     side.build_seconds.push_back(build_seconds);
     side.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(rays.size()));

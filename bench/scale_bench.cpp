@@ -5,6 +5,7 @@
 #include "bench/procedural_scenes.hpp"
 #include "bench/replay.hpp"
 #include "bench/spread.hpp"
+#include "bench/stopwatch.hpp"
 #include "bench/structures.hpp"
 #include "bench/workload.hpp"
 
@@ -77,9 +78,9 @@ std::string bench_scale(const std::vector<std::string>& words) {
     std::unique_ptr<Accelerator> accelerator;
     for (int round = 0; round < rounds; ++round) {
         accelerator.reset();
-        const Clock::time_point start = Clock::now();
+        const WallClock clock;
         accelerator = structure.make(workload.scene.surfaces());
-        found.build_seconds.push_back(seconds_since(start));
+        found.build_seconds.push_back(clock.seconds());
     }
     found.size = accelerator->size();
     found.peak_bytes = peak_memory();

@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from raysteps.upkeep.bench.render_tables import against_embree, median_of, names_of
+from raysteps.upkeep.bench.render_tables import against_embree, faster, median_of, names_of
 
 _PEER = "embree"
+_COMPARED = ("trace_seconds", "processor_seconds")
 
 
 def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -60,21 +61,22 @@ def _one_build(build: dict[str, Any]) -> str:
 def _povray(rows: list[dict[str, Any]]) -> Iterable[list[str]]:
     for row in rows:
         if row["skipped"]:
-            yield [row["scene"], row["skipped"], "", "", ""]
+            yield [row["scene"], row["skipped"], "", "", "", "", ""]
             continue
-        theirs = row["programs"][0]["trace_seconds"]["median"]
+        theirs = row["programs"][0]
         for number, side in enumerate(row["programs"]):
-            trace = side["trace_seconds"]
-            ratio = f"{theirs / trace['median']:.2f}" if number else ""
+            ratios = [f"{faster(theirs, side, what):.2f}" if number else "" for what in _COMPARED]
             process = f"{side['process_seconds']['median']:.2f}"
-            yield [row["scene"], side["program"], _spread(trace, 3), process, ratio]
+            processor = f"{side['processor_seconds']['median']:.2f}"
+            yield [row["scene"], side["program"], _spread(side["trace_seconds"], 3), process, processor, *ratios]
 
 
 def render_tables(document: dict[str, Any]) -> str:
     """Rays beside Embree's, then pictures beside POV-Ray's."""
     parts = [_one_build(build) for build in document["builds"]]
     if document["povray"]:
-        headings = ("scene", "program", "tracing, s", "whole process, s", "times faster than POV-Ray")
+        headings = ("scene", "program", "tracing, s", "process, s", "processor, s", "tracing: times faster",
+                    "processor: times faster")  # fmt: skip
         parts.append(markdown(headings, _povray(document["povray"])))
     return "\n\n".join(parts)
 

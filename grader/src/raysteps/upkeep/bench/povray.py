@@ -2,6 +2,7 @@
 
 import json
 import re
+import resource
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -38,15 +39,30 @@ class Race:
     trees: list[str]
 
 
-Runner = Callable[[], tuple[float, float]]  # seconds of tracing, and of the whole process
+@dataclass(frozen=True)
+class Taken:
+    """Seconds of one run: of tracing by its own account, of the whole process, and of the processor in it."""
+
+    trace: float
+    process: float
+    processor: float
 
 
-def _run(words: list[str | Path], folder: Path) -> Outcome:
+Runner = Callable[[], Taken]
+
+
+def _processor_seconds() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def _run(words: list[str | Path], folder: Path) -> tuple[Outcome, float]:
+    before = _processor_seconds()
     with pinned():
         outcome = run(words, seconds=_SECONDS, cwd=folder)
     if outcome.timed_out or outcome.code != 0:
         raise GraderFault(f"{words[0]} failed: {shorten(outcome.stderr, 2000)}")
-    return outcome
+    return outcome, _processor_seconds() - before
 
 
 def trace_seconds(report: str) -> float:
@@ -57,18 +73,18 @@ def trace_seconds(report: str) -> float:
     return float(found.group(1))
 
 
-def _povray(folder: Path, size: int) -> tuple[float, float]:
+def _povray(folder: Path, size: int) -> Taken:
     files: list[str | Path] = ["+Iscene.pov", "+Opovray.ppm", f"+W{size}", f"+H{size}"]
-    outcome = _run(["povray", *files, *_OPTIONS], folder)
-    return trace_seconds(outcome.stderr + outcome.stdout), outcome.seconds
+    outcome, processor = _run(["povray", *files, *_OPTIONS], folder)
+    return Taken(trace_seconds(outcome.stderr + outcome.stdout), outcome.seconds, processor)
 
 
-def _raytrace(program: Path, folder: Path, tree: str, race: Race) -> tuple[float, float]:
+def _raytrace(program: Path, folder: Path, tree: str, race: Race) -> Taken:
     options = ["--size", f"{race.size}x{race.size}", "--depth", str(race.depth), "--threads", "1", "--quiet"]
     words: list[str | Path] = [program, "scene.nff", "-o", f"{tree}.ppm", "--accel", tree, "--stats", f"{tree}.json"]
-    outcome = _run([*words, *options], folder)
+    outcome, processor = _run([*words, *options], folder)
     stats = json.loads((folder / f"{tree}.json").read_text(encoding="utf-8"))
-    return float(stats["render_seconds"]), outcome.seconds
+    return Taken(float(stats["render_seconds"]), outcome.seconds, processor)
 
 
 def _difference(folder: Path, tree: str) -> float:
@@ -77,7 +93,7 @@ def _difference(folder: Path, tree: str) -> float:
 
 
 def _measured(folder: Path, scene: str, runners: dict[str, Runner], rounds: int, bound: float) -> dict[str, Any]:
-    times: dict[str, list[tuple[float, float]]] = {name: [] for name in runners}
+    times: dict[str, list[Taken]] = {name: [] for name in runners}
     for runner in runners.values():
         runner()  # warms up, and leaves the pictures
     difference = _difference(folder, list(runners)[1].removeprefix("raytrace "))
@@ -92,10 +108,11 @@ def _measured(folder: Path, scene: str, runners: dict[str, Runner], rounds: int,
     programs = [
         {
             "program": name,
-            "trace_seconds": spread_of([trace for trace, _ in pairs]),
-            "process_seconds": spread_of([whole for _, whole in pairs]),
+            "trace_seconds": spread_of([one.trace for one in taken]),
+            "process_seconds": spread_of([one.process for one in taken]),
+            "processor_seconds": spread_of([one.processor for one in taken]),
         }
-        for name, pairs in times.items()
+        for name, taken in times.items()
     ]
     return {"scene": scene, "skipped": "", "brightness_difference": difference, "programs": programs}
 

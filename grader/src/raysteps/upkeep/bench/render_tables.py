@@ -9,6 +9,8 @@ from rich.table import Table
 from raysteps.upkeep.bench.numbers import geometric_mean
 
 _PEER = "embree"
+_TIMES = ("trace_seconds", "process_seconds", "processor_seconds")
+_COMPARED = ("trace_seconds", "processor_seconds")
 
 
 def median_of(scene: dict[str, Any], name: str, what: str = "ns_per_ray") -> float | None:
@@ -27,6 +29,11 @@ def against_embree(scenes: list[dict[str, Any]], name: str, what: str = "ns_per_
     pairs = [(median_of(scene, name, what), median_of(scene, _PEER, what)) for scene in scenes]
     ratios = [ours / theirs for ours, theirs in pairs if ours and theirs]
     return geometric_mean(ratios) if ratios and len(ratios) == len(scenes) else None
+
+
+def faster(theirs: dict[str, Any], ours: dict[str, Any], what: str) -> float:
+    """How many times less we take than POV-Ray."""
+    return float(theirs[what]["median"] / ours[what]["median"])
 
 
 def _times(value: float | None, other: float | None) -> str:
@@ -73,21 +80,31 @@ def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> No
 def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
     """Whole pictures beside POV-Ray's."""
     table = Table(title="whole pictures beside POV-Ray, one thread each", title_justify="left")
-    for heading in ("scene", "program", "tracing", "whole process", "POV-Ray / ours", "difference of brightness"):
+    for heading in (
+        "scene",
+        "program",
+        "tracing",
+        "whole process",
+        "processor",
+        "tracing: POV-Ray / ours",
+        "processor: POV-Ray / ours",
+        "difference",
+    ):
         table.add_column(heading, justify="left" if heading in ("scene", "program") else "right")
     for row in rows:
         if row["skipped"]:
             table.add_row(escape(row["scene"]), escape(row["skipped"]), end_section=True)
             continue
-        theirs = row["programs"][0]["trace_seconds"]["median"]
+        theirs = row["programs"][0]
         for number, side in enumerate(row["programs"]):
-            trace = side["trace_seconds"]["median"]
             table.add_row(
                 escape(row["scene"]) if number == 0 else "",
                 side["program"],
-                f"{trace:.3f} s",
-                f"{side['process_seconds']['median']:.3f} s",
-                "" if number == 0 else f"{theirs / trace:.2f} x",
+                *[
+                    f"{side[what]['median']:.3f} s"
+                    for what in ("trace_seconds", "process_seconds", "processor_seconds")
+                ],
+                *["" if number == 0 else f"{faster(theirs, side, what):.2f} x" for what in _COMPARED],
                 f"{row['brightness_difference']:.4f}" if number == 0 else "",
                 end_section=side is row["programs"][-1],
             )
