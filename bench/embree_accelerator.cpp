@@ -110,6 +110,8 @@ public:
         rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
         scene_.reset(rtcNewScene(device_.get()));
         rtcSetSceneFlags(scene_.get(), mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+        rtcSetSceneBuildQuality(scene_.get(),
+                                mode == EmbreeMode::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
         for (const Surface* surface : surfaces) {
             lists_[kind_of(*surface)].push_back(surface);
         }

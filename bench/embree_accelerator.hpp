@@ -8,7 +8,11 @@ namespace raysteps::bench {
 
 extern const char* const k_embree_version;
 
-enum class EmbreeMode { fast, robust };  ///< robust: RTC_SCENE_FLAG_ROBUST, no ray slips between two triangles
+enum class EmbreeMode {
+    fast,    ///< Embree's defaults
+    high,    ///< RTC_BUILD_QUALITY_HIGH: cuts triangles in two where that saves tests
+    robust,  ///< RTC_SCENE_FLAG_ROBUST: no ray slips between two triangles
+};
 
 /// Triangles and spheres are Embree's own; all else is asked by the kit's intersect. The surfaces must outlive it.
 /// Throws std::runtime_error when Embree reports an error.

@@ -32,6 +32,7 @@ const std::vector<Structure>& all_structures() {
         {"octree", false, false, kits_own<Acceleration::octree>},
 #ifdef RAYSTEPS_EMBREE
         {"embree", false, true, embree<EmbreeMode::fast>},
+        {"embree-high", false, true, embree<EmbreeMode::high>},
         {"embree-robust", false, true, embree<EmbreeMode::robust>},
 #endif
     };

@@ -7,7 +7,7 @@ from raysteps.kit.project import Project
 from raysteps.kit.scenes import generated
 
 # At about the sizes of the Standard Procedural Databases.
-_DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("rings", 7), ("gears", 4), ("mountain", 6))
+_DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("rings", 11), ("gears", 4), ("mountain", 6))
 
 
 def default_scenes(project: Project) -> list[Path]:
