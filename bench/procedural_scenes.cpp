@@ -30,17 +30,23 @@ private:
 };
 
 /// Each surface covers 1 / count of the picture, so the sizes shrink with the root.
-float size_of_each(int count, float of_one) { return of_one / std::sqrt(static_cast<float>(count)); }
+float size_at_same_cover(int count, float of_one) { return of_one / std::sqrt(static_cast<float>(count)); }
 
-void add_cloud(Scene& scene, int count) {
+/// As large as the room that each surface has for itself in a cube of side 2.
+float size_at_same_density(int count) { return 2.0F / std::cbrt(static_cast<float>(count)); }
+
+void add_triangles(Scene& scene, int count, float size) {
     Dice dice;
-    const float size = size_of_each(count, 2.5F);
     for (int i = 0; i < count; ++i) {
         const glm::vec3 at = dice.point();
         const glm::vec3 second = at + size * dice.point();
         scene.add(std::make_unique<Triangle>(at, second, at + size * dice.point(), Fill{}));
     }
 }
+
+void add_cloud(Scene& scene, int count) { add_triangles(scene, count, size_at_same_density(count)); }
+
+void add_dust(Scene& scene, int count) { add_triangles(scene, count, size_at_same_cover(count, 2.5F)); }
 
 /// Eight clusters, each of eight smaller ones, and so on four times.
 void add_clusters(Scene& scene, int count) {
@@ -51,7 +57,7 @@ void add_clusters(Scene& scene, int count) {
     for (std::size_t i = 0; i < k_branches; ++i) {
         branches.push_back(dice.point());
     }
-    const float radius = size_of_each(count, 0.6F);
+    const float radius = size_at_same_cover(count, 0.6F);
     for (int i = 0; i < count; ++i) {
         glm::vec3 center(0.0F);
         float reach = 0.6F;
@@ -94,7 +100,7 @@ using Maker = void (*)(Scene&, int);
 
 const std::map<std::string, Maker>& makers() {
     static const std::map<std::string, Maker> table{
-        {"cloud", add_cloud}, {"clusters", add_clusters}, {"terrain", add_terrain}};
+        {"cloud", add_cloud}, {"clusters", add_clusters}, {"dust", add_dust}, {"terrain", add_terrain}};
     return table;
 }
 
@@ -103,7 +109,7 @@ const std::map<std::string, Maker>& makers() {
 Scene make_scene(const std::string& kind, int count) {
     const auto maker = makers().find(kind);
     if (maker == makers().end()) {
-        throw UsageError("expected cloud, clusters or terrain, found '" + kind + "'");
+        throw UsageError("expected cloud, clusters, dust or terrain, found '" + kind + "'");
     }
     Scene scene;
     scene.camera.from = {2.0F, 2.0F, 3.0F};

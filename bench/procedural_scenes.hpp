@@ -7,8 +7,9 @@
 namespace raysteps::bench {
 
 /// About `count` surfaces, one light, no mirrors. Throws UsageError for an unknown kind. The kinds:
-/// - cloud: triangles anywhere in a cube; what they cover together is the same for any number
-/// - clusters: spheres in clusters of clusters; the same holds
+/// - cloud: triangles anywhere in a cube, as large as the distance between them
+/// - clusters: spheres in clusters of clusters; what they cover together is the same for any number
+/// - dust: triangles anywhere in a cube; what they cover together is the same for any number
 /// - terrain: one hilly sheet of triangles
 [[nodiscard]] Scene make_scene(const std::string& kind, int count);
 

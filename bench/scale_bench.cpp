@@ -12,7 +12,7 @@
 namespace raysteps::bench {
 
 const char* const k_scale_usage = R"(  raysteps-bench scale KIND COUNT STRUCTURE [options]
-  KIND                cloud, clusters or terrain
+  KIND                cloud, clusters, dust or terrain
   --size N            pixels of both sides of the picture whose eye and shadow rays are asked (256)
   --rounds N          how often building and rays are measured (5)
 )";

@@ -9,6 +9,7 @@ from raysteps.upkeep.bench.scale import tests_of
 from raysteps.upkeep.bench.svg import Chart, Series, svg_text
 
 _WIDE = 760.0
+_NARROW = 300.0
 _SAMPLED = ("none", "boxes")
 
 
@@ -44,7 +45,7 @@ def scale_figure(document: dict[str, Any], what: str, label: str) -> str:
             line = [row for row in rows if (row["scene"], row["structure"]) == (kind, name)]
             series.append(Series(name, [(row["surfaces"], _value(row, what)) for row in line]))
         charts.append(Chart(kind, x, y, series))
-    return svg_text(charts)
+    return svg_text(charts, width=_NARROW)
 
 
 def threads_figure(document: dict[str, Any]) -> str:

@@ -14,7 +14,7 @@ from raysteps.upkeep.bench.documents import keep
 from raysteps.upkeep.bench.numbers import growth
 from raysteps.upkeep.bench.programs import Programs, portable
 
-KINDS = ("cloud", "clusters", "terrain")
+KINDS = ("cloud", "clusters", "terrain", "dust")
 _FIT_FROM = 1000  # surfaces; below, all is in a few boxes
 _ROUNDS = 3
 
