@@ -25,7 +25,7 @@ def _sources(folder: Path) -> list[Path]:
 def _layer(include: str) -> str | None:
     """The layer that an include belongs to; nothing for libraries."""
     first = include.split("/", 1)[0]
-    return first if first in (*_LAYERS, "steps", "solutions") else None
+    return first if first in (*_LAYERS, "steps", "solutions", "bench") else None
 
 
 def _includes(path: Path) -> list[str]:
@@ -44,6 +44,16 @@ def test_framework(project: Project, layer: str) -> None:
             found = _layer(include)
             assert ".." not in include, f"{path}: {include}"
             assert found is None or found in allowed, f"{path}: {layer} must not include {include}"
+            assert not include.endswith(".cpp"), f"{path}: {include}"
+
+
+def test_the_benchmarks_stand_on_everything_and_nothing_stands_on_them(project: Project) -> None:
+    files = _sources(project.root / "bench")
+    assert files, "bench is empty"
+    for path in files:
+        for include in _includes(path):
+            found = _layer(include)
+            assert found in (None, "core", "io", "steps", "render", "bench"), f"{path}: must not include {include}"
             assert not include.endswith(".cpp"), f"{path}: {include}"
 
 

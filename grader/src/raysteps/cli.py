@@ -20,8 +20,8 @@ from raysteps.grading.settings import Settings
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project, here
 from raysteps.programs.limits import parse_limits
-from raysteps.upkeep import bench, dev
-from raysteps.upkeep.bench_grading import grading
+from raysteps.upkeep import dev
+from raysteps.upkeep.bench import command as bench
 from raysteps.upkeep.selftest import selftest
 
 _NO_TERMINAL = 10_000  # columns
@@ -73,11 +73,7 @@ def _parser() -> argparse.ArgumentParser:
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
     add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
 
-    add = commands.add_parser("bench", help="measure the reference")
-    add.add_argument("what", choices=["boxes", "grading"])
-    add.add_argument("--rounds", type=int, default=3, metavar="N", help="grading: how often both ways are measured (3)")
-    add.add_argument("--scenes", nargs="*", type=Path, default=[], metavar="FILE", help="more scenes to measure")
-    add.add_argument("--size", default="256x256", metavar="WxH", help="pixels of each picture (256x256)")
+    bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
 
     add = commands.add_parser("test", help="test the kit itself")
     add.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
@@ -107,10 +103,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return exports.run(project, arguments, console)
         case "demo":
             return demo(project, arguments.out, console)
-        case "bench" if arguments.what == "grading":
-            return grading(project, max(1, arguments.rounds), console)
         case "bench":
-            return bench.boxes(project, arguments.scenes, arguments.size, console)
+            return bench.run(project, arguments, console)
         case "test":
             return selftest(project, console, full=arguments.full)
         case _:

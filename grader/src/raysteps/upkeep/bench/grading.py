@@ -12,15 +12,14 @@ from functools import partial
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import write_json
 from raysteps.common.process import run
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
+from raysteps.upkeep.bench.documents import keep
 
 _SECONDS = 3600
 _CLASS_SIZE = 8
@@ -123,7 +122,7 @@ def grading(project: Project, rounds: int, console: Console) -> int:
                 together = partial(_class_way, project, submissions, Path(name) / f"out-{number}")
                 costs.append(_measure("class", number, _CLASS_SIZE, together))
     console.print(_table(costs))
-    path = project.build / "bench" / "grading.json"
-    write_json(path, {"schema": "raysteps/bench-grading/v1", "costs": [asdict(cost) for cost in costs]})
-    console.print(f"Numbers: {escape(str(path))}", soft_wrap=True)
+    keep(
+        project, "grading", {"schema": "raysteps/bench-grading/v1", "costs": [asdict(cost) for cost in costs]}, console
+    )
     return 0

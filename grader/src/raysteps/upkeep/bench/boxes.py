@@ -10,10 +10,10 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import write_json
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
 from raysteps.kit.scenes import generated
+from raysteps.upkeep.bench.documents import keep
 from raysteps.upkeep.same_picture import ACCELERATIONS, render_with
 
 _DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("gears", 2), ("mountain", 6))
@@ -104,7 +104,10 @@ def boxes(project: Project, scenes: list[Path], size: str, console: Console) -> 
             rows += measure_scene(program, scene, size)
     console.print(_table(rows, size))
     console.print("All ways gave the same picture, byte for byte, on every scene.")
-    path = project.build / "bench" / "boxes.json"
-    write_json(path, {"schema": "raysteps/bench-boxes/v1", "size": size, "rows": [asdict(row) for row in rows]})
-    console.print(f"Numbers: {escape(str(path))}", soft_wrap=True)
+    keep(
+        project,
+        "boxes",
+        {"schema": "raysteps/bench-boxes/v1", "size": size, "rows": [asdict(row) for row in rows]},
+        console,
+    )
     return 0

@@ -1,0 +1,58 @@
+#include "bench/parse_bench.hpp"
+
+#include <filesystem>
+
+#include "bench/arguments.hpp"
+#include "bench/spread.hpp"
+#include "bench/stopwatch.hpp"
+#include "io/nff_reader.hpp"
+#include "io/nff_writer.hpp"
+#include "io/read_file.hpp"
+
+namespace raysteps::bench {
+
+const char* const k_parse_usage = R"(  raysteps-bench parse SCENE.nff [--rounds N]
+  --rounds N          how often the text is read (5)
+)";
+const char* const k_nff_usage = R"(  raysteps-bench nff SCENE.nff
+                      prints the scene with polygons and patches cut into triangles
+)";
+
+namespace {
+
+std::filesystem::path only_scene(const Arguments& arguments) {
+    if (arguments.words().size() != 1) {
+        throw UsageError("expected one scene");
+    }
+    return arguments.words().front();
+}
+
+}  // namespace
+
+std::string bench_parse(const std::vector<std::string>& words) {
+    const Arguments arguments(words, {"--rounds"});
+    const int rounds = arguments.number("--rounds", 5, 1, 1000);
+    const std::filesystem::path path = only_scene(arguments);
+    const std::string text = read_file(path);
+    std::size_t surfaces = 0;
+    std::vector<double> megabytes_per_second;
+    for (int round = 0; round <= rounds; ++round) {  // the first one warms up
+        const ProcessorClock clock;
+        surfaces = read_nff(text, display_name(path)).surfaces().size();
+        if (round > 0) {
+            megabytes_per_second.push_back(1e-6 * static_cast<double>(text.size()) / clock.seconds());
+        }
+    }
+    Json json;
+    json.begin_object().field("schema", std::string("raysteps/bench-reading/v1"));
+    json.field("bytes", static_cast<std::uint64_t>(text.size()));
+    json.field("surfaces", static_cast<std::uint64_t>(surfaces)).key("megabytes_per_second");
+    write(json, megabytes_per_second);
+    return json.end_object().text();
+}
+
+std::string flat_nff(const std::vector<std::string>& words) {
+    return write_nff(read_nff(only_scene(Arguments(words, {}))));
+}
+
+}  // namespace raysteps::bench

@@ -1,0 +1,24 @@
+#include "bench/picture.hpp"
+
+#include "render/encode.hpp"
+#include "render/tiles.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+
+namespace raysteps::bench {
+
+Image draw(const Scene& scene, const Accelerator& accelerator, const StepOptions& options) {
+    const Camera& camera = scene.camera;
+    const ViewFrame frame = view_frame(camera);
+    StepTracer tracer(scene, accelerator, options);
+    Image image(camera.width, camera.height);
+    for (const Rect& tile : tiles_of({0, 0, camera.width, camera.height})) {
+        for (int y = tile.y; y < tile.y + tile.height; ++y) {
+            for (int x = tile.x; x < tile.x + tile.width; ++x) {
+                image.at(x, y) = encode(tracer.primary_color(primary_ray(camera, frame, x, y)), options.step);
+            }
+        }
+    }
+    return image;
+}
+
+}  // namespace raysteps::bench

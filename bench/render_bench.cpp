@@ -1,0 +1,205 @@
+#include "bench/render_bench.hpp"
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+
+#include "bench/agreement.hpp"
+#include "bench/arguments.hpp"
+#include "bench/picture.hpp"
+#include "bench/replay.hpp"
+#include "bench/spread.hpp"
+#include "bench/stopwatch.hpp"
+#include "bench/structures.hpp"
+#include "bench/workload.hpp"
+#include "core/threads.hpp"
+#include "io/nff_reader.hpp"
+
+namespace raysteps::bench {
+
+const char* const k_render_usage = R"(  raysteps-bench render SCENE.nff [options]
+  --size N            pixels of both sides of the picture (512)
+  --depth D           longest chain of rays, the primary ray included (5)
+  --rounds N          how often each structure is measured, in turns (5)
+  --every N           slow structures get every n-th ray (64)
+  --structures LIST   such as octree,embree (all that this program has)
+  --pictures yes|no   also measure whole pictures (yes)
+)";
+
+namespace {
+
+constexpr double k_most_differing = 0.001;  // share of the rays that Embree may see differently
+
+struct Wish {
+    std::string scene;
+    int size = 512;
+    int depth = 5;
+    int rounds = 5;
+    std::size_t every = 64;
+    bool pictures = true;
+    std::vector<Structure> structures;
+};
+
+Wish read_wish(const std::vector<std::string>& words) {
+    const Arguments arguments(words, {"--size", "--depth", "--rounds", "--every", "--structures", "--pictures"});
+    if (arguments.words().size() != 1) {
+        throw UsageError("expected one scene");
+    }
+    const std::string pictures = arguments.text("--pictures", "yes");
+    if (pictures != "yes" && pictures != "no") {
+        throw UsageError("--pictures: expected yes or no, found '" + pictures + "'");
+    }
+    return {arguments.words().front(),
+            arguments.number("--size", 512, 1, 8192),
+            arguments.number("--depth", 5, 1, 1000),
+            arguments.number("--rounds", 5, 1, 1000),
+            static_cast<std::size_t>(arguments.number("--every", 64, 1, 1000000)),
+            pictures == "yes",
+            chosen_structures(arguments.list("--structures"))};
+}
+
+/// One structure and all that is measured of it.
+struct Side {
+    Structure structure;
+    std::unique_ptr<Accelerator> accelerator;
+    Stats work;
+    Agreement agreement;
+    std::vector<double> build_seconds;
+    std::vector<double> ns_per_ray;
+    std::vector<double> picture_seconds;
+};
+
+/// What is asked, and of whom.
+struct Race {
+    Workload workload;
+    std::vector<RecordedRay> sample;
+    std::vector<Side> sides;
+
+    [[nodiscard]] const std::vector<RecordedRay>& rays_for(const Side& side) const {
+        return side.structure.slow ? sample : workload.rays;
+    }
+};
+
+Workload read_workload(const Wish& wish) {
+    Workload workload;
+    workload.scene = read_nff(std::filesystem::path(wish.scene));
+    workload.scene.camera.width = wish.size;
+    workload.scene.camera.height = wish.size;
+    workload.options.max_ray_depth = wish.depth;
+    return workload;
+}
+
+void check_agreement(const std::vector<RecordedRay>& rays, const Accelerator& expected, Side& side) {
+    const Measure measure = side.structure.foreign ? Measure::near : Measure::exact;
+    side.agreement = compare(expected, *side.accelerator, rays, measure);
+    const double bound = side.structure.foreign ? k_most_differing * static_cast<double>(rays.size()) : 0.0;
+    if (static_cast<double>(side.agreement.differing) > bound) {
+        const std::size_t first = *side.agreement.first;
+        throw std::runtime_error(side.structure.name + " sees " + std::to_string(side.agreement.differing) + " of " +
+                                 std::to_string(rays.size()) + " rays differently, first ray " +
+                                 std::to_string(first) + " " +
+                                 describe(expected, *side.accelerator, rays[first]));
+    }
+}
+
+/// Builds, asks all rays, and draws; the first round only warms up.
+void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
+    const Workload& workload = race.workload;
+    const std::vector<RecordedRay>& rays = race.rays_for(side);
+    side.accelerator.reset();
+    const ProcessorClock building;
+    side.accelerator = side.structure.make(workload.scene.surfaces());
+    const double build_seconds = building.seconds();
+    const Replay result = replay(*side.accelerator, rays);
+    side.work = result.work;
+    const bool draws = pictures && !side.structure.slow;
+    const ProcessorClock drawing;
+    if (draws) {
+        (void)draw(workload.scene, *side.accelerator, workload.options);
+    }
+    if (warm_up) {
+        return;
+    }
+    if (draws) {
+        side.picture_seconds.push_back(drawing.seconds());
+    }
+    side.build_seconds.push_back(build_seconds);
+    side.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(rays.size()));
+}
+
+void write_rays(Json& json, const std::vector<RecordedRay>& rays) {
+    constexpr std::array k_names{"eye", "shadow", "reflect", "refract"};
+    std::array<std::uint64_t, k_names.size()> counts{};
+    std::uint64_t any = 0;
+    for (const RecordedRay& ray : rays) {
+        ++counts[static_cast<std::size_t>(ray.kind)];
+        any += ray.question == Question::any ? 1U : 0U;
+    }
+    json.key("rays").begin_object().field("all", static_cast<std::uint64_t>(rays.size()));
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        json.field(k_names[i], counts[i]);
+    }
+    json.field("any_hit", any).end_object();
+}
+
+void write_side(Json& json, const Side& side) {
+    const StructureSize size = side.accelerator->size();
+    const auto rays = static_cast<double>(side.agreement.rays);
+    json.begin_object().field("name", side.structure.name).field("rays", side.agreement.rays);
+    json.field("differing", side.agreement.differing).key("build_seconds");
+    write(json, side.build_seconds);
+    json.field("boxes", size.boxes).field("references", size.references).field("bytes", size.bytes);
+    json.field("surface_tests_per_ray", static_cast<double>(side.work.surface_tests) / rays);
+    json.field("box_tests_per_ray", static_cast<double>(side.work.box_tests) / rays);
+    json.key("ns_per_ray");
+    write(json, side.ns_per_ray);
+    json.key("picture_seconds");
+    if (side.picture_seconds.empty()) {
+        json.null();
+    } else {
+        write(json, side.picture_seconds);
+    }
+    json.end_object();
+}
+
+std::string report(const Wish& wish, const Race& race) {
+    const Workload& workload = race.workload;
+    Json json;
+    json.begin_object().field("schema", std::string("raysteps/bench-rays/v1"));
+    json.field("scene", std::filesystem::path(wish.scene).stem().string());
+    json.field("surfaces", static_cast<std::uint64_t>(workload.scene.surfaces().size()));
+    json.field("size", static_cast<std::uint64_t>(wish.size)).field("depth", static_cast<std::uint64_t>(wish.depth));
+    json.field("every", static_cast<std::uint64_t>(wish.every));
+    json.field("embree_version", embree_version());
+    write_rays(json, workload.rays);
+    json.key("structures").begin_array();
+    for (const Side& side : race.sides) {
+        write_side(json, side);
+    }
+    return json.end_array().end_object().text();
+}
+
+}  // namespace
+
+std::string bench_render(const std::vector<std::string>& words) {
+    const Wish wish = read_wish(words);
+    set_default_threads(1);
+    Race race{read_workload(wish), {}, {}};
+    const auto truth = make_accelerator(Acceleration::octree, race.workload.scene.surfaces());
+    record(race.workload, *truth);
+    race.sample = every(wish.every, race.workload.rays);
+    for (const Structure& structure : wish.structures) {
+        Side& side = race.sides.emplace_back();
+        side.structure = structure;
+        side.accelerator = structure.make(race.workload.scene.surfaces());
+        check_agreement(race.rays_for(side), *truth, side);
+    }
+    for (int round = 0; round <= wish.rounds; ++round) {
+        for (Side& side : race.sides) {
+            measure_once(race, wish.pictures, side, round == 0);
+        }
+    }
+    return report(wish, race);
+}
+
+}  // namespace raysteps::bench

@@ -1,0 +1,96 @@
+#include "bench/scale_bench.hpp"
+
+#include "bench/arguments.hpp"
+#include "bench/memory.hpp"
+#include "bench/procedural_scenes.hpp"
+#include "bench/replay.hpp"
+#include "bench/spread.hpp"
+#include "bench/stopwatch.hpp"
+#include "bench/structures.hpp"
+#include "bench/workload.hpp"
+
+namespace raysteps::bench {
+
+const char* const k_scale_usage = R"(  raysteps-bench scale KIND COUNT STRUCTURE [options]
+  KIND                cloud, clusters, dust or terrain
+  --size N            pixels of both sides of the picture whose eye and shadow rays are asked (256)
+  --rounds N          how often building and rays are measured (5)
+)";
+
+namespace {
+
+constexpr int k_step_with_shadows = 4;
+
+int count_of(const std::string& text) {
+    return Arguments({"--count", text}, {"--count"}).number("--count", 0, 1, 100000000);
+}
+
+/// What was measured of one structure.
+struct Findings {
+    StructureSize size;
+    Stats work;
+    std::optional<std::uint64_t> peak_bytes;  ///< of the program with the scene and the structure
+    std::vector<double> build_seconds;
+    std::vector<double> ns_per_ray;
+};
+
+std::string report(const std::string& kind, const Workload& workload, const Findings& found) {
+    const StructureSize& size = found.size;
+    const auto rays = static_cast<double>(workload.rays.size());
+    Json json;
+    json.begin_object().field("schema", std::string("raysteps/bench-structure/v1")).field("scene", kind);
+    json.field("surfaces", static_cast<std::uint64_t>(workload.scene.surfaces().size()));
+    json.field("rays", static_cast<std::uint64_t>(workload.rays.size()));
+    json.field("boxes", size.boxes).field("references", size.references).field("bytes", size.bytes);
+    json.field("surface_tests_per_ray", static_cast<double>(found.work.surface_tests) / rays);
+    json.field("box_tests_per_ray", static_cast<double>(found.work.box_tests) / rays);
+    json.key("peak_bytes");
+    if (found.peak_bytes) {
+        json.value(*found.peak_bytes);
+    } else {
+        json.null();
+    }
+    json.key("build_seconds");
+    write(json, found.build_seconds);
+    json.key("ns_per_ray");
+    write(json, found.ns_per_ray);
+    return json.end_object().text();
+}
+
+}  // namespace
+
+std::string bench_scale(const std::vector<std::string>& words) {
+    const Arguments arguments(words, {"--size", "--rounds"});
+    if (arguments.words().size() != 3) {
+        throw UsageError("expected a kind of scene, a number of surfaces and a structure");
+    }
+    const std::string& kind = arguments.words()[0];
+    const int rounds = arguments.number("--rounds", 5, 1, 1000);
+    const int size = arguments.number("--size", 256, 1, 8192);
+    const Structure structure = chosen_structures({arguments.words()[2]}).front();
+
+    Workload workload;
+    workload.scene = make_scene(kind, count_of(arguments.words()[1]));
+    workload.scene.camera.width = size;
+    workload.scene.camera.height = size;
+    workload.options.step = k_step_with_shadows;
+    Findings found;
+    std::unique_ptr<Accelerator> accelerator;
+    for (int round = 0; round < rounds; ++round) {
+        accelerator.reset();
+        const WallClock clock;
+        accelerator = structure.make(workload.scene.surfaces());
+        found.build_seconds.push_back(clock.seconds());
+    }
+    found.size = accelerator->size();
+    found.peak_bytes = peak_memory();
+    record(workload, *accelerator);  // and warms up
+    for (int round = 0; round < rounds; ++round) {
+        const Replay result = replay(*accelerator, workload.rays);
+        found.work = result.work;
+        found.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(workload.rays.size()));
+    }
+    return report(kind, workload, found);
+}
+
+}  // namespace raysteps::bench

@@ -1,0 +1,15 @@
+#include "bench/workload.hpp"
+
+#include "bench/picture.hpp"
+
+namespace raysteps::bench {
+
+void record(Workload& workload, const Accelerator& accelerator) {
+    thread_stats() = Stats{};
+    workload.rays.clear();
+    const Recorder recorder(accelerator, workload.rays);
+    (void)draw(workload.scene, recorder, workload.options);
+    recorder.finish();
+}
+
+}  // namespace raysteps::bench

@@ -1,0 +1,1 @@
+"""Benchmarks: what the reference costs, beside other programs, and how it grows."""

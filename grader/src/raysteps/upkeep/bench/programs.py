@@ -1,0 +1,64 @@
+"""The programs that are measured, and what is missing."""
+
+import re
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import run
+from raysteps.kit.building import BuildTree, release_tree, what_failed
+from raysteps.kit.project import Project
+from raysteps.upkeep.bench.machine import Machine, machine
+
+_ACCELERATIONS = re.compile(r"--accel ([a-z|]+)")
+_NATIVE = "-march=native"
+
+
+@dataclass(frozen=True)
+class Programs:
+    """The benchmark program and the reference renderer of one build."""
+
+    build: str
+    bench: Path
+    raytrace: Path
+    machine: Machine
+
+
+def _built(tree: BuildTree, name: str) -> Programs:
+    with tree.locked():
+        outcome = tree.build(["raysteps-bench", "raytrace-reference"])
+    if outcome.code != 0:
+        raise GraderFault("the benchmarks do not build:\n" + what_failed(outcome))
+    return Programs(name, tree.program("raysteps-bench"), tree.program("raytrace-reference"), machine(tree))
+
+
+def portable(project: Project) -> Programs:
+    """As the kit is built everywhere: for any processor of this kind."""
+    return _built(release_tree(project), "portable")
+
+
+def native(project: Project) -> Programs:
+    """Compiled for this very processor."""
+    options = (f"-DCMAKE_CXX_FLAGS={_NATIVE}",)
+    tree = BuildTree(project, "release", project.build / "native", project.steps, options)
+    return _built(tree, f"native ({_NATIVE})")
+
+
+def accelerations(programs: Programs) -> list[str]:
+    """The trees that raytrace can use; not those that test most surfaces."""
+    found = _ACCELERATIONS.search(run([programs.raytrace, "--help"], seconds=60).stdout)
+    names = found.group(1).split("|") if found else []
+    return [name for name in names if name not in ("none", "boxes")]
+
+
+def missing_peers(embree_version: str) -> list[str]:
+    """In words: who else could be measured, and how."""
+    lines = []
+    if not embree_version:
+        lines.append(
+            "Embree 3 is not installed, so there is nothing to compare rays with: apt-get install libembree-dev"
+        )
+    if shutil.which("povray") is None:
+        lines.append("POV-Ray is not installed, so there is nothing to compare pictures with: apt-get install povray")
+    return lines

@@ -1,0 +1,111 @@
+"""Tables of `bench render`."""
+
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.upkeep.bench.numbers import geometric_mean
+
+_PEER = "embree"
+_TIMES = ("trace_seconds", "process_seconds", "processor_seconds")
+_COMPARED = ("trace_seconds", "processor_seconds")
+
+
+def median_of(scene: dict[str, Any], name: str, what: str = "ns_per_ray") -> float | None:
+    """Of one structure on one scene, if it was measured."""
+    found = [side[what] for side in scene["structures"] if side["name"] == name and side[what]]
+    return float(found[0]["median"]) if found else None
+
+
+def names_of(scenes: list[dict[str, Any]]) -> list[str]:
+    """All structures, in the order of the program."""
+    return list(dict.fromkeys(side["name"] for scene in scenes for side in scene["structures"]))
+
+
+def against_embree(scenes: list[dict[str, Any]], name: str, what: str = "ns_per_ray") -> float | None:
+    """The geometric mean over the scenes of a structure's time as a multiple of Embree's."""
+    pairs = [(median_of(scene, name, what), median_of(scene, _PEER, what)) for scene in scenes]
+    ratios = [ours / theirs for ours, theirs in pairs if ours and theirs]
+    return geometric_mean(ratios) if ratios and len(ratios) == len(scenes) else None
+
+
+def faster(theirs: dict[str, Any], ours: dict[str, Any], what: str) -> float:
+    """How many times less we take than POV-Ray."""
+    return float(theirs[what]["median"] / ours[what]["median"])
+
+
+def _times(value: float | None, other: float | None) -> str:
+    return f"{value / other:.2f} x" if value and other else ""
+
+
+def _megabytes(value: int) -> str:
+    return f"{value / 1e6:.2f} MB" if value else ""
+
+
+def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> None:
+    """One line for each structure on each scene, and their means."""
+    table = Table(title=f"{build} build, one thread: every ray of the picture again", title_justify="left")
+    for heading in (
+        "scene", "structure", "rays", "ns/ray", "quartiles", "to Embree", "picture", "build", "memory", "surfaces/ray",
+        "boxes/ray", "seen differently",
+    ):  # fmt: skip
+        table.add_column(heading, justify="left" if heading in ("scene", "structure") else "right")
+    for scene in scenes:
+        for number, side in enumerate(scene["structures"]):
+            spread, picture = side["ns_per_ray"], side["picture_seconds"]
+            table.add_row(
+                f"{escape(scene['scene'])} ({scene['surfaces']})" if number == 0 else "",
+                side["name"],
+                str(side["rays"]),
+                f"{spread['median']:.1f}",
+                f"{spread['q1']:.1f} to {spread['q3']:.1f}",
+                _times(spread["median"], median_of(scene, _PEER)),
+                f"{picture['median']:.3f} s" if picture else "",
+                f"{side['build_seconds']['median'] * 1e3:.2f} ms",
+                _megabytes(side["bytes"]),
+                f"{side['surface_tests_per_ray']:.2f}",
+                f"{side['box_tests_per_ray']:.2f}",
+                str(side["differing"]),
+                end_section=side is scene["structures"][-1],
+            )
+    console.print(table)
+    means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
+    told = [f"{name} {ratio:.2f} x" for name, ratio in means if ratio and name != _PEER]
+    if told:
+        console.print(f"Time of a ray against Embree's, geometric mean of {len(scenes)} scenes: {', '.join(told)}")
+
+
+def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
+    """Whole pictures beside POV-Ray's."""
+    table = Table(title="whole pictures beside POV-Ray, one thread each", title_justify="left")
+    for heading in (
+        "scene",
+        "program",
+        "tracing",
+        "whole process",
+        "processor",
+        "tracing: POV-Ray / ours",
+        "processor: POV-Ray / ours",
+        "difference",
+    ):
+        table.add_column(heading, justify="left" if heading in ("scene", "program") else "right")
+    for row in rows:
+        if row["skipped"]:
+            table.add_row(escape(row["scene"]), escape(row["skipped"]), end_section=True)
+            continue
+        theirs = row["programs"][0]
+        for number, side in enumerate(row["programs"]):
+            table.add_row(
+                escape(row["scene"]) if number == 0 else "",
+                side["program"],
+                *[
+                    f"{side[what]['median']:.3f} s"
+                    for what in ("trace_seconds", "process_seconds", "processor_seconds")
+                ],
+                *["" if number == 0 else f"{faster(theirs, side, what):.2f} x" for what in _COMPARED],
+                f"{row['brightness_difference']:.4f}" if number == 0 else "",
+                end_section=side is row["programs"][-1],
+            )
+    console.print(table)

@@ -1,0 +1,120 @@
+"""Charts as SVG, readable on light and on dark paper."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from xml.sax.saxutils import escape
+
+from raysteps.upkeep.bench.axes import Axis, tick_text
+
+# Told apart by most colour-blind readers too (Okabe and Ito), and visible on white as on black.
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a8a8a", "#b58900")
+_WIDTH, _HEIGHT = 380.0, 300.0
+_LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 14.0, 34.0, 48.0
+_LEGEND_LINE = 18.0
+_STYLE = """text{font:12px system-ui,sans-serif;fill:#24292f}
+.grid{stroke:#d0d7de;stroke-width:1}.axis{stroke:#57606a;stroke-width:1.2;fill:none}
+.title{font-weight:600;font-size:13px}
+@media (prefers-color-scheme:dark){text{fill:#e6edf3}.grid{stroke:#30363d}.axis{stroke:#8b949e}}"""
+
+
+@dataclass(frozen=True)
+class Series:
+    """Points of one colour, joined by lines; or the heights of bars, one for each group."""
+
+    name: str
+    points: list[tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Lines over x, or bars in groups where `groups` names them (x is then the place of the group)."""
+
+    title: str
+    x: Axis
+    y: Axis
+    series: list[Series]
+    groups: tuple[str, ...] = ()
+
+
+def _text(x: float, y: float, text: str, anchor: str = "middle", more: str = "") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(text)}</text>'
+
+
+def _line(kind: str, x1: float, y1: float, x2: float, y2: float) -> str:
+    return f'<line class="{kind}" x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"/>'
+
+
+@dataclass(frozen=True)
+class _Panel:
+    """One chart and where it stands."""
+
+    chart: Chart
+    left: float
+    width: float
+
+    def x(self, value: float) -> float:
+        return self.left + _LEFT + self.chart.x.share(value) * (self.width - _LEFT - _RIGHT)
+
+    def y(self, value: float) -> float:
+        return _HEIGHT - _BOTTOM - self.chart.y.share(value) * (_HEIGHT - _TOP - _BOTTOM)
+
+    def frame(self) -> Iterator[str]:
+        chart = self.chart
+        left, right, bottom = self.left + _LEFT, self.left + self.width - _RIGHT, _HEIGHT - _BOTTOM
+        for value in chart.y.ticks():
+            yield _line("grid", left, self.y(value), right, self.y(value))
+            yield _text(left - 7, self.y(value) + 4, tick_text(value), "end")
+        for value in [] if chart.groups else chart.x.ticks():
+            yield _line("grid", self.x(value), _TOP, self.x(value), bottom)
+            yield _text(self.x(value), bottom + 17, tick_text(value))
+        for place, name in enumerate(chart.groups):
+            yield _text(self.x(place), bottom + 17, name)
+        yield f'<path class="axis" d="M{left:.1f} {_TOP:.1f}V{bottom:.1f}H{right:.1f}"/>'
+        yield _text((left + right) / 2, 18, chart.title, more=' class="title"')
+        yield _text((left + right) / 2, bottom + 38, chart.x.label)
+        middle = (_TOP + bottom) / 2
+        turn = f' transform="rotate(-90 {self.left + 16:.1f} {middle:.1f})"'
+        yield _text(self.left + 16, middle, chart.y.label, more=turn)
+
+    def lines(self) -> Iterator[str]:
+        for number, series in enumerate(self.chart.series):
+            color = _COLORS[number % len(_COLORS)]
+            places = [(self.x(x), self.y(y)) for x, y in series.points]
+            path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
+            yield f'<polyline fill="none" stroke="{color}" stroke-width="2" points="{path}"/>'
+            for x, y in places:
+                yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" fill="{color}"/>'
+
+    def bars(self) -> Iterator[str]:
+        bottom = self.y(self.chart.y.low)
+        room = abs(self.x(1) - self.x(0)) * 0.8
+        width = room / max(1, len(self.chart.series))
+        for number, series in enumerate(self.chart.series):
+            color = _COLORS[number % len(_COLORS)]
+            for place, value in series.points:
+                x, y = self.x(place) - room / 2 + number * width, self.y(value)
+                size = f'width="{width - 1:.1f}" height="{bottom - y:.1f}"'
+                yield f'<rect x="{x:.1f}" y="{y:.1f}" {size} fill="{color}"/>'
+
+
+def _legend(names: Sequence[str]) -> Iterator[str]:
+    for number, name in enumerate(names):
+        x = _LEFT + 110.0 * (number % 6)
+        y = _HEIGHT + _LEGEND_LINE * (number // 6)
+        color = _COLORS[number % len(_COLORS)]
+        yield f'<rect x="{x:.1f}" y="{y - 9:.1f}" width="10" height="10" rx="2" fill="{color}"/>'
+        yield _text(x + 15, y, name, "start")
+
+
+def svg_text(charts: Sequence[Chart], *, width: float = _WIDTH) -> str:
+    """Charts side by side. They share one legend, so all have the same series in the same order."""
+    names = [series.name for series in charts[0].series]
+    parts: list[str] = []
+    for number, chart in enumerate(charts):
+        panel = _Panel(chart, number * width, width)
+        parts += [*panel.frame(), *(panel.bars() if chart.groups else panel.lines())]
+    height = _HEIGHT + _LEGEND_LINE * ((len(names) + 5) // 6)
+    size = f"{width * len(charts):.0f} {height:.0f}"
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" role="img">'
+    title = f"<title>{escape('; '.join(chart.title for chart in charts))}</title>"
+    return "\n".join([head, title, f"<style>{_STYLE}</style>", *parts, *_legend(names), "</svg>"]) + "\n"

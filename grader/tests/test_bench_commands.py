@@ -1,0 +1,124 @@
+"""Benchmarks: what is said of wrong arguments and missing programs, and one real run."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from raysteps.cli import main
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.kit.project import Project
+from raysteps.upkeep.bench.documents import keep, kept
+from raysteps.upkeep.bench.pages import bench_docs
+from raysteps.upkeep.bench.pinning import can_pin, pinned
+from raysteps.upkeep.bench.programs import missing_peers
+from raysteps.upkeep.bench.scenes import checked
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["bench"],
+        ["bench", "speed"],
+        ["bench", "render", "--rounds", "0"],
+        ["bench", "render", "--size", "8"],
+        ["bench", "scale", "--most", "ten"],
+        ["bench", "threads", "--rounds", "-1"],
+    ],
+)
+def test_wrong_arguments(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    assert ended.value.code == 2
+    assert "usage: raysteps bench" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("what", ["render", "threads", "parse"])
+def test_an_unknown_scene(what: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", what, "no-such-scene.nff"]) == 2
+    assert capsys.readouterr().err == "raysteps: no-such-scene.nff: there is no such scene\n"
+
+
+def test_an_unknown_step(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", "loop", "99"]) == 2
+    assert "there is no step '99'" in capsys.readouterr().err
+
+
+def test_two_scenes_of_one_name_could_not_be_told_apart(tmp_path: Path) -> None:
+    scenes = [tmp_path / folder / "rings.nff" for folder in ("a", "b")]
+    for scene in scenes:
+        scene.parent.mkdir()
+        scene.touch()
+    with pytest.raises(UsageError, match="two scenes have this name"):
+        checked(scenes)
+
+
+def test_missing_peers_are_named_with_the_way_to_install_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    embree, povray = missing_peers("")
+    assert "apt-get install libembree-dev" in embree
+    assert "apt-get install povray" in povray
+    assert missing_peers("3.13.5") == [povray]
+
+
+@pytest.mark.skipif(not can_pin(), reason="this system pins no programs")
+def test_pinning_ends_with_the_measurement() -> None:
+    before = os.sched_getaffinity(0)
+    with pinned() as works:
+        assert works
+        assert os.sched_getaffinity(0) == {max(before)}
+    assert os.sched_getaffinity(0) == before
+
+
+def test_only_what_fits_its_schema_is_written(tmp_path: Path) -> None:
+    project = Project(tmp_path)
+    with pytest.raises(GraderFault, match="not what `bench parse` writes"):
+        keep(project, "parse", {"schema": "raysteps/bench-parse/v1"}, Console(quiet=True))
+    assert kept(project, "parse") is None
+
+
+def test_docs_without_any_measurement(tmp_path: Path) -> None:
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "benchmarks.md").write_text("", encoding="utf-8")
+    with pytest.raises(UsageError, match="nothing has been measured yet"):
+        bench_docs(Project(tmp_path), Console(quiet=True))
+
+
+def test_numbers_that_somebody_broke(tmp_path: Path) -> None:
+    project = Project(tmp_path)
+    place = tmp_path / "build" / "bench" / "scale.json"
+    place.parent.mkdir(parents=True)
+    place.write_text("{", encoding="utf-8")
+    with pytest.raises(UsageError, match=r"not JSON.*measure again: \./raysteps bench scale"):
+        kept(project, "scale")
+
+
+@pytest.mark.slow
+def test_a_small_run_of_render(project: Project, tmp_path: Path) -> None:
+    scene = project.scenes / "lessons" / "many-spheres.nff"
+    place = project.build / "bench" / "render.json"
+    before = place.read_bytes() if place.is_file() else None
+    try:
+        words = ["bench", "render", str(scene), "--size", "32", "--rounds", "1", "--every", "8", "--no-povray"]
+        assert main(words) == 0
+        document = json.loads(place.read_text(encoding="utf-8"))
+    finally:
+        if before is not None:
+            place.write_bytes(before)
+    (measured,) = document["builds"][0]["scenes"]
+    kinds = measured["rays"]
+    assert kinds["eye"] == 32 * 32
+    assert kinds["all"] == sum(kinds[kind] for kind in ("eye", "shadow", "reflect", "refract"))
+    sides = {side["name"]: side for side in measured["structures"]}
+    assert sides["none"]["rays"] == -(-kinds["all"] // 8)
+    assert sides["none"]["surface_tests_per_ray"] == measured["surfaces"]
+    assert sides["octree"]["rays"] == kinds["all"]
+    assert all(side["differing"] == 0 for name, side in sides.items() if not name.startswith("embree"))
+
+
+@pytest.mark.slow
+def test_a_small_run_of_scale_and_parse(project: Project) -> None:
+    assert main(["bench", "scale", "--most", "100", "--rounds", "1", "--structures", "octree"]) == 0
+    assert main(["bench", "parse", str(project.scenes / "lessons" / "glass.nff"), "--rounds", "1"]) == 0

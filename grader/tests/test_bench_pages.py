@@ -1,0 +1,80 @@
+"""Benchmarks: charts, tables and the page that holds them."""
+
+import defusedxml.ElementTree
+import pytest
+
+from raysteps.common.errors import GraderFault
+from raysteps.kit.project import Project
+from raysteps.upkeep.bench.axes import Axis, linear_axis, log_axis
+from raysteps.upkeep.bench.documents import NAMES
+from raysteps.upkeep.bench.page_tables import markdown
+from raysteps.upkeep.bench.pages import replace_part
+from raysteps.upkeep.bench.render_tables import against_embree, names_of
+from raysteps.upkeep.bench.svg import Chart, Series, svg_text
+
+_SVG = "{http://www.w3.org/2000/svg}"
+
+
+def _lines(title: str, *names: str) -> Chart:
+    points = [(100.0, 10.0), (1000.0, 20.0), (10000.0, 40.0)]
+    x, y = log_axis("surfaces", [100.0, 10000.0]), log_axis("tests", [10.0, 40.0])
+    return Chart(title, x, y, [Series(name, points) for name in names])
+
+
+def test_a_chart_has_all_its_points_names_and_labels() -> None:
+    root = defusedxml.ElementTree.fromstring(svg_text([_lines("a < b", "octree", "wide")]))
+    assert len(root.findall(f"{_SVG}polyline")) == 2
+    assert len(root.findall(f"{_SVG}circle")) == 6
+    texts = [element.text for element in root.findall(f"{_SVG}text")]
+    for text in ("a < b", "octree", "wide", "surfaces", "tests", "100", "1k", "10k"):
+        assert text in texts
+
+
+def test_points_stay_on_the_paper_and_the_larger_stands_higher() -> None:
+    root = defusedxml.ElementTree.fromstring(svg_text([_lines("one", "octree"), _lines("two", "octree")]))
+    width, height = (float(number) for number in root.attrib["viewBox"].split()[2:])
+    places = [(float(circle.attrib["cx"]), float(circle.attrib["cy"])) for circle in root.findall(f"{_SVG}circle")]
+    assert all(0 < x < width and 0 < y < height for x, y in places)
+    assert places[0][1] > places[1][1] > places[2][1]
+    assert places[3][0] - places[0][0] == pytest.approx(width / 2)
+
+
+def test_bars_are_as_high_as_their_values() -> None:
+    series = [Series("octree", [(0, 50.0), (1, 100.0)]), Series("embree", [(0, 25.0), (1, 10.0)])]
+    chart = Chart("rays", Axis("scene", -0.5, 1.5), linear_axis("ns", [100.0]), series, ("rings", "gears"))
+    root = defusedxml.ElementTree.fromstring(svg_text([chart]))
+    heights = [float(bar.attrib["height"]) for bar in root.findall(f"{_SVG}rect")][:4]
+    assert [height / heights[0] for height in heights] == pytest.approx([1.0, 2.0, 0.5, 0.2], abs=0.01)
+
+
+def test_a_chart_is_readable_on_dark_paper() -> None:
+    assert "prefers-color-scheme:dark" in svg_text([_lines("one", "octree")])
+
+
+def test_a_table_keeps_its_columns_apart() -> None:
+    assert markdown(("a", "b"), [("x|y", "1")]) == "| a | b |\n|---|---:|\n| x\\|y | 1 |"
+
+
+def test_only_the_part_between_the_marks_is_replaced() -> None:
+    page = "above\n<!-- begin scale -->\nold\n<!-- end scale -->\nbelow\n"
+    expected = "above\n<!-- begin scale -->\nnew \\1\n<!-- end scale -->\nbelow\n"
+    assert replace_part(page, "scale", "new \\1") == expected
+    with pytest.raises(GraderFault, match="expected one part between '<!-- begin loop -->'"):
+        replace_part(page, "loop", "new")
+
+
+def test_the_page_has_a_part_for_each_benchmark(project: Project) -> None:
+    page = (project.root / "docs" / "benchmarks.md").read_text(encoding="utf-8")
+    for name in NAMES:
+        assert "\nnew\n" in replace_part(page, name, "new")
+
+
+def test_ratios_are_those_of_the_same_scene() -> None:
+    def scene(ours: float, theirs: float) -> dict[str, object]:
+        times = (("octree", ours), ("embree", theirs))
+        return {"structures": [{"name": name, "ns_per_ray": {"median": time}} for name, time in times]}
+
+    scenes = [scene(400.0, 100.0), scene(100.0, 100.0)]
+    assert names_of(scenes) == ["octree", "embree"]
+    assert against_embree(scenes, "octree") == pytest.approx(2.0)
+    assert against_embree(scenes, "none") is None
