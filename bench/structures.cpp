@@ -30,6 +30,9 @@ const std::vector<Structure>& all_structures() {
         {"none", true, false, kits_own<Acceleration::none>},
         {"boxes", true, false, kits_own<Acceleration::boxes>},
         {"octree", false, false, kits_own<Acceleration::octree>},
+        {"bvh", false, false, kits_own<Acceleration::bvh>},
+        {"wide-octree", false, false, kits_own<Acceleration::wide_octree>},
+        {"wide", false, false, kits_own<Acceleration::wide>},
 #ifdef RAYSTEPS_EMBREE
         {"embree", false, true, embree<EmbreeMode::fast>},
         {"embree-high", false, true, embree<EmbreeMode::high>},

@@ -1,6 +1,5 @@
 """The programs that are measured, and what is missing."""
 
-import re
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,8 +9,8 @@ from raysteps.common.process import run
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.project import Project
 from raysteps.upkeep.bench.machine import Machine, machine
+from raysteps.upkeep.same_picture import accelerations_of
 
-_ACCELERATIONS = re.compile(r"--accel ([a-z|]+)")
 _NATIVE = "-march=native"
 
 
@@ -47,9 +46,7 @@ def native(project: Project) -> Programs:
 
 def accelerations(programs: Programs) -> list[str]:
     """The trees that raytrace can use; not those that test most surfaces."""
-    found = _ACCELERATIONS.search(run([programs.raytrace, "--help"], seconds=60).stdout)
-    names = found.group(1).split("|") if found else []
-    return [name for name in names if name not in ("none", "boxes")]
+    return [name for name in accelerations_of(programs.raytrace) if name not in ("none", "boxes")]
 
 
 def missing_peers(embree_version: str) -> list[str]:
