@@ -53,8 +53,8 @@ static void build(Bvh& bvh, size_t at, size_t from, size_t to, int level) {
     if (to - from > 4 && to - from < 2000 && level < 30) {
         float best = INFINITY;
         for (size_t i = from + 1; i < to; i++) {
-            const float cost =
-                split_cost(around(bvh.surfaces, from, i), i - from, around(bvh.surfaces, i, to), to - i, box);
+            const float cost = surface_area(around(bvh.surfaces, from, i)) * float(i - from) +
+                               surface_area(around(bvh.surfaces, i, to)) * float(to - i);
             if (cost < best) {
                 best = cost;
                 cut = i;

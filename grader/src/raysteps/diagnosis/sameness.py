@@ -3,6 +3,7 @@
 import math
 
 from raysteps.diagnosis.answers import Said
+from raysteps.judge.bvhs import BVH
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.tokens import Garbled
 from raysteps.judge.trees import TREE
@@ -70,7 +71,7 @@ def likeness(function: Function, case: Case, right: str, mistake: Said, mine: Sa
     same_problem = mistake.problem == mine.problem
     if not mistake.line or not mine.line:
         return 0.0  # one of them gave no answer
-    if function.answer is TREE or mistake.line.startswith("#") or mine.line.startswith("#"):
+    if function.answer in (TREE, BVH) or mistake.line.startswith("#") or mine.line.startswith("#"):
         return 1.0 if same_problem else 0.0  # everybody divides space in another way
     if mistake.line.startswith("threw") or mine.line.startswith("threw"):
         return 1.0 if same_problem else 0.0
