@@ -11,11 +11,13 @@ from rich.console import Console
 
 from raysteps.cli import main
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.process import run
 from raysteps.kit.project import Project
+from raysteps.upkeep.bench.asking import ask
 from raysteps.upkeep.bench.documents import keep, kept
 from raysteps.upkeep.bench.pages import bench_docs
 from raysteps.upkeep.bench.pinning import can_pin, pinned
-from raysteps.upkeep.bench.programs import missing_peers
+from raysteps.upkeep.bench.programs import missing_peers, portable
 from raysteps.upkeep.bench.scale import KINDS
 from raysteps.upkeep.bench.scenes import checked
 
@@ -124,6 +126,22 @@ def test_a_small_run_of_render(project: Project, bench_folder: Path) -> None:
     assert sides["none"]["surface_tests_per_ray"] == measured["surfaces"]
     assert sides["octree"]["rays"] == kinds["all"]
     assert all(side["differing"] == 0 for name, side in sides.items() if not name.startswith("embree"))
+
+
+@pytest.mark.slow
+def test_the_recorded_rays_are_those_of_the_picture(project: Project, tmp_path: Path) -> None:
+    programs = portable(project)
+    scene, stats = project.scenes / "lessons" / "glass.nff", tmp_path / "stats.json"
+    drawn: list[str | Path] = [programs.raytrace, scene, "-o", tmp_path / "glass.ppm", "--stats", stats, "--quiet"]
+    assert run([*drawn, "--size", "48x48", "--accel", "octree"], seconds=300).code == 0
+    measured = ask(programs.bench, "render", scene, "--size", "48", "--rounds", "1", "--structures", "octree")
+    told = json.loads(stats.read_text(encoding="utf-8"))
+    kinds = ("eye", "shadow", "reflect", "refract")
+    assert {kind: measured["rays"][kind] for kind in kinds} == {kind: told["rays"][kind] for kind in kinds}
+    assert all(measured["rays"][kind] > 0 for kind in kinds)
+    (side,) = measured["structures"]
+    assert side["surface_tests_per_ray"] == pytest.approx(told["tests_per_ray"], rel=1e-6)
+    assert side["box_tests_per_ray"] * side["rays"] == pytest.approx(told["box_tests"], rel=1e-6)
 
 
 @pytest.mark.slow
