@@ -5,7 +5,8 @@
 # in two of a student's files do not collide, and no step can replace a function of the framework or of another
 # step. Where the tools for that are missing (macOS, Windows, sanitizers) objects are linked as they are.
 set(RAYSTEPS_STEPS
-    01-camera-rays 02-intersection 03-phong-shading 04-shadows 05-reflection 06-octree 07-tone-mapping 08-refraction)
+    01-camera-rays 02-intersection 03-phong-shading 04-shadows 05-reflection 06-octree 07-tone-mapping 08-refraction
+    09-bvh)
 
 set(RAYSTEPS_SEAL OFF)
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT RAYSTEPS_SANITIZE AND CMAKE_LINKER AND CMAKE_OBJCOPY AND CMAKE_NM)

@@ -10,14 +10,14 @@ namespace raysteps {
 const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [options]
 
   -o FILE                 the picture, as binary PPM
-  --step N                render with what the course has after step N, 1 to 8 (8)
+  --step N                render with what the course has after step N, 1 to 9 (8)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
   --threads N             the picture is the same for any number (one per core)
-  --accel none|boxes|octree
-                          every surface, the paper's 64 boxes, or the tree of step 06
-                          (none before step 6, octree from there on)
+  --accel none|boxes|octree|bvh
+                          every surface, the paper's 64 boxes, the tree of step 06 or that of
+                          step 09 (none before step 6, octree from there on, bvh for step 9)
   --stats FILE.json       write counters: rays by kind, tests, seconds
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
@@ -82,10 +82,10 @@ Rect parse_crop(const std::string& text) {
 
 Acceleration parse_acceleration(const std::string& text) {
     static const std::map<std::string, Acceleration> names{
-        {"none", Acceleration::none}, {"boxes", Acceleration::boxes}, {"octree", Acceleration::octree}};
+        {"none", Acceleration::none}, {"boxes", Acceleration::boxes}, {"octree", Acceleration::octree}, {"bvh", Acceleration::bvh}};
     const auto found = names.find(text);
     if (found == names.end()) {
-        complain("--accel", "none, boxes or octree", text);
+        complain("--accel", "none, boxes, octree or bvh", text);
     }
     return found->second;
 }
@@ -103,7 +103,7 @@ const std::map<std::string, Setter>& options_with_value() {
     static const std::map<std::string, Setter> setters{
         {"-o", [](auto& o, const auto& text) { o.output = text; }},
         {"--stats", [](auto& o, const auto& text) { o.stats = text; }},
-        {"--step", [](auto& o, const auto& text) { o.step = number_between("--step", text, 1, 8); }},
+        {"--step", [](auto& o, const auto& text) { o.step = number_between("--step", text, 1, 9); }},
         {"--depth", [](auto& o, const auto& text) { o.depth = number_between("--depth", text, 1, 1000); }},
         {"--threads", [](auto& o, const auto& text) { o.threads = number_between("--threads", text, 1, 1024); }},
         {"--view", [](auto& o, const auto& text) { o.view = parse_view(text); }},

@@ -23,7 +23,7 @@ struct RaytraceOptions {
     std::optional<Size> size;  ///< nothing: the scene's resolution
     int depth = 5;
     int threads = 0;                           ///< 0: one per core
-    std::optional<Acceleration> acceleration;  ///< nothing: none before step 06, octree from there on
+    std::optional<Acceleration> acceleration;  ///< nothing: none before step 06, octree from there on, bvh for step 9
     std::optional<Rect> crop;
     bool quiet = false;
     bool spd = false;

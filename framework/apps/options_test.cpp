@@ -43,16 +43,16 @@ TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({}) == "expected a scene, like scenes/lessons/three-spheres.nff");
     CHECK(complaint_about({"a.nff"}) == "expected -o FILE for the picture");
     CHECK(complaint_about({"a.nff", "-o"}) == "-o: expected a value after it");
-    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "9"}) ==
-          "--step: expected a whole number from 1 to 8, found '9'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "10"}) ==
+          "--step: expected a whole number from 1 to 9, found '10'");
     CHECK(complaint_about({"a.nff", "-o", "b", "--step", "2x"}) ==
-          "--step: expected a whole number from 1 to 8, found '2x'");
+          "--step: expected a whole number from 1 to 9, found '2x'");
     CHECK(complaint_about({"a.nff", "-o", "b", "--size", "0x5"}) ==
           "--size: expected WxH in pixels, each from 1 to 16384, like 320x240, found '0x5'");
     CHECK(complaint_about({"a.nff", "-o", "b", "--crop", "1,2,3"}) ==
           "--crop: expected X,Y,W,H in pixels, like 10,20,64,48, found '1,2,3'");
-    CHECK(complaint_about({"a.nff", "-o", "b", "--accel", "bvh"}) ==
-          "--accel: expected none, boxes or octree, found 'bvh'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--accel", "kdtree"}) ==
+          "--accel: expected none, boxes, octree or bvh, found 'kdtree'");
     CHECK(complaint_about({"a.nff", "c.nff", "-o", "b"}) ==
           "arguments: expected one scene and the options that --help lists, found 'c.nff'");
 }

@@ -20,7 +20,8 @@ using namespace raysteps;
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
-    return options.acceleration.value_or(options.step < 6 && !options.spd ? Acceleration::none : Acceleration::octree);
+    const Acceleration from_step_6 = options.step < 9 ? Acceleration::octree : Acceleration::bvh;
+    return options.acceleration.value_or(options.step < 6 && !options.spd ? Acceleration::none : from_step_6);
 }
 
 void check_crop(const Rect& crop, const Camera& camera) {

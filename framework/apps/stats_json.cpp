@@ -23,6 +23,9 @@ std::string stats_json(const Rendering& rendering, std::size_t surfaces) {
         << "  \"box_tests\": " << stats.box_tests << ",\n"
         << "  \"tests_per_ray\": " << per_ray << ",\n"
         << "  \"share_tested\": " << share << ",\n"
+        << "  \"structure\": {\"boxes\": " << rendering.structure.boxes
+        << ", \"references\": " << rendering.structure.references << ", \"bytes\": " << rendering.structure.bytes
+        << "},\n"
         << "  \"build_seconds\": " << rendering.build_seconds << ",\n"
         << "  \"render_seconds\": " << rendering.render_seconds << "\n"
         << "}\n";

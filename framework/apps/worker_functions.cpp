@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "apps/worker_bvh.hpp"
 #include "apps/worker_surfaces.hpp"
 #include "apps/worker_tracer.hpp"
 #include "apps/worker_tree.hpp"
@@ -14,6 +15,7 @@
 #include "steps/06-octree/octree.hpp"
 #include "steps/07-tone-mapping/tone_mapping.hpp"
 #include "steps/08-refraction/refraction.hpp"
+#include "steps/09-bvh/bvh.hpp"
 
 namespace raysteps {
 namespace {
@@ -176,21 +178,42 @@ void ask_build_octree(Words& words, Answer& answer) {
     write_tree(answer, build_octree(scene.surfaces()), scene.surfaces());
 }
 
+std::vector<Ray> read_rays(Words& words) {
+    std::vector<Ray> rays;
+    for (int left = words.count(); left > 0; --left) {
+        rays.push_back(read_ray(words));
+    }
+    return rays;
+}
+
 // Whose tree (1: of the step's own build_octree), surfaces, rays. For each ray the surfaces asked, and the hit.
 void ask_closest_hit_in(Words& words, Answer& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
-    std::vector<Ray> rays;
-    for (int left = words.count(); left > 0; --left) {
-        rays.push_back(read_ray(words));
-    }
+    const std::vector<Ray> rays = read_rays(words);
     const Node root = own ? build_octree(scene.surfaces()) : simple_tree(scene.surfaces());
     for (const Ray& ray : rays) {
         const long long before = asked.times;
         const std::optional<HitRecord> hit = closest_hit_in(root, ray);
         answer.whole(asked.times - before);
         write_hit(answer, hit);
+    }
+}
+
+// The same, with a distance at the end that counts for all rays. For each ray the surfaces asked, and 0 or 1.
+void ask_any_hit_in(Words& words, Answer& answer) {
+    Asked asked;
+    const bool own = words.flag();
+    const Scene scene = read_surfaces(words, asked);
+    const std::vector<Ray> rays = read_rays(words);
+    const float distance = words.number();
+    const Node root = own ? build_octree(scene.surfaces()) : simple_tree(scene.surfaces());
+    for (const Ray& ray : rays) {
+        const long long before = asked.times;
+        const bool hit = any_hit_in(root, ray, distance);
+        answer.whole(asked.times - before);
+        answer.whole(hit ? 1 : 0);
     }
 }
 
@@ -227,6 +250,60 @@ void ask_transmitted_light(Words& words, Answer& answer) {
     }
 }
 
+void ask_surface_area(Words& words, Answer& answer) { answer.number(surface_area(read_box(words))); }
+
+void ask_split_cost(Words& words, Answer& answer) {
+    const Box left = read_box(words);
+    const auto left_count = static_cast<std::size_t>(words.count());
+    const Box right = read_box(words);
+    const auto right_count = static_cast<std::size_t>(words.count());
+    answer.number(split_cost(left, left_count, right, right_count, read_box(words)));
+}
+
+void ask_build_bvh(Words& words, Answer& answer) {
+    Asked asked;
+    const Scene scene = read_surfaces(words, asked);
+    write_bvh(answer, build_bvh(scene.surfaces()), scene.surfaces());
+}
+
+Bvh make_bvh(bool own, const Scene& scene) { return own ? build_bvh(scene.surfaces()) : simple_bvh(scene.surfaces()); }
+
+// Whose tree (1: of the step's own build_bvh), surfaces, rays. For each ray the surfaces asked, and the hit.
+void ask_closest_hit_in_bvh(Words& words, Answer& answer) {
+    Asked asked;
+    const bool own = words.flag();
+    const Scene scene = read_surfaces(words, asked);
+    std::vector<Ray> rays;
+    for (int left = words.count(); left > 0; --left) {
+        rays.push_back(read_ray(words));
+    }
+    const Bvh bvh = make_bvh(own, scene);
+    for (const Ray& ray : rays) {
+        const long long before = asked.times;
+        const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, ray);
+        answer.whole(asked.times - before);
+        write_hit(answer, hit);
+    }
+}
+
+// The same with a distance after each ray. For each ray the surfaces asked, and whether there is a hit.
+void ask_any_hit_in_bvh(Words& words, Answer& answer) {
+    Asked asked;
+    const bool own = words.flag();
+    const Scene scene = read_surfaces(words, asked);
+    std::vector<std::pair<Ray, float>> rays;
+    for (int left = words.count(); left > 0; --left) {
+        const Ray ray = read_ray(words);
+        rays.emplace_back(ray, words.number());
+    }
+    const Bvh bvh = make_bvh(own, scene);
+    for (const auto& [ray, distance] : rays) {
+        const long long before = asked.times;
+        const bool hit = any_hit_in_bvh(bvh, ray, distance);
+        answer.whole(asked.times - before).whole(hit ? 1 : 0);
+    }
+}
+
 const std::map<std::string_view, Function> k_functions{
     {"point_at", ask_point_at},
     {"view_frame", ask_view_frame},
@@ -249,11 +326,17 @@ const std::map<std::string_view, Function> k_functions{
     {"split", ask_split},
     {"build_octree", ask_build_octree},
     {"closest_hit_in", ask_closest_hit_in},
+    {"any_hit_in", ask_any_hit_in},
     {"tone_map", ask_tone_map},
     {"to_byte", ask_to_byte},
     {"refract", ask_refract},
     {"transmitted_ray", ask_transmitted_ray},
     {"transmitted_light", ask_transmitted_light},
+    {"surface_area", ask_surface_area},
+    {"split_cost", ask_split_cost},
+    {"build_bvh", ask_build_bvh},
+    {"closest_hit_in_bvh", ask_closest_hit_in_bvh},
+    {"any_hit_in_bvh", ask_any_hit_in_bvh},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-// Renderers whose answers the case chooses, and who remember what they were asked.
+// Renderers whose answers the case chooses, and who remember what they were asked. Their any_hit is RayCaster's own, by
+// way of closest_hit: a ray is counted whichever of the two questions it brings.
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -58,7 +59,7 @@ public:
     [[nodiscard]] int max_ray_depth() const override { return script_.max_depth; }
     [[nodiscard]] Color background() const override { return script_.background; }
 
-    std::vector<Ray> cast;          ///< rays given to closest_hit
+    std::vector<Ray> cast;          ///< rays given to closest_hit or any_hit
     std::vector<ShadedHit> shaded;  ///< hits given to local_light
     std::vector<CastRay> traced;    ///< rays given to trace
 

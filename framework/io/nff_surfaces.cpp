@@ -37,18 +37,31 @@ glm::vec3 read_normal(TokenScanner& scanner) {
     return std::abs(length - 1.0) < k_rounding ? glm::vec3(normal) : glm::vec3(normal / length);
 }
 
-// The list grows with the file and not with the count that the file claims.
-std::vector<glm::vec3> read_corners(TokenScanner& scanner, std::vector<glm::vec3>* normals) {
+SmoothTriangle::Corner read_smooth_corner(TokenScanner& scanner) {
+    const glm::vec3 position = FieldReader(scanner).point("the vertex");
+    return {position, read_normal(scanner)};
+}
+
+int read_count(TokenScanner& scanner) { return FieldReader(scanner).whole("number of vertices", 3, k_most_corners); }
+
+// Large scenes are made of triangles: they need no lists.
+void read_triangle(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     FieldReader fields(scanner);
-    const int count = fields.whole("number of vertices", 3, k_most_corners);
-    std::vector<glm::vec3> corners;
-    for (int i = 0; i < count; ++i) {
-        corners.push_back(fields.point("the vertex"));
-        if (normals != nullptr) {
-            normals->push_back(read_normal(scanner));
-        }
+    const glm::vec3 a = fields.point("the vertex");
+    const glm::vec3 b = fields.point("the vertex");
+    const glm::vec3 c = fields.point("the vertex");
+    if (has_area(a, b, c)) {
+        scene.add(std::make_unique<Triangle>(a, b, c, fill));
     }
-    return corners;
+}
+
+void read_smooth_triangle(TokenScanner& scanner, const Fill& fill, Scene& scene) {
+    const SmoothTriangle::Corner a = read_smooth_corner(scanner);
+    const SmoothTriangle::Corner b = read_smooth_corner(scanner);
+    const SmoothTriangle::Corner c = read_smooth_corner(scanner);
+    if (has_area(a.position, b.position, c.position)) {
+        scene.add(std::make_unique<SmoothTriangle>(a, b, c, fill));
+    }
 }
 
 std::vector<TriangleIndices> cut(const TokenScanner& scanner, const Token& place,
@@ -106,7 +119,15 @@ void read_cone(TokenScanner& scanner, const Fill& fill, Scene& scene) {
 
 void read_polygon(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     const Token place = scanner.peek();
-    const std::vector<glm::vec3> corners = read_corners(scanner, nullptr);
+    const int count = read_count(scanner);
+    if (count == 3) {
+        read_triangle(scanner, fill, scene);
+        return;
+    }
+    std::vector<glm::vec3> corners;  // grows with the file and not with the count that the file claims
+    for (int i = 0; i < count; ++i) {
+        corners.push_back(FieldReader(scanner).point("the vertex"));
+    }
     for (const auto& [a, b, c] : cut(scanner, place, corners)) {
         scene.add(std::make_unique<Triangle>(corners[a], corners[b], corners[c], fill));
     }
@@ -114,11 +135,19 @@ void read_polygon(TokenScanner& scanner, const Fill& fill, Scene& scene) {
 
 void read_patch(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     const Token place = scanner.peek();
-    std::vector<glm::vec3> normals;
-    const std::vector<glm::vec3> corners = read_corners(scanner, &normals);
-    const auto corner = [&](std::size_t i) { return SmoothTriangle::Corner{corners[i], normals[i]}; };
-    for (const auto& [a, b, c] : cut(scanner, place, corners)) {
-        scene.add(std::make_unique<SmoothTriangle>(corner(a), corner(b), corner(c), fill));
+    const int count = read_count(scanner);
+    if (count == 3) {
+        read_smooth_triangle(scanner, fill, scene);
+        return;
+    }
+    std::vector<glm::vec3> positions;
+    std::vector<SmoothTriangle::Corner> corners;
+    for (int i = 0; i < count; ++i) {
+        corners.push_back(read_smooth_corner(scanner));
+        positions.push_back(corners.back().position);
+    }
+    for (const auto& [a, b, c] : cut(scanner, place, positions)) {
+        scene.add(std::make_unique<SmoothTriangle>(corners[a], corners[b], corners[c], fill));
     }
 }
 

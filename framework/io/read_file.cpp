@@ -1,6 +1,8 @@
 #include "io/read_file.hpp"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
@@ -22,6 +24,17 @@ void refuse_what_is_no_file(const std::filesystem::path& path) {
     }
 }
 
+// A hint only: a pipe has no size, and a file may grow.
+std::string with_room_for(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    std::string bytes;
+    if (!error && size <= k_most_bytes) {
+        bytes.reserve(static_cast<std::size_t>(size));
+    }
+    return bytes;
+}
+
 }  // namespace
 
 std::string display_name(const std::filesystem::path& path) {
@@ -36,7 +49,7 @@ std::string read_file(const std::filesystem::path& path) {
     if (!file) {
         throw ReadError(display_name(path), "a file that can be read", "one that cannot be opened");
     }
-    std::string bytes;
+    std::string bytes = with_room_for(path);
     std::array<char, 65536> piece{};
     while (file) {
         file.read(piece.data(), static_cast<std::streamsize>(piece.size()));

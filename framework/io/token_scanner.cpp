@@ -1,5 +1,6 @@
 #include "io/token_scanner.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "io/read_error.hpp"
@@ -11,6 +12,12 @@ constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
 
 bool ends_line(char character) { return character == '\n' || character == '\r'; }
 
+// Nearly all characters of a scene are above the space, and take one comparison.
+bool ends_token(char character) {
+    const bool is_ordinary = static_cast<unsigned char>(character) > '#';
+    return !is_ordinary && (character == '#' || is_blank(character));
+}
+
 }  // namespace
 
 bool is_blank(char character) {
@@ -20,15 +27,16 @@ bool is_blank(char character) {
 TokenScanner::TokenScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
     if (text_.starts_with(k_byte_order_mark)) {
         offset_ = k_byte_order_mark.size();
+        line_start_ = offset_;
     }
 }
 
 Token TokenScanner::next() {
     skip_blanks();
-    Token token{{}, line_, column_};
+    Token token = here();
     const std::size_t start = offset_;
-    while (offset_ < text_.size() && !is_blank(text_[offset_]) && text_[offset_] != '#') {
-        step();
+    while (offset_ < text_.size() && !ends_token(text_[offset_])) {
+        ++offset_;
     }
     token.text = text_.substr(start, offset_ - start);
     return token;
@@ -37,11 +45,11 @@ Token TokenScanner::next() {
 Token TokenScanner::peek() {
     const std::size_t offset = offset_;
     const std::size_t line = line_;
-    const std::size_t column = column_;
+    const std::size_t line_start = line_start_;
     const Token token = next();
     offset_ = offset;
     line_ = line;
-    column_ = column;
+    line_start_ = line_start;
     return token;
 }
 
@@ -54,31 +62,26 @@ void TokenScanner::fail(const Token& token, std::string_view expected, std::stri
 }
 
 void TokenScanner::skip_blanks() {
-    bool in_comment = false;
-    while (offset_ < text_.size()) {
-        const char character = text_[offset_];
-        if (ends_line(character)) {
-            in_comment = false;
-        } else if (character == '#') {
-            in_comment = true;
-        } else if (!in_comment && !is_blank(character)) {
-            return;
+    while (offset_ < text_.size() && ends_token(text_[offset_])) {
+        if (text_[offset_] == '#') {
+            offset_ = std::min(text_.find_first_of("\r\n", offset_), text_.size());
+        } else if (ends_line(text_[offset_])) {
+            end_line();
+        } else {
+            ++offset_;
         }
-        step();
     }
 }
 
 // In CRLF only the LF starts a new line.
-void TokenScanner::step() {
-    const char character = text_[offset_];
+void TokenScanner::end_line() {
+    const bool is_cr = text_[offset_] == '\r';
     ++offset_;
-    const bool before_lf = offset_ < text_.size() && text_[offset_] == '\n';
-    if (character == '\n' || (character == '\r' && !before_lf)) {
-        ++line_;
-        column_ = 1;
-    } else {
-        ++column_;
+    if (is_cr && offset_ < text_.size() && text_[offset_] == '\n') {
+        return;
     }
+    ++line_;
+    line_start_ = offset_;
 }
 
 }  // namespace raysteps

@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::size_t offset() const { return offset_; }
 
     /// The place right after the last token, as an empty token.
-    [[nodiscard]] Token here() const { return {{}, line_, column_}; }
+    [[nodiscard]] Token here() const { return {{}, line_, column()}; }
 
     /// Throws ReadError at the token.
     [[noreturn]] void fail(const Token& token, std::string_view expected) const;
@@ -36,13 +36,14 @@ public:
 
 private:
     void skip_blanks();
-    void step();
+    void end_line();
+    [[nodiscard]] std::size_t column() const { return offset_ - line_start_ + 1; }
 
     std::string_view text_;
     std::string name_;
     std::size_t offset_ = 0;
     std::size_t line_ = 1;
-    std::size_t column_ = 1;
+    std::size_t line_start_ = 0;  ///< where column 1 of the line is
 };
 
 /// Space, tab, CR, LF, vertical tab or form feed, whatever the locale.

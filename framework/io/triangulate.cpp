@@ -13,18 +13,6 @@ namespace {
 // Height over longest side, below which a triangle is a line in float arithmetic.
 constexpr double k_thinnest = 1e-8;
 
-bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const glm::vec3 normal = glm::cross(b - a, c - a);
-    if (!(glm::dot(normal, normal) >= std::numeric_limits<float>::min())) {
-        return false;  // its normal could not be made unit length
-    }
-    const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a);
-    const glm::dvec3 ac = glm::dvec3(c) - glm::dvec3(a);
-    const glm::dvec3 bc = glm::dvec3(c) - glm::dvec3(b);
-    const double longest = std::max(glm::dot(ab, ab), std::max(glm::dot(ac, ac), glm::dot(bc, bc)));
-    return glm::length(glm::cross(ab, ac)) > k_thinnest * longest;
-}
-
 // The corners without those that repeat the one before.
 std::vector<std::size_t> distinct(std::span<const glm::vec3> corners) {
     std::vector<std::size_t> kept;
@@ -40,6 +28,18 @@ std::vector<std::size_t> distinct(std::span<const glm::vec3> corners) {
 }
 
 }  // namespace
+
+bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    if (!(glm::dot(normal, normal) >= std::numeric_limits<float>::min())) {
+        return false;  // its normal could not be made unit length
+    }
+    const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a);
+    const glm::dvec3 ac = glm::dvec3(c) - glm::dvec3(a);
+    const glm::dvec3 bc = glm::dvec3(c) - glm::dvec3(b);
+    const double longest = std::max(glm::dot(ab, ab), std::max(glm::dot(ac, ac), glm::dot(bc, bc)));
+    return glm::length(glm::cross(ab, ac)) > k_thinnest * longest;
+}
 
 std::optional<std::vector<TriangleIndices>> triangulate(std::span<const glm::vec3> corners) {
     const std::vector<std::size_t> kept = distinct(corners);

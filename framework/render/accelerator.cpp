@@ -1,11 +1,21 @@
 #include "render/accelerator.hpp"
 
+#include <algorithm>
+
 #include "render/paper_boxes.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
+#include "steps/09-bvh/bvh.hpp"
 
 namespace raysteps {
 namespace {
+
+bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
+    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface* surface) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        return hit && hit->distance < distance;
+    });
+}
 
 class BruteForce final : public Accelerator {
 public:
@@ -13,6 +23,10 @@ public:
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return raysteps::closest_hit(surfaces_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return any_of_list(surfaces_, ray, distance);
     }
 
 private:
@@ -27,8 +41,45 @@ public:
         return closest_hit_in(root_, ray);
     }
 
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return any_hit_in(root_, ray, distance);
+    }
+    [[nodiscard]] StructureSize size() const override { return size_below(root_); }
+
 private:
+    static StructureSize size_below(const Node& node) {
+        StructureSize sum{1, node.surfaces.size(), sizeof(Node) + node.surfaces.size() * sizeof(const Surface*)};
+        for (const Node& child : node.children) {
+            const StructureSize below = size_below(child);
+            sum.boxes += below.boxes;
+            sum.references += below.references;
+            sum.bytes += below.bytes;
+        }
+        return sum;
+    }
+
     Node root_;
+};
+
+class BoundingVolumes final : public Accelerator {
+public:
+    explicit BoundingVolumes(const SurfaceList& surfaces) : bvh_(build_bvh(surfaces)) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return closest_hit_in_bvh(bvh_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return any_hit_in_bvh(bvh_, ray, distance);
+    }
+
+    [[nodiscard]] StructureSize size() const override {
+        return {bvh_.nodes.size(), bvh_.surfaces.size(),
+                bvh_.nodes.size() * sizeof(BvhNode) + bvh_.surfaces.size() * sizeof(const Surface*)};
+    }
+
+private:
+    Bvh bvh_;
 };
 
 }  // namespace
@@ -41,6 +92,8 @@ std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceLi
             return std::make_unique<PaperBoxes>(surfaces);
         case Acceleration::octree:
             return std::make_unique<Octree>(surfaces);
+        case Acceleration::bvh:
+            return std::make_unique<BoundingVolumes>(surfaces);
     }
     return nullptr;
 }

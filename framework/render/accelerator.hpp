@@ -13,6 +13,7 @@ enum class Acceleration {
     none,    ///< every ray against every surface: step 02
     boxes,   ///< the paper's three levels: a main box, 8 boxes, 64 boxes
     octree,  ///< the tree of step 06
+    bvh,     ///< the tree of step 09
 };
 
 /// What a structure costs before the first ray.

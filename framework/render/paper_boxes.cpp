@@ -1,5 +1,6 @@
 #include "render/paper_boxes.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <glm/geometric.hpp>
 
@@ -30,6 +31,22 @@ void append_members(const std::vector<std::uint64_t>& members, const SurfaceList
             out.push_back(surfaces[64 * word + static_cast<std::size_t>(std::countr_zero(rest))]);
         }
     }
+}
+
+/// Whether one of the members that were not tested yet is hit nearer than `distance`; marks them as tested.
+bool hits_untested(const std::vector<std::uint64_t>& members, std::vector<std::uint64_t>& tested,
+                   const SurfaceList& surfaces, const Ray& ray, float distance) {
+    for (std::size_t word = 0; word < members.size(); ++word) {
+        for (std::uint64_t rest = members[word] & ~tested[word]; rest != 0; rest &= rest - 1) {
+            const Surface* surface = surfaces[64 * word + static_cast<std::size_t>(std::countr_zero(rest))];
+            const std::optional<HitRecord> hit = surface->hit(ray);
+            if (hit && hit->distance < distance) {
+                return true;
+            }
+        }
+        tested[word] |= members[word];
+    }
+    return false;
 }
 
 }  // namespace
@@ -74,6 +91,34 @@ std::optional<HitRecord> PaperBoxes::closest_hit(const Ray& ray) const {
     list.clear();
     append_members(candidates, surfaces_, list);
     return raysteps::closest_hit(list, ray);
+}
+
+bool PaperBoxes::any_hit(const Ray& ray, float distance) const {
+    if (surfaces_.empty() || !main_.hit(ray)) {
+        return false;
+    }
+    thread_local std::vector<std::uint64_t> tested;
+    tested.assign((surfaces_.size() + 63) / 64, 0);
+    const auto has_hit = [&](const Small& small) {
+        return small.box.hit(ray) && hits_untested(small.members, tested, surfaces_, ray, distance);
+    };
+    return std::any_of(middle_.begin(), middle_.end(), [&](const Middle& middle) {
+        return middle.box.hit(ray) && std::any_of(middle.small.begin(), middle.small.end(), has_hit);
+    });
+}
+
+StructureSize PaperBoxes::size() const {
+    StructureSize sum{1, 0, sizeof middle_ + sizeof main_};
+    for (const Middle& middle : middle_) {
+        sum.boxes += 1 + middle.small.size();
+        for (const Small& small : middle.small) {
+            sum.bytes += small.members.size() * sizeof(std::uint64_t);
+            for (const std::uint64_t word : small.members) {
+                sum.references += static_cast<std::uint64_t>(std::popcount(word));
+            }
+        }
+    }
+    return sum;
 }
 
 }  // namespace raysteps

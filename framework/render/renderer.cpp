@@ -78,7 +78,7 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
             Image(crop.width, crop.height)};
     run_on_threads(options.threads, [&job] { work(job); });
     job.progress.finish();
-    return {std::move(job.image), job.stats, build_seconds, seconds_since(render_start)};
+    return {std::move(job.image), job.stats, accelerator->size(), build_seconds, seconds_since(render_start)};
 }
 
 }  // namespace raysteps

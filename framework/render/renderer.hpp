@@ -28,6 +28,7 @@ struct RenderOptions {
 struct Rendering {
     Image image;
     Stats stats;
+    StructureSize structure;
     double build_seconds = 0.0;
     double render_seconds = 0.0;
 };

@@ -92,15 +92,19 @@ TEST_CASE("Tiles cover each pixel once", "[render]") {
     }
 }
 
-TEST_CASE("Brute force tests every surface once for each ray", "[render]") {
+TEST_CASE("Brute force tests every surface once for each ray, but ends a shadow ray at the first hit", "[render]") {
     const Scene scene = small_scene();
-    for (const int step : {4, 5, 8}) {
+    for (const int step : {2, 4, 5, 8}) {
         INFO("step " << step);
         const Stats stats = render(scene, options_of_step(step)).stats;
         CHECK(stats.eye == 50 * 37);
         CHECK(stats.eye_hit > 0);
         CHECK(stats.eye_hit < stats.eye);
-        CHECK(stats.surface_tests == stats.rays() * scene.surfaces().size());
+        const std::uint64_t surfaces = scene.surfaces().size();
+        const std::uint64_t most = stats.rays() * surfaces;
+        CHECK(stats.surface_tests >= most - stats.shadow * (surfaces - 1));
+        CHECK(stats.surface_tests <= most);
+        CHECK((stats.surface_tests < most) == (step >= 4));
         CHECK(stats.box_tests == 0);
         CHECK((stats.reflect > 0) == (step >= 5));
         CHECK((stats.refract > 0) == (step >= 8));

@@ -27,6 +27,11 @@ public:
         return accelerator_.closest_hit(ray);
     }
 
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) override {
+        ++thread_stats().shadow;
+        return accelerator_.any_hit(ray, distance);
+    }
+
 private:
     const Accelerator& accelerator_;
 };

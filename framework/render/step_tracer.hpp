@@ -10,7 +10,7 @@ namespace raysteps {
 enum class View { color, normals };
 
 struct StepOptions {
-    int step = 8;  ///< 1 to 8
+    int step = 8;  ///< 1 to 9; 9 shows what 8 shows
     View view = View::color;
     int max_ray_depth = 5;
 };

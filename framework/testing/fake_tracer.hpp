@@ -1,5 +1,6 @@
 #pragma once
-// Stand-ins for the renderer: they answer from a function or a list, and remember what they were asked.
+// Stand-ins for the renderer: they answer from a function or a list, and remember what they were asked. Their any_hit is
+// RayCaster's own, by way of closest_hit: it gives the same answer and is remembered as a ray that was cast.
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -71,7 +72,7 @@ public:
     int max_depth = 5;
     Color background_color = k_black;
 
-    std::vector<Ray> cast;       ///< rays given to closest_hit
+    std::vector<Ray> cast;       ///< rays given to closest_hit or any_hit
     std::vector<Asked> traced;   ///< rays given to trace
     std::vector<Shaded> shaded;  ///< hits given to local_light
 };

@@ -33,6 +33,16 @@ TEST_CASE("A failure prints vectors with all their digits", "[testing]") {
     CHECK(Catch::Detail::stringify(glm::vec3(0.1F, -2.0F, 0.0F)) == "(0.100000001, -2, 0)");
 }
 
+TEST_CASE("FakeCaster answers both questions from one function, and remembers them", "[testing]") {
+    HitRecord hit;
+    hit.distance = 3.0F;
+    FakeCaster scene([&hit](const Ray&) { return hit; });
+    CHECK(scene.any_hit({}, 3.5F));
+    CHECK_FALSE(scene.any_hit({}, 3.0F));
+    CHECK(scene.closest_hit({}).has_value());
+    CHECK(scene.rays.size() == 3);
+}
+
 TEST_CASE("FakeTracer answers from a list and remembers", "[testing]") {
     FakeTracer tracer;
     HitRecord hit;
@@ -42,6 +52,9 @@ TEST_CASE("FakeTracer answers from a list and remembers", "[testing]") {
     REQUIRE(tracer.closest_hit(ray).has_value());
     CHECK_FALSE(tracer.closest_hit(ray).has_value());
     CHECK(tracer.cast.size() == 2);
+    CHECK_FALSE(tracer.any_hit(ray, 9.0F));
+    INFO("a question for any hit is a ray that was cast, too");
+    CHECK(tracer.cast.size() == 3);
     CHECK(tracer.trace(ray, 4) == k_black);
     CHECK(tracer.traced.at(0).depth == 4);
 }

@@ -33,7 +33,7 @@ def test_the_last_line_holds_the_scores(steps: list[Step]) -> None:
 def test_without_an_octree_a_ray_tests_everything(steps: list[Step]) -> None:
     made = full(steps)
     made["steps"][5]["images"][0]["passed"] = False
-    assert to_autolab(made, by_id(steps))[1]["scoreboard"] == [110.0, 100.0]
+    assert to_autolab(made, by_id(steps))[1]["scoreboard"] == [120.0, 100.0]
 
 
 def test_checks_of_one_name_are_all_shown(steps: list[Step]) -> None:

@@ -78,4 +78,4 @@ def test_the_grader_would_accept_them(steps: list[Step], seed: int) -> None:
     share = random.Random(seed).random()
     made = document([step_result(step, share=share, text=HOSTILE) for step in steps])
     assert 0 < made["total"]["points"] < made["total"]["max"]
-    assert full(steps)["total"] == {"points": 110.0, "max": 100.0, "bonus": {"points": 10.0, "max": 10.0}}
+    assert full(steps)["total"] == {"points": 120.0, "max": 100.0, "bonus": {"points": 20.0, "max": 20.0}}

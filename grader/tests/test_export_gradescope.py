@@ -59,7 +59,7 @@ def test_hidden_entries_tell_all_and_the_rest_tells_no_points(steps: list[Step],
     made = mixed(steps)
     results = _converted(made, steps, hidden=hidden)
     entries = [test for test in results["tests"] if test["visibility"] == hidden]
-    assert len(entries) == 18
+    assert len(entries) == 3 * (len(steps) - 2), "one step does not build, and one was not started"
     assert any("input: secret input\nexpected: secret answer\nactual: its answer" in test["output"] for test in entries)
     shown = json.dumps([results["output"], [test for test in results["tests"] if test["visibility"] == "visible"]])
     assert "secret" not in shown

@@ -67,7 +67,7 @@ def test_gradescope(autograder: Path, project: Project) -> None:
     assert code == 0
     validate(results, "gradescope")
     assert results["output"].startswith("Submitted by Ann Lee.")
-    points = dict.fromkeys(range(1, 9), 0.0)
+    points = dict.fromkeys(range(1, 10), 0.0)
     for test in results["tests"]:
         points[int(test["number"].split(".")[0])] += test["score"]
     assert [round(points[number], 2) for number in (1, 2, 3)] == [10, 20, 15]
@@ -77,7 +77,7 @@ def test_gradescope(autograder: Path, project: Project) -> None:
     _hand_in(autograder, project.samples / "complete")
     code, results = _run_autograder(autograder)
     assert code == 0
-    assert round(sum(test["score"] for test in results["tests"]), 2) == 110
+    assert round(sum(test["score"] for test in results["tests"]), 2) == 120
     assert 0 < results["leaderboard"][0]["value"] < 50
 
 

@@ -38,7 +38,7 @@ def _inserted(source: str, function: str, statement: str) -> str:
 def test_the_complete_sample_gets_everything(kit: BuiltKit, project: Project, tmp_path: Path) -> None:
     results = _grade(kit, project.samples / "complete", tmp_path)
     assert set(_status(results).values()) == {"passed"}
-    assert _points(results) == 110
+    assert _points(results) == 120
     assert all(step.cumulative.passed for step in results.steps)
 
 
@@ -58,7 +58,7 @@ def test_the_partial_sample_loses_points_in_step_04_and_nowhere_before(
     results = _grade(kit, project.samples / "partial", tmp_path)
     status = _status(results)
     assert [status[number] for number in ("01", "02", "03", "04")] == ["passed", "passed", "passed", "partial"]
-    assert {status[number] for number in ("05", "06", "07", "08")} == {"not-started"}
+    assert {status[number] for number in ("05", "06", "07", "08", "09")} == {"not-started"}
     assert 0 < results.steps[3].points < results.steps[3].max
     wrong = [image for image in results.steps[3].images if not image.passed]
     assert wrong
@@ -95,7 +95,7 @@ def test_broken_steps_cost_themselves_only(
     assert status["04"] == status["05"] == "not-started"
     assert status["07"] == "timeout"
     assert any(test.passed for test in results.steps[6].tests), "a hang hides the other tests"
-    assert status["06"] == status["08"] == "passed"
+    assert status["06"] == status["08"] == status["09"] == "passed"
 
 
 def test_partly_done_steps_name_what_is_left(

@@ -9,9 +9,9 @@ from raysteps.kit.manifest import Step, choose, read_step
 from raysteps.kit.project import Project
 
 
-def test_points_sum_to_100_and_a_bonus_of_10(steps: list[Step]) -> None:
-    assert [step.points for step in steps] == [10, 20, 15, 10, 15, 20, 10, 10]
-    assert [step.bonus for step in steps] == [False] * 7 + [True]
+def test_points_sum_to_100_and_a_bonus_of_20(steps: list[Step]) -> None:
+    assert [step.points for step in steps] == [10, 20, 15, 10, 15, 20, 10, 10, 10]
+    assert [step.bonus for step in steps] == [False] * 7 + [True] * 2
 
 
 def test_every_step_has_three_hints_and_pictures(steps: list[Step]) -> None:
@@ -39,7 +39,7 @@ def test_no_name_is_every_step_and_order_is_kept(steps: list[Step]) -> None:
     assert [step.number for step in choose(steps, ["5", "01", "5"])] == ["01", "05"]
 
 
-@pytest.mark.parametrize("name", ["0", "9", "02-", "intersection", "²", "-1"])
+@pytest.mark.parametrize("name", ["0", "10", "02-", "intersection", "²", "-1"])
 def test_an_unknown_step_is_refused(steps: list[Step], name: str) -> None:
     with pytest.raises(UsageError, match="there is no step"):
         choose(steps, [name])

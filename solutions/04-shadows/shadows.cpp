@@ -17,11 +17,10 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
 
 bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
     // BEGIN SOLUTION is_lit
-    // TODO: Cast the shadow ray and see whether it meets something before it reaches the light.
+    // TODO: Cast the shadow ray and ask whether it meets anything before it reaches the light.
     // RETURN false
     const Ray ray = shadow_ray(hit, light);
-    const std::optional<HitRecord> blocker = scene.closest_hit(ray);
-    return !blocker || blocker->distance >= glm::distance(ray.origin, light.position);
+    return !scene.any_hit(ray, glm::distance(ray.origin, light.position));
     // END SOLUTION
 }
 

@@ -269,4 +269,22 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     // END SOLUTION
 }
 
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    // BEGIN SOLUTION any_hit_in
+    // TODO: Visit the boxes that the ray enters before the distance, and stop at the first hit that is nearer.
+    // RETURN false
+    const std::optional<Interval> part = root.box.hit(ray);
+    if (!part || part->enter * (1.0F - k_distance_slack) > distance) {
+        return false;
+    }
+    const auto is_near = [&](const Surface* surface) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        return hit && hit->distance < distance;
+    };
+    const auto has_near = [&](const Node& child) { return any_hit_in(child, ray, distance); };
+    return std::any_of(root.surfaces.begin(), root.surfaces.end(), is_near) ||
+           std::any_of(root.children.begin(), root.children.end(), has_near);
+    // END SOLUTION
+}
+
 }  // namespace raysteps

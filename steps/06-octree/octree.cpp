@@ -53,4 +53,10 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return std::nullopt;
 }
 
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    // TODO: Visit the boxes that the ray enters before the distance, and stop at the first hit that is nearer.
+    RAYSTEPS_TODO("06-octree", "any_hit_in");
+    return false;
+}
+
 }  // namespace raysteps

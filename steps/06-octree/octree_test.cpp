@@ -50,6 +50,21 @@ void check_same_hit(const Node& root, const SurfaceList& surfaces, const Ray& ra
     }
 }
 
+/// Asks for any hit well before the closest hit of the whole list and well behind it, and without an end.
+void check_same_any_hit(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
+    const std::optional<HitRecord> closest = closest_hit(surfaces, ray);
+    CAPTURE(ray);
+    INFO("the closest hit: " << (closest ? text(*closest) : "a miss"));
+    if (closest) {
+        INFO("a distance a little behind the closest hit: it is nearer");
+        REQUIRE(any_hit_in(root, ray, 1.01F * closest->distance));
+        INFO("a distance a little before the closest hit: nothing is nearer");
+        REQUIRE_FALSE(any_hit_in(root, ray, 0.99F * closest->distance));
+    }
+    INFO("a distance of 1000, behind everything");
+    REQUIRE(any_hit_in(root, ray, 1000.0F) == closest.has_value());
+}
+
 struct Sight {
     bool in_some_leaf = false;  ///< a leaf at the point has the surface
     bool in_every_leaf = true;  ///< every leaf around the point has it
@@ -173,6 +188,35 @@ TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree][
     CHECK(tested / rays / 1000.0 < 0.5);
     INFO("ask a surface with surface->hit(ray) and a box with box.hit(ray), so that the tests are counted");
     CHECK(tested > 0.0);
+}
+
+TEST_CASE("any_hit_in: whether something is hit nearer than a distance", "[06-octree][build_octree][any_hit_in]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 250, 25);
+    const Node root = build_octree(scene.surfaces());
+    for (int i = 0; i < 1000; ++i) {
+        check_same_any_hit(root, scene.surfaces(), random.ray(5.0F));
+        check_same_any_hit(root, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
+    }
+}
+
+TEST_CASE("any_hit_in: a lamp in a room, with small things in it", "[06-octree][build_octree][any_hit_in][part]") {
+    Random random;
+    INFO(random);
+    Scene scene = mixed_scene(random, 60, 0);
+    scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
+    const Node root = build_octree(scene.surfaces());
+    for (int i = 0; i < 500; ++i) {
+        check_same_any_hit(root, scene.surfaces(), random.ray(5.0F));
+    }
+    INFO("the only ball is met at 4; a distance of 4 ends there, so nothing is nearer");
+    Scene one;
+    one.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
+    const Node small = build_octree(one.surfaces());
+    CHECK_FALSE(any_hit_in(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.0F));
+    CHECK(any_hit_in(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.5F));
+    CHECK_FALSE(any_hit_in(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
 }
 
 TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in][part]") {

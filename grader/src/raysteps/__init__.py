@@ -1,1 +1,1 @@
-"""The grader of Raysteps: builds, renders, checks and grades the eight steps."""
+"""The grader of Raysteps: builds, renders, checks and grades the nine steps."""

@@ -38,7 +38,7 @@ def _above_0(word: str) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="raysteps",
-        description="A ray tracer in eight graded steps.",
+        description="A ray tracer in nine graded steps.",
         epilog=_EXITS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,

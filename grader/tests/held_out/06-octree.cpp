@@ -119,4 +119,16 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return best;
 }
 
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    if (!root.box.hit(ray)) return false;
+    for (auto* s : root.surfaces) {
+        auto hit = s->hit(ray);
+        if (hit && hit->distance < distance) return true;
+    }
+    for (const Node& child : root.children) {
+        if (any_hit_in(child, ray, distance)) return true;
+    }
+    return false;
+}
+
 }  // namespace raysteps

@@ -1,6 +1,6 @@
 // The search keeps a heap of boxes instead of calling itself: always the one that the ray enters first, until the next
 // one begins behind the closest hit. Clipping is done in double precision, and the tree splits until four surfaces are
-// left, four levels below the root at most.
+// left, four levels below the root at most. Whether there is any hit is asked with a plain stack, in no order.
 #include "steps/06-octree/octree.hpp"
 
 #include <algorithm>
@@ -162,6 +162,28 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
         }
     }
     return closest;
+}
+
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    std::vector<const Node*> boxes{&root};
+    while (!boxes.empty()) {
+        const Node& next = *boxes.back();
+        boxes.pop_back();
+        const std::optional<Interval> part = next.box.hit(ray);
+        if (!part || distance < part->enter - 1e-4F * (1.0F + part->enter)) {
+            continue;
+        }
+        for (const Surface* surface : next.surfaces) {
+            const std::optional<HitRecord> hit = surface->hit(ray);
+            if (hit && hit->distance < distance) {
+                return true;
+            }
+        }
+        for (const Node& child : next.children) {
+            boxes.push_back(&child);
+        }
+    }
+    return false;
 }
 
 }  // namespace raysteps

@@ -174,4 +174,25 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return closest;
 }
 
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    if (!root.box.hit(ray)) {
+        return false;
+    }
+    std::vector<std::pair<float, const Node*>> cells{{0.0F, &root}};
+    add_cells(root, ray, cells);
+    SurfaceList asked;
+    for (const auto& [enter, cell] : cells) {
+        for (const Surface* surface : cell->surfaces) {
+            if (std::find(asked.begin(), asked.end(), surface) != asked.end()) {
+                continue;
+            }
+            asked.push_back(surface);
+            if (const std::optional<HitRecord> hit = surface->hit(ray); hit && hit->distance < distance) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 }  // namespace raysteps

@@ -139,4 +139,24 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return closest;
 }
 
+// The children first: what is large stays up here, and is more often far away than in between.
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    const std::optional<Interval> part = root.box.hit(ray);
+    if (!part || part->enter * (1.0F - 10.0F * k_share) > distance) {
+        return false;
+    }
+    for (const Node& child : root.children) {
+        if (any_hit_in(child, ray, distance)) {
+            return true;
+        }
+    }
+    for (const Surface* surface : root.surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        if (hit.has_value() && hit->distance < distance) {
+            return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace raysteps

@@ -50,6 +50,21 @@ void look_into(const Node& node, Search& search) {
     }
 }
 
+/// Whether the ray meets something nearer than the distance. The closest hit so far is never farther than the last one.
+bool meets_before(const Node& node, float distance, Search& search) {
+    if (!node.box.hit(search.ray)) {
+        return false;
+    }
+    for (const Surface* surface : node.surfaces) {
+        search.ask(surface);
+        if (search.hit && search.hit->distance < distance) {
+            return true;
+        }
+    }
+    return std::any_of(node.children.begin(), node.children.end(),
+                       [&](const Node& child) { return meets_before(child, distance, search); });
+}
+
 bool apart(const Box& a, const Box& b, float slack) {
     return a.min.x > b.max.x + slack || a.min.y > b.max.y + slack || a.min.z > b.max.z + slack ||
            b.min.x > a.max.x + slack || b.min.y > a.max.y + slack || b.min.z > a.max.z + slack;
@@ -175,6 +190,11 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     Search search{ray, {}, nullptr, std::nullopt};
     look_into(root, search);
     return search.hit;
+}
+
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    Search search{ray, {}, nullptr, std::nullopt};
+    return meets_before(root, distance, search);
 }
 
 }  // namespace raysteps

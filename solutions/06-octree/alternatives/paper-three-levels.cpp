@@ -125,4 +125,10 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return closest_hit(candidates, ray);
 }
 
+// The paper knows one search only: the closest hit answers this question too.
+bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+    const std::optional<HitRecord> closest = closest_hit_in(root, ray);
+    return closest && closest->distance < distance;
+}
+
 }  // namespace raysteps

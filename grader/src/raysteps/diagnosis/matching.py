@@ -7,6 +7,7 @@ from raysteps.diagnosis.answers import Questions, Said
 from raysteps.diagnosis.evidence import Evidence, Picture, differing
 from raysteps.diagnosis.fingerprints import Fingerprint
 from raysteps.diagnosis.sameness import likeness
+from raysteps.judge.bvhs import BVH
 from raysteps.judge.trees import TREE
 from raysteps.mistakes.catalogue import Mutant
 from raysteps.programs.pictures import Pixels
@@ -97,7 +98,7 @@ def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[i
         for number in both
     }
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
-    weak = questions.function.yes_or_no or questions.function.answer is TREE
+    weak = questions.function.yes_or_no or questions.function.answer in (TREE, BVH)
     return Agreement(wrong, other, alike, weak)
 
 

@@ -3,11 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
+from raysteps.judge.bvh_searches import Reach, Reaches
 from raysteps.judge.drawing import Draw
 from raysteps.judge.functions import Function
 from raysteps.judge.numbers import Vector, f32
 from raysteps.judge.scripts import Script, ScriptedHit
-from raysteps.judge.searches import Rays, WhoseTree
+from raysteps.judge.searches import Rays, WhoseBvh, WhoseTree
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Box, Camera, Fill, Frame, Hit, Inputs, Light, Lights, Ray, Real, Vec, Whole
@@ -94,7 +95,9 @@ _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Surfaces: lambda n: Surfaces(n.many(_surface)),
     Script: lambda n: Script(n.whole(), n.vector(), n.many(_scripted_hit)),
     WhoseTree: lambda n: WhoseTree(n.flag()),
+    WhoseBvh: lambda n: WhoseBvh(n.flag()),
     Rays: lambda n: Rays(n.many(_ray)),
+    Reaches: lambda n: Reaches(n.many(lambda m: Reach(_ray(m), m.real()))),
 }
 _WITHOUT_FILL: dict[type, Callable[[_Numbers], Any]] = {
     Sphere: lambda n: Sphere(n.vector(), n.real()),

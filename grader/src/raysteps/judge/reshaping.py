@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
+from raysteps.judge.bvh_searches import Reaches
 from raysteps.judge.numbers import f32
 from raysteps.judge.scripts import Script, ScriptedHit
 from raysteps.judge.searches import Rays
@@ -12,7 +13,7 @@ from raysteps.judge.values import Inputs, Lights, Real, Value
 
 Place = tuple[str, int]  # the name of an input that is a list, and which of its items
 
-_ITEMS = {Surfaces: "surfaces", Lights: "lights", Rays: "rays", Script: "hits"}
+_ITEMS = {Surfaces: "surfaces", Lights: "lights", Rays: "rays", Reaches: "rays", Script: "hits"}
 _NAMES = {(ScriptedHit, "distance")}  # by which a hit is known again
 _JITTER = 1e-5  # of a vector's largest component, or of the number
 _LARGEST = 1e38  # beyond it a little more may be infinite

@@ -10,7 +10,7 @@ from raysteps.judge.surfaces import Surfaces
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Inputs, Ray
 
-_MOST_RAYS = 1000
+MOST_RAYS = 1000
 _MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
 
 
@@ -23,6 +23,12 @@ class WhoseTree:
 
     def words(self) -> str:
         return "made by build_octree" if self.own else "three levels of boxes, each with the surfaces that touch it"
+
+
+@dataclass(frozen=True)
+class WhoseBvh(WhoseTree):
+    def words(self) -> str:
+        return "made by build_bvh" if self.own else "lists halved along x, y and z in turn, up to 3 surfaces in a leaf"
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,7 @@ class Search:
 def _read(tokens: Tokens) -> tuple[Search, ...]:
     searches: list[Search] = []
     while not tokens.at_end():
-        if len(searches) == _MOST_RAYS:
+        if len(searches) == MOST_RAYS:
             raise Garbled("the answer is too long")
         searches.append(Search(tokens.whole(), read_hit(tokens)))
     return tuple(searches)
@@ -58,23 +64,29 @@ def _words(searches: Sequence[Search]) -> str:
     return "; ".join(shown) + ("; and more" if len(searches) > 2 else "") or "nothing"
 
 
-def _one_problem(expected: Search, actual: Search) -> str:
+def one_problem(expected: Search, actual: Search) -> str:
     unasked = actual.found.hit is not None and actual.asked == 0
     return first(found_problem(expected.found, actual.found), "a hit came without asking a surface" if unasked else "")
 
 
-def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
+def too_many_asked(inputs: Inputs, asked: Sequence[int]) -> str:
+    """Where there are many rays, the boxes must spare them most of the surfaces."""
     surfaces = inputs["surfaces"]
     assert isinstance(surfaces, Surfaces)
-    if len(expected) != len(actual):
-        return "no proper answer came"
-    problem = first(*(_one_problem(*pair) for pair in zip(expected, actual, strict=True)))
-    asked = sum(search.asked for search in actual)
-    if not problem and len(actual) > 1 and asked > _MOST_ASKED * len(surfaces.surfaces) * len(actual):
+    if len(asked) > 1 and sum(asked) > _MOST_ASKED * len(surfaces.surfaces) * len(asked):
         return Wasteful(
             "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
         )
-    return problem
+    return ""
+
+
+def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
+    if len(expected) != len(actual):
+        return "no proper answer came"
+    return first(
+        *(one_problem(*pair) for pair in zip(expected, actual, strict=True)),
+        too_many_asked(inputs, [search.asked for search in actual]),
+    )
 
 
 SEARCHES = Answer(_read, _words, _problem)

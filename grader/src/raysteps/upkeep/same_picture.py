@@ -1,4 +1,4 @@
-"""Whether the three accelerations give the same picture, byte for byte."""
+"""Whether the accelerations give the same picture, byte for byte."""
 
 import tempfile
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from raysteps.common.process import Outcome, run
 from raysteps.kit.project import Project
 
-ACCELERATIONS = ("none", "boxes", "octree")
+ACCELERATIONS = ("none", "boxes", "octree", "bvh")
 _SIZE = "96x96"
 _SECONDS = 300
 

@@ -13,8 +13,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
 
 bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
-    const std::optional<HitRecord> blocker = scene.closest_hit(ray);
-    return !blocker || blocker->distance >= glm::distance(ray.origin, light.position);
+    return !scene.any_hit(ray, glm::distance(ray.origin, light.position));
 }
 
 }  // namespace raysteps

@@ -13,8 +13,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
 
 bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
-    const std::optional<HitRecord> blocker = scene.closest_hit(ray);
-    return !blocker;
+    return !scene.closest_hit(ray);
 }
 
 }  // namespace raysteps

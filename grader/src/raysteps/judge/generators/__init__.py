@@ -15,6 +15,7 @@ _MODULES = {
     "06": "octree",
     "07": "tone_mapping",
     "08": "refraction",
+    "09": "bvh",
 }
 
 

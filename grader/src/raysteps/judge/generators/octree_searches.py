@@ -9,7 +9,7 @@ from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangl
 from raysteps.judge.values import Inputs, Ray
 
 
-def _target(draw: Draw, surface: Surface) -> Vector:
+def point_within(draw: Draw, surface: Surface) -> Vector:
     """A point well within the surface's outline."""
     if isinstance(surface, Sphere):
         return add(surface.center, draw.direction(), 0.7 * surface.radius * draw.real(0, 1))
@@ -17,51 +17,51 @@ def _target(draw: Draw, surface: Surface) -> Vector:
     return times(1 / 3, add(add(surface.a, surface.b), surface.c))
 
 
-def _aimed(draw: Draw, surfaces: tuple[Surface, ...], distance: float) -> Ray:
+def aimed(draw: Draw, surfaces: tuple[Surface, ...], distance: float) -> Ray:
     """At one of the surfaces; something else may stand before it."""
-    return draw.ray_towards(_target(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), distance)
+    return draw.ray_towards(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), distance)
 
 
-def _search(surfaces: tuple[Surface, ...], rays: list[Ray], *, own: bool) -> Inputs:
+def search(surfaces: tuple[Surface, ...], rays: list[Ray], *, own: bool) -> Inputs:
     return {"tree": WhoseTree(own), "surfaces": Surfaces(surfaces), "rays": Rays(tuple(rays))}
 
 
 def _one_ray(draw: Draw, *, own: bool) -> Inputs:
     surfaces = small_scene(draw, draw.whole(25, 40), draw.whole(4, 10))
-    ray = _aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20)
-    return _search(surfaces, [ray], own=own)
+    ray = aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20)
+    return search(surfaces, [ray], own=own)
 
 
 def _from_inside(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     origin = draw.point(4)
-    way = minus(_target(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
-    return _search(surfaces, [Ray(origin, rounded(unit(way)))], own=draw.chance(0.5))
+    way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
+    return search(surfaces, [Ray(origin, rounded(unit(way)))], own=draw.chance(0.5))
 
 
 def _along_axis(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     direction = draw.axis()
-    target = _target(draw, surfaces[draw.whole(0, 34)])
-    return _search(surfaces, [Ray(rounded(add(target, direction, -16)), direction)], own=draw.chance(0.5))
+    target = point_within(draw, surfaces[draw.whole(0, 34)])
+    return search(surfaces, [Ray(rounded(add(target, direction, -16)), direction)], own=draw.chance(0.5))
 
 
-_SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
-_BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16) - 6), 0.75) for i in range(64))
+SLOPE = Triangle((-8.0, -8.0, -8.0), (24.0, -8.0, 8.0), (-8.0, 24.0, 8.0))
+BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16) - 6), 0.75) for i in range(64))
 
 _EDGE = 6.75  # of the box around the balls
 
 
 def _later_box(draw: Draw) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
-    return _search((_SLOPE, *_BALLS), [draw.ray_towards(draw.point(6), 25)], own=draw.chance(0.5))
+    return search((SLOPE, *BALLS), [draw.ray_towards(draw.point(6), 25)], own=draw.chance(0.5))
 
 
 def _ball_before_the_slope(draw: Draw) -> Inputs:
     """A ray that comes down from above meets one of the balls there, and the slope behind it."""
 
     def make() -> tuple[Vector, Vector]:
-        ball = _BALLS[draw.whole(0, 63)]
+        ball = BALLS[draw.whole(0, 63)]
         return ball.center, rounded(unit((draw.real(-0.6, 0.6), draw.real(-0.6, 0.6), -1.0)))
 
     def is_above(found: tuple[Vector, Vector]) -> bool:
@@ -69,7 +69,7 @@ def _ball_before_the_slope(draw: Draw) -> Inputs:
         return z > (x + y) / 2
 
     center, direction = draw.until(is_above, make)
-    return _search((_SLOPE, *_BALLS), [Ray(rounded(add(center, direction, -25)), direction)], own=False)
+    return search((SLOPE, *BALLS), [Ray(rounded(add(center, direction, -25)), direction)], own=False)
 
 
 def _eighth(point: Vector) -> int:
@@ -82,7 +82,7 @@ def _balls_in_a_row(draw: Draw) -> Inputs:
     searches by number and stops at the first box behind a hit never comes to the near ball."""
 
     def make() -> tuple[Vector, Vector, Vector, Vector]:
-        far, near = (_BALLS[draw.whole(0, 63)].center for _ in range(2))
+        far, near = (BALLS[draw.whole(0, 63)].center for _ in range(2))
         direction = draw.slanted() if far == near else rounded(unit(add(minus(far, near), draw.point(0.3))))
         return far, near, direction, add(far, direction, draw.real(1, 5))
 
@@ -92,31 +92,31 @@ def _balls_in_a_row(draw: Draw) -> Inputs:
         return inside and _eighth(far) < _eighth(beyond) < _eighth(near)
 
     _, near, direction, _ = draw.until(costs_a_hasty_search, make)
-    return _search(_BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
+    return search(BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
 
 
 def _looking_away(draw: Draw) -> Inputs:
     """Everything is behind the ray."""
     surfaces = small_scene(draw, 25, 6)
     direction = draw.direction()
-    return _search(surfaces, [Ray(rounded(times(draw.real(10, 20), direction)), direction)], own=draw.chance(0.5))
+    return search(surfaces, [Ray(rounded(times(draw.real(10, 20), direction)), direction)], own=draw.chance(0.5))
 
 
 def _from_far(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 25, 6)
-    return _search(surfaces, [_aimed(draw, surfaces, 100)], own=draw.chance(0.5))
+    return search(surfaces, [aimed(draw, surfaces, 100)], own=draw.chance(0.5))
 
 
 def _over_a_ground(draw: Draw) -> Inputs:
     """Something large and many little things: rays that meet the one or the others."""
     surfaces = large_and_small(draw)
-    ray = Ray(draw.point(4), draw.slanted()) if draw.chance(0.5) else _aimed(draw, surfaces[2:], 7)
-    return _search(surfaces, [ray], own=True)
+    ray = Ray(draw.point(4), draw.slanted()) if draw.chance(0.5) else aimed(draw, surfaces[2:], 7)
+    return search(surfaces, [ray], own=True)
 
 
 def _many_rays(draw: Draw) -> Inputs:
     surfaces = small_scene(draw, 200, 0, largest=0.3)
-    return _search(surfaces, [_aimed(draw, surfaces, 16) for _ in range(24)], own=True)
+    return search(surfaces, [aimed(draw, surfaces, 16) for _ in range(24)], own=True)
 
 
 CLOSEST_HIT_IN = Function(
@@ -134,6 +134,6 @@ CLOSEST_HIT_IN = Function(
         Group("one ball behind another", _balls_in_a_row),
         Group("large ones among small ones", _over_a_ground),
         Group("few surfaces are asked", _many_rays, saves=True),
-        Group("no surfaces", lambda d: _search((), [d.ray_towards((0.0, 0.0, 0.0), 5)], own=True), telling=False),
+        Group("no surfaces", lambda d: search((), [d.ray_towards((0.0, 0.0, 0.0), 5)], own=True), telling=False),
     ),
 )

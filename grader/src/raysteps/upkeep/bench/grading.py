@@ -90,7 +90,7 @@ def _class_way(project: Project, submissions: Path, out: Path) -> None:
 
 
 def _table(costs: list[Cost]) -> Table:
-    table = Table(title="one complete submission, all eight steps", title_justify="left")
+    table = Table(title="one complete submission, all nine steps", title_justify="left")
     for heading in ("way", "runs", "seconds", "CPU seconds", "CPU against plain"):
         table.add_column(heading, justify="left" if heading == "way" else "right")
     plain = _mean([cost.cpu_seconds for cost in costs if cost.way == "plain"])

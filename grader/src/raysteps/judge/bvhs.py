@@ -1,0 +1,159 @@
+"""Answers that are bounding volume hierarchies: any of them is right that loses no surface and is not too dear."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from raysteps.judge.answers import Answer, TooLarge, Wasteful
+from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
+from raysteps.judge.tokens import Garbled, Tokens
+from raysteps.judge.values import Box, Inputs
+
+# Whoever writes an answer by hand may write any tree; framework/apps/worker_bvh.cpp knows the same numbers.
+MOST_NODES = 5000
+MOST_ENTRIES = 50000
+_MOST = {"nodes": f"{MOST_NODES} nodes", "surfaces": f"{MOST_ENTRIES} surfaces"}
+MOST_LEVELS = 64  # as the contract says
+_MARGIN = 1e-4  # of the scene's size: what rounding may do to a box
+_BOX_TESTS = 1.0  # of two boxes, in units of one surface test
+_MANY = 80  # surfaces: so many must be divided well
+MOST_COST = 3.0  # times the reference's
+_MOST_IN_LEAF = 0.5  # of many surfaces, on average
+
+
+@dataclass(frozen=True)
+class BvhNode:
+    box: Box
+    first: int
+    count: int
+
+
+@dataclass(frozen=True)
+class Bvh:
+    """`surfaces` are numbers of the scene's surfaces. `excess` is what a tree has too much of that was not told."""
+
+    nodes: tuple[BvhNode, ...]
+    surfaces: tuple[int, ...]
+    excess: str = ""
+
+
+def read_bvh(tokens: Tokens) -> Bvh:
+    kind = tokens.word()
+    if kind == "large" and (excess := tokens.word()) in _MOST:
+        return Bvh((), (), excess)
+    if kind != "bvh":
+        raise Garbled("the answer is no tree")
+    nodes = []
+    for _ in range(tokens.whole(0, MOST_NODES)):
+        box = Box(tokens.vector(), tokens.vector())
+        nodes.append(BvhNode(box, tokens.whole(0, (1 << 32) - 1), tokens.whole(0, (1 << 32) - 1)))
+    size = tokens.whole(0, MOST_ENTRIES)
+    return Bvh(tuple(nodes), tokens.wholes(size, -1, MOST_ENTRIES))
+
+
+def area(box: Box) -> float:
+    """Of the six faces."""
+    x, y, z = (max(0.0, high - low) for low, high in zip(box.low, box.high, strict=True))
+    return 2 * (x * y + y * z + z * x)
+
+
+def bvh_cost(tree: Bvh) -> float:
+    """Surface tests that a ray into the root's box takes on average, by the surface area heuristic."""
+    whole = area(tree.nodes[0].box) if tree.nodes else 0.0
+    if whole <= 0:
+        return float(len(tree.surfaces))
+    return sum(area(node.box) / whole * (node.count or _BOX_TESTS) for node in tree.nodes)
+
+
+def bvh_words(tree: Bvh) -> str:
+    if tree.excess:
+        return f"a tree of more than {_MOST[tree.excess]}"
+    leaves = sum(node.count > 0 for node in tree.nodes)
+    return f"a tree of {len(tree.nodes)} nodes, {leaves} of them leaves; a ray costs {bvh_cost(tree):.3g} surface tests"
+
+
+def bounds(surface: Surface) -> Box:
+    if isinstance(surface, Sphere):
+        x, y, z = surface.center
+        r = surface.radius
+        return Box((x - r, y - r, z - r), (x + r, y + r, z + r))
+    assert isinstance(surface, Triangle)
+    low, high = ([pick(xs) for xs in zip(surface.a, surface.b, surface.c, strict=True)] for pick in (min, max))
+    return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+
+
+def _holds(outer: Box, inner: Box, margin: float) -> bool:
+    """Not where a number is NaN."""
+    lows = all(a <= b + margin for a, b in zip(outer.low, inner.low, strict=True))
+    return lows and all(a >= b - margin for a, b in zip(outer.high, inner.high, strict=True))
+
+
+def _size(boxes: Sequence[Box]) -> float:
+    def spread(axis: int) -> float:
+        return max(box.high[axis] for box in boxes) - min(box.low[axis] for box in boxes)
+
+    return max(spread(axis) for axis in range(3))
+
+
+def _leaf_problem(tree: Bvh, node: BvhNode, boxes: Sequence[Box], margin: float, seen: set[int]) -> str:
+    if node.first + node.count > len(tree.surfaces):
+        return "a leaf reaches beyond the end of the list of surfaces"
+    for number in tree.surfaces[node.first : node.first + node.count]:
+        if not 0 <= number < len(boxes):
+            return "the list holds something that is no surface of the scene"
+        if number in seen:
+            return "a surface is in two leaves"
+        seen.add(number)
+        if not _holds(node.box, boxes[number], margin):
+            return "a surface sticks out of the box of its leaf"
+    return ""
+
+
+def _structure_problem(tree: Bvh, boxes: Sequence[Box]) -> str:
+    margin = _MARGIN * _size(boxes) + _vanishing(boxes)
+    seen: set[int] = set()
+    reached: set[int] = set()
+    open_ = [(0, 1)]  # nodes that are to come, and their levels
+    while open_:
+        place, level = open_.pop()
+        if place in reached:
+            return "a node is reached twice"
+        reached.add(place)
+        node = tree.nodes[place]
+        if level > MOST_LEVELS:
+            return f"the tree has more than {MOST_LEVELS} levels"
+        if node.count:
+            if problem := _leaf_problem(tree, node, boxes, margin, seen):
+                return problem
+            continue
+        if node.first + 1 >= len(tree.nodes):
+            return "an inner node has children beyond the end of the nodes"
+        if not all(_holds(node.box, tree.nodes[child].box, margin) for child in (node.first, node.first + 1)):
+            return "the box of a child sticks out of its parent's"
+        open_ += [(node.first + 1, level + 1), (node.first, level + 1)]
+    return "" if len(seen) == len(boxes) else "a surface is in no leaf"
+
+
+def _vanishing(boxes: Sequence[Box]) -> float:
+    """What float cannot tell at the place where the boxes are."""
+    return 1e-6 * max(abs(x) for box in boxes for x in (*box.low, *box.high))
+
+
+def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
+    given = inputs["surfaces"]
+    assert isinstance(given, Surfaces)
+    size = len(given.surfaces)
+    if actual.excess:
+        return TooLarge(f"the tree has more than {_MOST[actual.excess]} for {size} surfaces")
+    if not size:
+        return "" if not actual.nodes else "a tree without surfaces has no nodes"
+    if not actual.nodes:
+        return "the tree has no nodes"
+    problem = _structure_problem(actual, [bounds(surface) for surface in given.surfaces])
+    if problem or size < _MANY:
+        return problem
+    if sum(node.count > 0 for node in actual.nodes) < 1 / _MOST_IN_LEAF:
+        return Wasteful("the tree has hardly any leaves: a ray is spared nothing")
+    return "" if bvh_cost(actual) <= MOST_COST * bvh_cost(expected) else "the tree is right, but its cuts are dear"
+
+
+BVH = Answer(read_bvh, bvh_words, _problem)

@@ -1,0 +1,167 @@
+"""Any hierarchy that loses no surface and is not too dear is a right one."""
+
+import time
+
+import pytest
+
+from raysteps.common.errors import GraderFault
+from raysteps.judge.answers import Verdict
+from raysteps.judge.bvhs import BVH, MOST_COST, MOST_LEVELS, MOST_NODES, Bvh, BvhNode, bvh_cost
+from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
+from raysteps.judge.values import Box, Inputs
+
+_LEFT, _RIGHT = Sphere((-2.0, 0.0, 0.0), 1.0), Sphere((2.0, 0.0, 0.0), 1.0)
+_TWO: Inputs = {"surfaces": Surfaces((_LEFT, _RIGHT))}
+_ALL, _WEST, _EAST = "-3 -1 -1 3 1 1", "-3 -1 -1 -1 1 1", "1 -1 -1 3 1 1"
+_ROOT = f"{_ALL} 1 0"
+_GOOD = f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 1"
+_HUNDRED: Inputs = {"surfaces": Surfaces(tuple(Sphere((float(i), 0.0, 0.0), 0.25) for i in range(100)))}
+
+
+def _problem(line: str, inputs: Inputs = _TWO) -> str:
+    return BVH.verdict("build_bvh", inputs, line if inputs is not _TWO else _GOOD, line).problem
+
+
+def _row(leaf: int, step: int = 1) -> str:
+    """Over the hundred: halves of halves, and as many in a leaf; with another step the row is not sorted first."""
+    order = sorted(range(100), key=lambda i: i * step % 100)
+    nodes = [""]
+
+    def build(place: int, begin: int, end: int) -> None:
+        box = f"{min(order[begin:end]) - 0.25} -0.25 -0.25 {max(order[begin:end]) + 0.25} 0.25 0.25"
+        if end - begin <= leaf:
+            nodes[place] = f"{box} {begin} {end - begin}"
+            return
+        first, middle = len(nodes), (begin + end) // 2
+        nodes[place] = f"{box} {first} 0"
+        nodes.extend(("", ""))
+        build(first, begin, middle)
+        build(first + 1, middle, end)
+
+    build(0, 0, 100)
+    return f"bvh {len(nodes)} {' '.join(nodes)} 100 {' '.join(map(str, order))}"
+
+
+@pytest.mark.parametrize(
+    "tree",
+    [
+        _GOOD,
+        f"bvh 1 {_ALL} 0 2 2 0 1",  # one leaf for all
+        f"bvh 3 {_ROOT} {_EAST} 0 1 {_WEST} 1 1 2 1 0",  # the other way round
+        f"bvh 3 -9 -9 -9 9 9 9 1 0 {_ALL} 0 1 {_ALL} 1 1 2 0 1",  # boxes larger than they have to be
+        f"bvh 5 {_ALL} 3 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1",  # places that nobody reaches
+        f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 2 1 3 0 -1 1",  # and so in the list
+    ],
+)
+def test_right_trees(tree: str) -> None:
+    assert _problem(tree) == ""
+
+
+@pytest.mark.parametrize(
+    ("tree", "said"),
+    [
+        ("bvh 0 0", "no nodes"),
+        ("bvh 0 2 0 1", "no nodes"),
+        (f"bvh 1 {_ALL} 0 1 2 0 1", "in no leaf"),
+        (f"bvh 3 {_ROOT} {_WEST} 0 1 {_ALL} 0 2 2 0 1", "in two leaves"),
+        (f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 2 2 0 1", "beyond the end of the list"),
+        (f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 -1", "no surface of the scene"),
+        (f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 2", "no surface of the scene"),
+        (f"bvh 3 {_ROOT} {_EAST} 0 1 {_WEST} 1 1 2 0 1", "sticks out of the box of its leaf"),
+        (f"bvh 3 {_WEST} 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "sticks out of its parent's"),
+        (f"bvh 3 nan nan nan nan nan nan 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "sticks out"),
+        (f"bvh 2 {_ROOT} {_WEST} 0 1 2 0 1", "beyond the end of the nodes"),
+        (f"bvh 3 {_ROOT} {_ALL} 0 0 {_EAST} 1 1 2 0 1", "reached twice"),
+        (f"bvh 2 {_ALL} 0 0 {_EAST} 1 1 2 0 1", "reached twice"),
+    ],
+)
+def test_wrong_trees(tree: str, said: str) -> None:
+    assert said in _problem(tree)
+
+
+@pytest.mark.parametrize(
+    "tree",
+    [
+        "bvh",
+        "tree 0",
+        "large",
+        "large forests",
+        f"bvh 1 {_ALL} 0 -1 2 0 1",
+        f"bvh {MOST_NODES + 1} " + f"{_ROOT} " * (MOST_NODES + 1) + "0",
+        f"bvh 1 {_ALL} 0 2 99999999 0 1",
+        f"{_GOOD} 1",
+        "bvh 3 1 2 3",
+    ],
+)
+def test_no_proper_tree(tree: str) -> None:
+    assert _problem(tree) == "no proper answer came"
+
+
+def test_the_levels_are_counted() -> None:
+    def chain(levels: int) -> str:
+        """Each inner node has a leaf with one surface and the rest; the last level are two leaves."""
+        nodes = [f"0 0 0 9 9 9 {2 * i + 1} 0 0 0 0 9 9 9 {i} 1" for i in range(levels - 1)]
+        words = " ".join(nodes).split()
+        root, rest = words[:8], words[8:]
+        return f"bvh {2 * levels - 1} {' '.join(root)} {' '.join(rest)} 0 0 0 9 9 9 {levels - 1} 1"
+
+    for levels, said in ((MOST_LEVELS, ""), (MOST_LEVELS + 1, f"more than {MOST_LEVELS} levels")):
+        inputs: Inputs = {"surfaces": Surfaces((Sphere((4.0, 4.0, 4.0), 1.0),) * levels)}
+        line = f"{chain(levels)} {levels} {' '.join(map(str, range(levels)))}"
+        good = f"bvh 1 0 0 0 9 9 9 0 {levels} {levels} {' '.join(map(str, range(levels)))}"
+        assert said in BVH.verdict("build_bvh", inputs, good, line).problem
+        assert bool(BVH.verdict("build_bvh", inputs, good, line).problem) == bool(said)
+
+
+def test_the_cost_of_a_tree() -> None:
+    """Of the handout: nine surfaces in the first quarter of a box, one in the last."""
+    whole = Box((0.0, 0.0, 0.0), (4.0, 2.0, 2.0))
+    first, last = Box((0.0, 0.0, 0.0), (1.0, 2.0, 2.0)), Box((3.0, 0.0, 0.0), (4.0, 2.0, 2.0))
+    tree = Bvh((BvhNode(whole, 1, 0), BvhNode(first, 0, 9), BvhNode(last, 9, 1)), tuple(range(10)))
+    assert bvh_cost(tree) == pytest.approx(5)
+    assert bvh_cost(Bvh((BvhNode(whole, 0, 10),), tuple(range(10)))) == pytest.approx(10)
+
+
+def test_many_surfaces_must_be_divided_well() -> None:
+    def verdict(line: str) -> Verdict:
+        return BVH.verdict("build_bvh", _HUNDRED, _row(1), line)
+
+    for leaf in (1, 2, 4, 8):
+        assert verdict(_row(leaf)).problem == "", "any sorted row is cheap enough"
+    whole = verdict(_row(100))
+    assert "hardly any leaves" in whole.problem
+    assert whole.wasteful
+    mixed = verdict(_row(4, 37))
+    assert "dear" in mixed.problem
+    assert not mixed.wasteful
+    assert MOST_COST > 1.5
+
+
+def test_a_tree_that_was_too_large_to_tell() -> None:
+    for excess, said in (("nodes", "5000 nodes"), ("surfaces", "50000 surfaces")):
+        verdict = BVH.verdict("build_bvh", _TWO, _GOOD, f"large {excess}")
+        assert said in verdict.problem
+        assert not verdict.decided
+
+
+def test_the_largest_tree_is_judged_at_once() -> None:
+    line = f"bvh {MOST_NODES} " + " ".join(f"{_ALL} {i + 1} 0" for i in range(MOST_NODES)) + " 2 0 1"
+    start = time.process_time()
+    assert _problem(line) != ""
+    assert time.process_time() - start < 0.5
+
+
+def test_no_surfaces() -> None:
+    inputs: Inputs = {"surfaces": Surfaces(())}
+    assert _problem("bvh 0 0", inputs) == ""
+    assert BVH.verdict("build_bvh", inputs, "bvh 0 0", f"bvh 1 {_ALL} 0 0 0").problem != ""
+
+
+def test_a_flat_triangle_may_have_a_flat_box() -> None:
+    inputs: Inputs = {"surfaces": Surfaces((Triangle((0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, 1.0, 1.0)),))}
+    assert _problem("bvh 1 0 0 1 1 1 1 0 1 1 0", inputs) == ""
+
+
+def test_a_reference_that_loses_a_surface_is_the_kits_fault() -> None:
+    with pytest.raises(GraderFault, match="in no leaf"):
+        BVH.verdict("build_bvh", _TWO, f"bvh 1 {_ALL} 0 1 2 0 1", _GOOD)

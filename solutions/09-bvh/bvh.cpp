@@ -1,0 +1,379 @@
+#include "steps/09-bvh/bvh.hpp"
+
+#include "core/threads.hpp"
+#include "core/unfinished.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace raysteps {
+
+// BEGIN SOLUTION
+namespace {
+
+constexpr std::size_t k_bins = 16;
+constexpr std::size_t k_largest_leaf = 8;
+constexpr int k_levels_by_cost = 32;             // below them surfaces are halved: so no tree becomes too deep
+constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
+constexpr std::size_t k_enough_ranges = 64;      // that wait to be built, for any number of threads
+constexpr float k_padding = 2e-6F;               // share of the scene's size by which boxes are grown against rounding
+constexpr float k_distance_slack = 1e-5F;        // share of a distance within which rounding may move it
+
+void grow(Box& box, const Box& other) {
+    box.min = glm::min(box.min, other.min);
+    box.max = glm::max(box.max, other.max);
+}
+
+/// A surface on its way into the tree.
+struct Item {
+    Box bounds;
+    const Surface* surface = nullptr;
+
+    [[nodiscard]] glm::vec3 twice_middle() const { return bounds.min + bounds.max; }
+};
+
+/// Puts the middles of surfaces along one axis into bins of equal width.
+struct Binning {
+    int axis = 0;
+    float low = 0.0F;
+    float bins_per_length = 0.0F;
+
+    [[nodiscard]] std::size_t bin_of(const Item& item) const {
+        const auto bin = static_cast<std::size_t>((item.twice_middle()[axis] - low) * bins_per_length);
+        return std::min(bin, k_bins - 1);
+    }
+};
+
+struct Cut {
+    Binning binning;
+    std::size_t first_right = 0;  // of the bins
+    float cost = std::numeric_limits<float>::infinity();
+};
+
+struct Bin {
+    Box box;
+    std::size_t count = 0;
+
+    void add(const Bin& other) {
+        grow(box, other.box);
+        count += other.count;
+    }
+};
+
+/// Items [begin, end) are to become the subtree below nodes[node]. Whatever is below that node has its place from
+/// nodes[free] on: n surfaces need 2n - 1 nodes at most. So subtrees can be built in any order and at the same time.
+struct Range {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::size_t node = 0;
+    std::size_t free = 1;
+    int level = 0;
+
+    [[nodiscard]] std::size_t size() const { return end - begin; }
+};
+
+class Builder {
+public:
+    explicit Builder(const SurfaceList& surfaces) : items_(surfaces.size()), nodes_(2 * surfaces.size() - 1) {
+        in_parallel(surfaces.size(), [&](std::size_t i) { items_[i] = {surfaces[i]->bounds(), surfaces[i]}; });
+    }
+
+    Bvh build() {
+        std::vector<Range> ranges{{0, items_.size()}};
+        while (!ranges.empty() && ranges.size() < k_enough_ranges && items_.size() >= k_enough_surfaces) {
+            ranges = split_all(ranges);
+        }
+        in_parallel(ranges.size(), [&](std::size_t i) { build_below(ranges[i]); });
+        return packed();
+    }
+
+private:
+    /// One level of the tree, on all threads.
+    std::vector<Range> split_all(const std::vector<Range>& ranges) {
+        std::vector<std::optional<std::pair<Range, Range>>> halves(ranges.size());
+        in_parallel(ranges.size(), [&](std::size_t i) { halves[i] = split(ranges[i]); });
+        std::vector<Range> next;
+        for (const auto& pair : halves) {
+            if (pair) {
+                next.push_back(pair->first);
+                next.push_back(pair->second);
+            }
+        }
+        return next;
+    }
+
+    void build_below(const Range& range) {
+        if (const auto halves = split(range)) {
+            build_below(halves->first);
+            build_below(halves->second);
+        }
+    }
+
+    /// Fills in the node, and says what becomes of its two children; nothing where it is a leaf.
+    std::optional<std::pair<Range, Range>> split(const Range& range) {
+        BvhNode& node = nodes_[range.node];
+        Box middles;
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            grow(node.box, items_[i].bounds);
+            grow(middles, {items_[i].twice_middle(), items_[i].twice_middle()});
+        }
+        const Cut cut = range.level < k_levels_by_cost ? best_cut(range, middles, node.box) : Cut{};
+        const auto size = static_cast<float>(range.size());
+        if (range.size() == 1 || (range.size() <= k_largest_leaf && size <= cut.cost)) {
+            node.first = static_cast<std::uint32_t>(range.begin);
+            node.count = static_cast<std::uint32_t>(range.size());
+            return std::nullopt;
+        }
+        node.first = static_cast<std::uint32_t>(range.free);
+        const std::size_t middle = divide(range, cut);
+        const std::size_t free = range.free + 2;
+        const std::size_t free_of_right = free + 2 * (middle - range.begin) - 2;
+        return std::pair(Range{range.begin, middle, range.free, free, range.level + 1},
+                         Range{middle, range.end, range.free + 1, free_of_right, range.level + 1});
+    }
+
+    /// The cheapest of the cuts between bins; of infinite cost where all surfaces have the same middle.
+    [[nodiscard]] Cut best_cut(const Range& range, const Box& middles, const Box& whole) const {
+        Cut best;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float low = middles.min[axis];
+            const float bins_per_length = static_cast<float>(k_bins) / (middles.max[axis] - low);
+            if (!(bins_per_length > 0.0F && bins_per_length < std::numeric_limits<float>::infinity())) {
+                continue;  // no width, or as good as none
+            }
+            const Binning binning{axis, low, bins_per_length};
+            std::array<Bin, k_bins> bins;
+            for (std::size_t i = range.begin; i < range.end; ++i) {
+                bins[binning.bin_of(items_[i])].add({items_[i].bounds, 1});
+            }
+            try_cuts(bins, binning, whole, best);
+        }
+        return best;
+    }
+
+    static void try_cuts(const std::array<Bin, k_bins>& bins, const Binning& binning, const Box& whole, Cut& best) {
+        std::array<Bin, k_bins> from_right = bins;  // each bin with all that are right of it
+        for (std::size_t i = k_bins - 1; i > 0; --i) {
+            from_right[i - 1].add(from_right[i]);
+        }
+        Bin left;
+        for (std::size_t i = 1; i < k_bins; ++i) {
+            left.add(bins[i - 1]);
+            const Bin& right = from_right[i];
+            if (left.count > 0 && right.count > 0) {
+                const float cost = split_cost(left.box, left.count, right.box, right.count, whole);
+                if (cost < best.cost) {
+                    best = {binning, i, cost};
+                }
+            }
+        }
+    }
+
+    /// Sorts the items of the range into left and right, and returns where the right ones begin.
+    std::size_t divide(const Range& range, const Cut& cut) {
+        if (cut.first_right == 0) {
+            return range.begin + range.size() / 2;
+        }
+        const auto at = [this](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
+        const auto middle = std::partition(at(range.begin), at(range.end), [&cut](const Item& item) {
+            return cut.binning.bin_of(item) < cut.first_right;
+        });
+        return static_cast<std::size_t>(middle - items_.begin());
+    }
+
+    /// The tree without the places that were kept free and not needed.
+    [[nodiscard]] Bvh packed() const {
+        std::vector<std::uint32_t> place(nodes_.size());
+        std::uint32_t used = 0;
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            place[i] = used;
+            used += is_used(nodes_[i]) ? 1U : 0U;
+        }
+        const Box& all = nodes_.front().box;
+        const glm::vec3 padding(k_padding *
+                                (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max)));
+        Bvh bvh;
+        bvh.nodes.reserve(used);
+        for (const BvhNode& node : nodes_) {
+            if (is_used(node)) {
+                const Box box{node.box.min - padding, node.box.max + padding};
+                bvh.nodes.push_back({box, node.is_leaf() ? node.first : place[node.first], node.count});
+            }
+        }
+        bvh.surfaces.reserve(items_.size());
+        for (const Item& item : items_) {
+            bvh.surfaces.push_back(item.surface);
+        }
+        return bvh;
+    }
+
+    static bool is_used(const BvhNode& node) { return node.is_leaf() || node.first > 0; }
+
+    /// Calls work(0) to work(count - 1), on all threads where the scene is large.
+    template <typename Work>
+    void in_parallel(std::size_t count, const Work& work) const {
+        const std::size_t portion = 1 + count / 1024;
+        std::atomic<std::size_t> next{0};
+        const auto take_portions = [&] {
+            for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
+                for (std::size_t i = begin; i < std::min(begin + portion, count); ++i) {
+                    work(i);
+                }
+            }
+        };
+        run_on_threads(items_.size() < k_enough_surfaces ? 1 : default_threads(), take_portions);
+    }
+
+    std::vector<Item> items_;
+    std::vector<BvhNode> nodes_;
+};
+
+/// Whether a box that the ray enters there can only hold hits behind that distance.
+bool begins_behind(float enter, float distance) { return distance < enter * (1.0F - k_distance_slack); }
+
+struct Closest {
+    std::optional<HitRecord> hit;
+    float distance = std::numeric_limits<float>::infinity();
+    std::size_t order = 0;
+
+    /// Leaves are not visited in the order of the scene, so surfaces at the same distance are told apart by it.
+    void ask(const Surface& surface, const Ray& ray) {
+        const std::optional<HitRecord> found = surface.hit(ray);
+        if (found && (found->distance < distance || (found->distance == distance && surface.order() < order))) {
+            hit = found;
+            distance = found->distance;
+            order = surface.order();
+        }
+    }
+};
+
+/// A node that is still to be visited, and where the ray enters its box.
+struct Entry {
+    float enter = 0.0F;
+    std::uint32_t node = 0;
+};
+
+/// Never holds more than one entry for each level, and one more.
+template <typename T>
+class Stack {
+public:
+    void push(const T& entry) { entries_[size_++] = entry; }
+    [[nodiscard]] T pop() { return entries_[--size_]; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+
+private:
+    std::array<T, k_most_bvh_levels + 1> entries_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace
+// END SOLUTION
+
+float surface_area(const Box& box) {
+    // BEGIN SOLUTION surface_area
+    // TODO: Two faces each of width times height, height times depth and depth times width; nothing for an empty box.
+    // RETURN 0.0F
+    const glm::vec3 size = box.max - box.min;
+    if (!(size.x >= 0.0F && size.y >= 0.0F && size.z >= 0.0F)) {
+        return 0.0F;
+    }
+    return 2.0F * (size.x * size.y + size.y * size.z + size.z * size.x);
+    // END SOLUTION
+}
+
+float split_cost(const Box& left, std::size_t left_count, const Box& right, std::size_t right_count, const Box& whole) {
+    // BEGIN SOLUTION split_cost
+    // TODO: The two box tests, and the surfaces of each side times the chance that the ray meets the box of that side.
+    // RETURN 0.0F
+    const float area = surface_area(whole);
+    const float left_share = area > 0.0F ? surface_area(left) / area : 1.0F;
+    const float right_share = area > 0.0F ? surface_area(right) / area : 1.0F;
+    return k_two_box_tests + left_share * static_cast<float>(left_count) +
+           right_share * static_cast<float>(right_count);
+    // END SOLUTION
+}
+
+Bvh build_bvh(const SurfaceList& surfaces) {
+    // BEGIN SOLUTION build_bvh
+    // TODO: One box around all; cut its surfaces into two where it costs least, and go on with each half by itself.
+    // RETURN Bvh{}
+    return surfaces.empty() ? Bvh{} : Builder(surfaces).build();
+    // END SOLUTION
+}
+
+std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
+    // BEGIN SOLUTION closest_hit_in_bvh
+    // TODO: Visit the child first that the ray enters first, and skip boxes that begin behind the nearest hit so far.
+    // RETURN std::nullopt
+    Closest closest;
+    Stack<Entry> open;
+    const auto part = bvh.nodes.empty() ? std::nullopt : bvh.nodes.front().box.hit(ray);
+    if (part) {
+        open.push({part->enter, 0});
+    }
+    while (!open.empty()) {
+        const Entry entry = open.pop();
+        if (begins_behind(entry.enter, closest.distance)) {
+            continue;
+        }
+        const BvhNode& node = bvh.nodes[entry.node];
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            closest.ask(*bvh.surfaces[node.first + i], ray);
+        }
+        if (node.is_leaf()) {
+            continue;
+        }
+        const std::optional<Interval> first = bvh.nodes[node.first].box.hit(ray);
+        const std::optional<Interval> second = bvh.nodes[node.first + 1].box.hit(ray);
+        const bool second_is_nearer = first && second && second->enter < first->enter;
+        if (first && second_is_nearer) {
+            open.push({first->enter, node.first});
+        }
+        if (second) {
+            open.push({second->enter, node.first + 1});
+        }
+        if (first && !second_is_nearer) {
+            open.push({first->enter, node.first});
+        }
+    }
+    return closest.hit;
+    // END SOLUTION
+}
+
+bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+    // BEGIN SOLUTION any_hit_in_bvh
+    // TODO: Visit the boxes that begin before the distance, in any order, until a surface is hit before it.
+    // RETURN false
+    Stack<std::uint32_t> open;
+    if (!bvh.nodes.empty()) {
+        open.push(0);
+    }
+    while (!open.empty()) {
+        const BvhNode& node = bvh.nodes[open.pop()];
+        const std::optional<Interval> part = node.box.hit(ray);
+        if (!part || begins_behind(part->enter, distance)) {
+            continue;
+        }
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            const std::optional<HitRecord> hit = bvh.surfaces[node.first + i]->hit(ray);
+            if (hit && hit->distance < distance) {
+                return true;
+            }
+        }
+        if (!node.is_leaf()) {
+            open.push(node.first + 1);
+            open.push(node.first);
+        }
+    }
+    return false;
+    // END SOLUTION
+}
+
+}  // namespace raysteps
