@@ -25,11 +25,13 @@ std::unique_ptr<Accelerator> embree(const SurfaceList& surfaces) {
 
 }  // namespace
 
+// A new Acceleration needs one line here; the commands find it by its name.
 const std::vector<Structure>& all_structures() {
     static const std::vector<Structure> structures{
         {"none", true, false, kits_own<Acceleration::none>},
         {"boxes", true, false, kits_own<Acceleration::boxes>},
         {"octree", false, false, kits_own<Acceleration::octree>},
+        {"bvh", false, false, kits_own<Acceleration::bvh>},
 #ifdef RAYSTEPS_EMBREE
         {"embree", false, true, embree<EmbreeMode::fast>},
         {"embree-high", false, true, embree<EmbreeMode::high>},
