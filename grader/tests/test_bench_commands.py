@@ -123,7 +123,7 @@ def test_a_small_run_of_render(project: Project, bench_folder: Path) -> None:
     assert kinds["all"] == sum(kinds[kind] for kind in ("eye", "shadow", "reflect", "refract"))
     sides = {side["name"]: side for side in measured["structures"]}
     assert sides["none"]["rays"] == -(-kinds["all"] // 8)
-    assert sides["none"]["surface_tests_per_ray"] == measured["surfaces"]
+    assert sides["octree"]["surface_tests_per_ray"] < sides["none"]["surface_tests_per_ray"] <= measured["surfaces"]
     assert sides["octree"]["rays"] == kinds["all"]
     assert all(side["differing"] == 0 for name, side in sides.items() if not name.startswith("embree"))
 
