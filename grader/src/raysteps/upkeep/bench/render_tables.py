@@ -92,7 +92,7 @@ def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
     table = Table(title="whole pictures beside POV-Ray, one thread each", title_justify="left")
     for heading in (
         "scene", "program", "tracing", "tracing, processor", "process", "process, processor",
-        "POV-Ray / ours: tracing", "tracing, processor", "difference of brightness",
+        "POV-Ray / ours: tracing", "and of the processor", "difference of brightness",
     ):  # fmt: skip
         table.add_column(heading, justify="left" if heading in ("scene", "program") else "right")
     for row in rows:
