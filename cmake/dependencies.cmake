@@ -18,6 +18,9 @@ if(NOT TARGET Catch2::Catch2)
     FetchContent_MakeAvailable(Catch2)
 endif()
 
+# For the wide trees alone: where it is missing there are none.
+find_package(hwy CONFIG QUIET)
+
 # Their headers are theirs: no warnings from them.
 foreach(library glm::glm Catch2::Catch2)
     get_target_property(target ${library} ALIASED_TARGET)

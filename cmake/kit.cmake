@@ -50,6 +50,10 @@ get_target_property(catch2_type ${catch2_target} TYPE)
 if(NOT catch2_type STREQUAL "INTERFACE_LIBRARY")
     set(catch2 "\"$<TARGET_FILE:Catch2::Catch2>\"")
 endif()
+set(wide "")
+if(TARGET raysteps-wide)
+    set(wide "\"$<TARGET_OBJECTS:raysteps-wide-offer>\", \"$<TARGET_FILE:raysteps-wide>\", \"$<TARGET_FILE:hwy::hwy>\"")
+endif()
 set(seal_json null)
 if(RAYSTEPS_SEAL)
     set(seal_json "{\"nm\": \"${CMAKE_NM}\", \"readelf\": \"${CMAKE_READELF}\"}")
@@ -73,6 +77,7 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
   },
   \"catch2\": [${catch2}],
   \"raytrace\": [\"$<JOIN:$<TARGET_OBJECTS:raytrace-app>,\", \">\"],
+  \"wide\": [${wide}],
   \"worker\": [\"$<JOIN:$<TARGET_OBJECTS:worker-app>,\", \">\"],
   \"tests\": {
     ${tests_json}
@@ -83,6 +88,9 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
 # All that kit.json names.
 add_custom_target(kit)
 add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app worker-app)
+if(TARGET raysteps-wide)
+    add_dependencies(kit raysteps-wide raysteps-wide-offer)
+endif()
 foreach(step IN LISTS RAYSTEPS_STEPS)
     raysteps_split_step(${step} number name)
     add_dependencies(kit step-${number}-reference-raw test-${number}-objects)

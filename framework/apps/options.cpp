@@ -15,9 +15,11 @@ const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [op
   --size WxH              pixels; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
   --threads N             the picture is the same for any number (one per core)
-  --accel none|boxes|octree|bvh
+  --accel none|boxes|octree|bvh|wide|wide-octree
                           every surface, the paper's 64 boxes, the tree of step 06 or that of
-                          step 09 (none before step 6, octree from there on, bvh for step 9)
+                          step 09, and the last two eight boxes and surfaces at a time
+                          (none before step 6, octree from there on, bvh for step 9)
+  --list-accel            print which of these this program has
   --stats FILE.json       write counters: rays by kind, tests, seconds
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
@@ -80,12 +82,17 @@ Rect parse_crop(const std::string& text) {
     return {(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
 }
 
-Acceleration parse_acceleration(const std::string& text) {
+const std::map<std::string, Acceleration>& accelerations() {
     static const std::map<std::string, Acceleration> names{
-        {"none", Acceleration::none}, {"boxes", Acceleration::boxes}, {"octree", Acceleration::octree}, {"bvh", Acceleration::bvh}};
-    const auto found = names.find(text);
-    if (found == names.end()) {
-        complain("--accel", "none, boxes, octree or bvh", text);
+        {"none", Acceleration::none}, {"boxes", Acceleration::boxes}, {"octree", Acceleration::octree},
+        {"bvh", Acceleration::bvh},   {"wide", Acceleration::wide},   {"wide-octree", Acceleration::wide_octree}};
+    return names;
+}
+
+Acceleration parse_acceleration(const std::string& text) {
+    const auto found = accelerations().find(text);
+    if (found == accelerations().end()) {
+        complain("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
     }
     return found->second;
 }
@@ -125,6 +132,14 @@ void check(const RaytraceOptions& options) {
 
 }  // namespace
 
+std::string list_accelerations() {
+    std::string list;
+    for (const auto& [name, kind] : accelerations()) {
+        list += has_accelerator(kind) ? name + "\n" : "";
+    }
+    return list;
+}
+
 RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
     RaytraceOptions options;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -137,6 +152,9 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
             setter->second(options, arguments[++i]);
         } else if (argument == "--quiet") {
             options.quiet = true;
+        } else if (argument == "--list-accel") {
+            options.list_accelerations = true;
+            return options;
         } else if (argument == "--spd") {
             options.spd = true;
         } else if (argument == "-h" || argument == "--help") {

@@ -27,6 +27,7 @@ struct RaytraceOptions {
     std::optional<Rect> crop;
     bool quiet = false;
     bool spd = false;
+    bool list_accelerations = false;
     bool help = false;
 };
 
@@ -36,6 +37,9 @@ public:
 };
 
 extern const char* const k_raytrace_usage;
+
+/// The names that --accel takes in this program, a line each.
+[[nodiscard]] std::string list_accelerations();
 
 /// Throws UsageError with a message that says what was expected.
 [[nodiscard]] RaytraceOptions parse_options(const std::vector<std::string>& arguments);

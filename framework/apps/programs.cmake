@@ -16,6 +16,7 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
 endforeach()
 raysteps_add_raytrace(raytrace-mine ${numbers})
 raysteps_add_raytrace(raytrace-reference)
+raysteps_link_wide(raytrace-reference)
 
 # worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
 add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp

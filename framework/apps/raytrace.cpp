@@ -79,6 +79,10 @@ int main(int argc, char** argv) {
             std::fputs(k_raytrace_usage, stdout);
             return 0;
         }
+        if (options.list_accelerations) {
+            std::fputs(list_accelerations().c_str(), stdout);
+            return 0;
+        }
         run(options);
         return 0;
     } catch (const ReadError& error) {

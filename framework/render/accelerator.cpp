@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <map>
+#include <stdexcept>
+
 #include "render/paper_boxes.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
@@ -82,7 +85,21 @@ private:
     Bvh bvh_;
 };
 
+std::map<Acceleration, AcceleratorMaker>& offered() {
+    static std::map<Acceleration, AcceleratorMaker> makers;
+    return makers;
+}
+
 }  // namespace
+
+bool offer_accelerator(Acceleration kind, AcceleratorMaker make) {
+    offered()[kind] = make;
+    return true;
+}
+
+bool has_accelerator(Acceleration kind) {
+    return (kind != Acceleration::wide && kind != Acceleration::wide_octree) || offered().contains(kind);
+}
 
 std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces) {
     switch (kind) {
@@ -94,6 +111,14 @@ std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceLi
             return std::make_unique<Octree>(surfaces);
         case Acceleration::bvh:
             return std::make_unique<BoundingVolumes>(surfaces);
+        case Acceleration::wide:
+        case Acceleration::wide_octree:
+            if (!has_accelerator(kind)) {
+                throw std::invalid_argument(
+                    "this program was built without wide trees: they need the library Highway (Debian: libhwy-dev), "
+                    "and only the reference has them; --accel bvh draws the same picture");
+            }
+            return offered()[kind](surfaces);
     }
     return nullptr;
 }

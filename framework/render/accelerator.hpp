@@ -14,6 +14,8 @@ enum class Acceleration {
     boxes,   ///< the paper's three levels: a main box, 8 boxes, 64 boxes
     octree,  ///< the tree of step 06
     bvh,     ///< the tree of step 09
+    wide,         ///< the same tree, eight boxes or surfaces at a time
+    wide_octree,  ///< the tree of step 06, eight at a time
 };
 
 /// What a structure costs before the first ray.
@@ -44,7 +46,15 @@ protected:
     Accelerator& operator=(const Accelerator&) = default;
 };
 
-/// Builds the structure. The surfaces must outlive it.
+using AcceleratorMaker = std::unique_ptr<Accelerator> (*)(const SurfaceList& surfaces);
+
+/// A program that is linked with the wide trees offers them here, before main begins. Always true.
+bool offer_accelerator(Acceleration kind, AcceleratorMaker make);
+
+/// Whether this program has the structure.
+[[nodiscard]] bool has_accelerator(Acceleration kind);
+
+/// Builds the structure. The surfaces must outlive it. Throws std::invalid_argument for one that the program lacks.
 [[nodiscard]] std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces);
 
 }  // namespace raysteps

@@ -67,6 +67,14 @@ void check_same(const std::optional<HitRecord>& expected, const std::optional<Hi
     }
 }
 
+/// Of the structures with trees, those that this program has.
+std::vector<Acceleration> trees() {
+    std::vector<Acceleration> all{Acceleration::boxes, Acceleration::octree, Acceleration::bvh, Acceleration::wide,
+                                  Acceleration::wide_octree};
+    std::erase_if(all, [](Acceleration kind) { return !has_accelerator(kind); });
+    return all;
+}
+
 }  // namespace
 
 TEST_CASE("Boxes, octree and bounding volumes find what brute force finds", "[render][accelerator]") {
@@ -76,8 +84,7 @@ TEST_CASE("Boxes, octree and bounding volumes find what brute force finds", "[re
     const float size = GENERATE(0.5F, 5.0F);
     const Scene scene = random_scene(random, surfaces, size);
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
-    const auto other = make_accelerator(GENERATE(Acceleration::boxes, Acceleration::octree, Acceleration::bvh),
-                                        scene.surfaces());
+    const auto other = make_accelerator(GENERATE(from_range(trees())), scene.surfaces());
     for (int i = 0; i < 2000; ++i) {
         const Ray ray = i % 5 == 4 && surfaces > 0 ? ray_in_a_face(random, scene, i) : any_ray(random, i);
         INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
@@ -93,8 +100,7 @@ TEST_CASE("Whether anything is nearer than a distance, all structures say as the
     const float size = GENERATE(0.5F, 5.0F);
     const Scene scene = random_scene(random, surfaces, size);
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
-    const auto other = make_accelerator(GENERATE(Acceleration::none, Acceleration::boxes, Acceleration::octree, Acceleration::bvh),
-                                        scene.surfaces());
+    const auto other = make_accelerator(GENERATE(from_range(trees())), scene.surfaces());
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
     for (int i = 0; i < 2000; ++i) {
         const Ray ray = i % 5 == 4 && surfaces > 0 ? ray_in_a_face(random, scene, i) : any_ray(random, i);
@@ -117,8 +123,7 @@ TEST_CASE("A search for any hit ends sooner than one for the closest", "[render]
     Random random;
     INFO(random);
     const Scene scene = random_scene(random, 400, 2.0F);
-    const auto structure =
-        make_accelerator(GENERATE(Acceleration::none, Acceleration::boxes, Acceleration::octree, Acceleration::bvh), scene.surfaces());
+    const auto structure = make_accelerator(GENERATE(from_range(trees())), scene.surfaces());
     std::uint64_t closest_tests = 0;
     std::uint64_t any_tests = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -166,7 +171,7 @@ TEST_CASE("A huge ground and small squares in the same plane: the first in the s
         add_square(static_cast<float>(i % 5), static_cast<float>(i / 5), 0.25F, 1.0F);
     }
     add_square(-8.0F, -8.0F, 32.0F, 2.0F);  // the ground comes last, so the squares are seen
-    const auto tree = make_accelerator(GENERATE(Acceleration::octree, Acceleration::bvh), scene.surfaces());
+    const auto tree = make_accelerator(GENERATE(from_range(trees())), scene.surfaces());
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
     for (int i = 0; i < 400; ++i) {
         const Ray ray{{0.05F + 0.25F * static_cast<float>(i % 20), 0.1F + 0.25F * static_cast<float>(i / 20), 4.0F},

@@ -17,8 +17,9 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
 endforeach()
 
 file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "render/*_test.cpp" "apps/*_test.cpp"
-     "testing/*_test.cpp")
+     "testing/*_test.cpp" "wide/*_test.cpp")
 raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp)
+raysteps_link_wide(test-framework)
 
 # The readers against broken files: replayed with any compiler, and searched for new ones with libFuzzer.
 add_executable(fuzz-readers-replay io/fuzz/readers_fuzz.cpp io/fuzz/replay_main.cpp)

@@ -17,7 +17,7 @@ from raysteps.upkeep.bench.asking import ask
 from raysteps.upkeep.bench.documents import keep, kept
 from raysteps.upkeep.bench.pages import bench_docs
 from raysteps.upkeep.bench.pinning import can_pin, pinned
-from raysteps.upkeep.bench.programs import missing_peers, portable
+from raysteps.upkeep.bench.programs import portable, what_is_missing
 from raysteps.upkeep.bench.scale import KINDS
 from raysteps.upkeep.bench.scenes import checked
 
@@ -60,12 +60,13 @@ def test_two_scenes_of_one_name_could_not_be_told_apart(tmp_path: Path) -> None:
         checked(scenes)
 
 
-def test_missing_peers_are_named_with_the_way_to_install_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_missing_are_named_with_the_way_to_install_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
-    embree, povray = missing_peers("")
+    highway, embree, povray = what_is_missing({"embree_version": "", "structures": [{"name": "bvh"}]})
+    assert "apt-get install libhwy-dev" in highway
     assert "apt-get install libembree-dev" in embree
     assert "apt-get install povray" in povray
-    assert missing_peers("3.13.5") == [povray]
+    assert what_is_missing({"embree_version": "3.13.5", "structures": [{"name": "wide"}]}) == [povray]
 
 
 @pytest.mark.skipif(not can_pin(), reason="this system pins no programs")

@@ -55,8 +55,9 @@ class Assembly:
         self._write_known()
         raytrace = [self._copy(path) for path in self._description.raytrace]
         worker = [self._copy(path) for path in self._description.worker]
+        more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
         for kind, objects in (("raytrace", raytrace), ("worker", worker)):
-            self._link_reference(kind, objects)
+            self._link_reference(kind, [*objects, *more] if kind == "raytrace" else objects)
             for step in self._steps:
                 self._add_program(f"{kind}-isolated-{step.number}", objects, [step])
         tests: dict[str, dict[str, list[str]]] = {}

@@ -33,6 +33,7 @@ class Description:
     libraries: dict[str, Path]
     catch2: list[Path]
     raytrace: list[Path]
+    wide: list[Path]  # what the reference's raytrace is linked with beside that; nothing where Highway is missing
     worker: list[Path]
     tests: dict[str, list[Path]]
 
@@ -66,6 +67,7 @@ def read_description(path: Path) -> Description:
             libraries={name: Path(library) for name, library in table["libraries"].items()},
             catch2=_paths(table["catch2"]),
             raytrace=_paths(table["raytrace"]),
+            wide=_paths(table["wide"]),
             worker=_paths(table["worker"]),
             tests={number: _paths(objects) for number, objects in table["tests"].items()},
         )

@@ -6,7 +6,7 @@ from pathlib import Path
 from raysteps.common.process import Outcome, run
 from raysteps.kit.project import Project
 
-ACCELERATIONS = ("none", "boxes", "octree", "bvh")
+ACCELERATIONS = ("none", "boxes", "octree", "bvh")  # that every raytrace has
 _SIZE = "96x96"
 _SECONDS = 300
 
@@ -17,6 +17,12 @@ def render_with(
     """Renders the scene with one of the accelerations."""
     words: list[str | Path] = [program, scene, "-o", picture, "--accel", accel, "--size", size, "--quiet", *options]
     return run(words, seconds=seconds)
+
+
+def accelerations_of(program: Path) -> list[str]:
+    """All that this program has: every object first, then the trees."""
+    names = run([program, "--list-accel"], seconds=_SECONDS).stdout.split()
+    return [*ACCELERATIONS, *(name for name in names if name not in ACCELERATIONS)]
 
 
 def _bytes(program: Path, scene: Path, accel: str, folder: Path) -> tuple[bytes, str]:
@@ -32,12 +38,13 @@ def scenes_that_differ(project: Project, program: Path) -> list[str]:
     scenes = sorted(project.scenes.rglob("*.nff"))
     if not scenes:
         return ["scenes/ holds no scene"]
+    accelerations = accelerations_of(program)
     lines = []
     for scene in scenes:
         name = scene.relative_to(project.root).as_posix()
         with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
             first = b""
-            for accel in ACCELERATIONS:
+            for accel in accelerations:
                 picture, problem = _bytes(program, scene, accel, Path(folder))
                 first = first or picture
                 if problem or picture != first:

@@ -1,0 +1,17 @@
+#pragma once
+// Wide trees from the trees of the steps.
+#include "core/bvh.hpp"
+#include "core/node.hpp"
+#include "wide/tree.hpp"
+
+namespace raysteps::wide {
+
+/// Throws std::invalid_argument where the nodes are no tree: an index is too large, or a node is reached twice.
+[[nodiscard]] Tree from_bvh(const Bvh& bvh);
+
+[[nodiscard]] Tree from_octree(const raysteps::Node& root);
+
+/// Levels below the root that a search must be ready for.
+inline constexpr int k_most_levels = 64;
+
+}  // namespace raysteps::wide

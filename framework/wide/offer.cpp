@@ -1,0 +1,45 @@
+// Brings the wide trees into the program that this file is linked with.
+#include <memory>
+
+#include "render/accelerator.hpp"
+#include "steps/06-octree/octree.hpp"
+#include "steps/09-bvh/bvh.hpp"
+#include "wide/from_steps.hpp"
+#include "wide/search.hpp"
+
+namespace raysteps::wide {
+namespace {
+
+class WideTree final : public Accelerator {
+public:
+    explicit WideTree(Tree tree) : tree_(std::move(tree)) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return wide::closest_hit(tree_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        return wide::any_hit(tree_, ray, distance);
+    }
+
+    [[nodiscard]] StructureSize size() const override {
+        return {tree_.nodes.size(), tree_.surfaces.size(), tree_.bytes()};
+    }
+
+private:
+    Tree tree_;
+};
+
+std::unique_ptr<Accelerator> over_bvh(const SurfaceList& surfaces) {
+    return std::make_unique<WideTree>(from_bvh(build_bvh(surfaces)));
+}
+
+std::unique_ptr<Accelerator> over_octree(const SurfaceList& surfaces) {
+    return std::make_unique<WideTree>(from_octree(build_octree(surfaces)));
+}
+
+[[maybe_unused]] const bool k_offered = offer_accelerator(Acceleration::wide, over_bvh) &&
+                                        offer_accelerator(Acceleration::wide_octree, over_octree);
+
+}  // namespace
+}  // namespace raysteps::wide

@@ -1,0 +1,23 @@
+#pragma once
+// Looks for hits in a wide tree, with the widest instructions that the machine has.
+//
+// Eight surfaces at a time are asked in single precision, with a bound on every rounding error, theirs and that of
+// Surface::hit. A surface that is surely missed is out; one that is surely hit bounds the search; the few in doubt, and
+// the winner, are asked themselves. So the answer is Surface::hit's own, to the last bit.
+#include <optional>
+
+#include "core/hit_record.hpp"
+#include "wide/tree.hpp"
+
+namespace raysteps::wide {
+
+/// The nearest hit with distance > 0; of two at the same distance that of the surface which comes first in the scene.
+[[nodiscard]] std::optional<HitRecord> closest_hit(const Tree& tree, const Ray& ray);
+
+/// Whether any surface is hit nearer than `distance`.
+[[nodiscard]] bool any_hit(const Tree& tree, const Ray& ray, float distance);
+
+/// The instructions in use, like "AVX2".
+[[nodiscard]] const char* instructions();
+
+}  // namespace raysteps::wide

@@ -1,0 +1,133 @@
+// The wide trees give Surface::hit's own answers, also where single precision is at its end.
+#include "core/cone.hpp"
+#include "core/hollow_sphere.hpp"
+#include "core/scene.hpp"
+#include "core/sphere.hpp"
+#include "core/stats.hpp"
+#include "core/triangle.hpp"
+#include "render/accelerator.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+std::vector<Acceleration> wide_trees() {
+    std::vector<Acceleration> all{Acceleration::wide, Acceleration::wide_octree};
+    std::erase_if(all, [](Acceleration kind) { return !has_accelerator(kind); });
+    return all;
+}
+
+void add_triangle(Scene& scene, Random& random, const glm::vec3& at, float size) {
+    const glm::vec3 along = random.point(size);
+    const bool sliver = random.uniform(0.0F, 1.0F) < 0.3F;
+    const glm::vec3 across = sliver ? along + random.point(size * 1e-4F) : random.point(size);
+    scene.add(std::make_unique<Triangle>(at, at + along, at + across, Fill{}));
+}
+
+/// Surfaces of every kind, among them slivers, and much smaller and larger ones.
+Scene mixed_scene(Random& random, int surfaces, float scale, const glm::vec3& middle) {
+    Scene scene;
+    for (int i = 0; i < surfaces; ++i) {
+        const glm::vec3 at = middle + random.point(10.0F * scale);
+        const float size = scale * random.uniform(0.5F, 2.0F) * (i % 7 == 0 ? 0.01F : i % 11 == 0 ? 10.0F : 1.0F);
+        if (i % 5 < 2) {
+            add_triangle(scene, random, at, size);
+        } else if (i % 5 == 2) {
+            scene.add(std::make_unique<Sphere>(at, 0.5F * size, Fill{}));
+        } else if (i % 5 == 3) {
+            const Cone::Ring end{at + random.point(size), 0.1F * size};
+            scene.add(std::make_unique<Cone>(Cone::Ring{at, 0.3F * size}, end, Cone::Visible::both, Fill{}));
+        } else {
+            scene.add(std::make_unique<HollowSphere>(at, 0.3F * size, Fill{}));
+        }
+    }
+    return scene;
+}
+
+/// From anywhere, or from a hit of another ray; at anything, or along an axis, or at a corner of a triangle.
+Ray any_ray(Random& random, const Scene& scene, const Accelerator& brute, float scale, const glm::vec3& middle,
+            int number) {
+    Ray ray{middle + random.point(20.0F * scale), random.unit_vector()};
+    const Surface& target = *scene.surfaces()[static_cast<std::size_t>(number) % scene.surfaces().size()];
+    if (number % 3 == 0) {
+        ray.direction = glm::normalize(target.bounds().min - ray.origin);
+    } else if (number % 3 == 1) {
+        ray.direction = glm::normalize(0.5F * (target.bounds().min + target.bounds().max) - ray.origin);
+    }
+    if (number % 4 == 3) {
+        const auto* const triangle = dynamic_cast<const Triangle*>(&target);
+        ray.direction = triangle ? glm::normalize(triangle->b() - ray.origin) : glm::vec3(0.0F, 0.0F, -1.0F);
+    }
+    if (number % 5 == 4) {
+        if (const auto hit = brute.closest_hit(ray)) {
+            return {hit->position + 1e-3F * scale * hit->normal, random.unit_vector()};
+        }
+    }
+    return ray;
+}
+
+}  // namespace
+
+TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the place", "[wide]") {
+    Random random;
+    INFO(random);
+    const float scale = GENERATE(1e-3F, 1.0F, 1e4F);
+    const float away = GENERATE(0.0F, 300.0F);  // so many scales from the point 0, where numbers are coarse
+    const glm::vec3 middle = away * scale * glm::vec3(1.0F, -1.0F, 0.5F);
+    const Scene scene = mixed_scene(random, 300, scale, middle);
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        for (int i = 0; i < 3000; ++i) {
+            const Ray ray = any_ray(random, scene, *brute, scale, middle, i);
+            INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
+            const std::optional<HitRecord> expected = brute->closest_hit(ray);
+            const std::optional<HitRecord> actual = tree->closest_hit(ray);
+            REQUIRE(actual.has_value() == expected.has_value());
+            if (expected) {
+                REQUIRE(actual->distance == expected->distance);
+                REQUIRE(actual->normal == expected->normal);
+            }
+            const float distance = expected && i % 2 == 0 ? expected->distance : scale * random.uniform(0.0F, 60.0F);
+            REQUIRE(tree->any_hit(ray, distance) == (expected && expected->distance < distance));
+        }
+    }
+}
+
+TEST_CASE("A wide tree counts what it tests, and asks few", "[wide]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 2000, 0.3F, glm::vec3(0.0F));
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        const Stats before = thread_stats();
+        for (int i = 0; i < 200; ++i) {
+            static_cast<void>(tree->closest_hit({random.point(3.0F), random.unit_vector()}));
+        }
+        CHECK(thread_stats().surface_tests > before.surface_tests);
+        CHECK(thread_stats().box_tests > before.box_tests);
+        CHECK(thread_stats().surface_tests - before.surface_tests < 200U * 2000U / 4U);
+        CHECK(tree->size().references >= 2000U);
+        CHECK(tree->size().bytes > 0U);
+    }
+}
+
+TEST_CASE("A scene without surfaces, and one with a single surface", "[wide]") {
+    Scene scene;
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        CHECK_FALSE(tree->closest_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}));
+        CHECK_FALSE(tree->any_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 100.0F));
+    }
+    scene.add(std::make_unique<Sphere>(glm::vec3(0.0F, 0.0F, 5.0F), 1.0F, Fill{}));
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        const auto hit = tree->closest_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}});
+        REQUIRE(hit);
+        CHECK(hit->distance == Approx(4.0F));
+        CHECK(tree->any_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 4.5F));
+        CHECK_FALSE(tree->any_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 3.5F));
+    }
+}
