@@ -1,6 +1,7 @@
 #include "bench/structures.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "bench/arguments.hpp"
 #include "bench/json.hpp"
@@ -11,34 +12,48 @@
 namespace raysteps::bench {
 namespace {
 
-template <Acceleration kind>
-std::unique_ptr<Accelerator> kits_own(const SurfaceList& surfaces) {
-    return make_accelerator(kind, surfaces);
-}
+struct OwnStructure {
+    const char* name;
+    Acceleration kind;
+    bool slow;
+};
 
+// A new Acceleration needs one line here; the commands find it by its name.
+constexpr std::array k_own{
+    OwnStructure{"none", Acceleration::none, true},
+    OwnStructure{"boxes", Acceleration::boxes, true},
+    OwnStructure{"octree", Acceleration::octree, false},
+    OwnStructure{"bvh", Acceleration::bvh, false},
+    OwnStructure{"wide-octree", Acceleration::wide_octree, false},
+    OwnStructure{"wide", Acceleration::wide, false},
+};
+
+std::vector<Structure> make_table() {
+    std::vector<Structure> table;
+    for (const OwnStructure& own : k_own) {
+        if (has_accelerator(own.kind)) {
+            const auto make = [kind = own.kind](const SurfaceList& surfaces) {
+                return make_accelerator(kind, surfaces);
+            };
+            table.push_back({own.name, own.slow, false, make});
+        }
+    }
 #ifdef RAYSTEPS_EMBREE
-template <EmbreeMode mode>
-std::unique_ptr<Accelerator> embree(const SurfaceList& surfaces) {
-    return make_embree(surfaces, mode);
-}
+    const auto add_embree = [&table](const char* name, EmbreeMode mode) {
+        const auto make = [mode](const SurfaceList& surfaces) { return make_embree(surfaces, mode); };
+        table.push_back({name, false, true, make});
+    };
+    add_embree("embree", EmbreeMode::fast);
+    add_embree("embree-high", EmbreeMode::high);
+    add_embree("embree-robust", EmbreeMode::robust);
 #endif
+    return table;
+}
 
 }  // namespace
 
 const std::vector<Structure>& all_structures() {
-    static const std::vector<Structure> structures{
-        {"none", true, false, kits_own<Acceleration::none>},
-        {"boxes", true, false, kits_own<Acceleration::boxes>},
-        {"octree", false, false, kits_own<Acceleration::octree>},
-        {"bvh", false, false, kits_own<Acceleration::bvh>},
-        {"wide-octree", false, false, kits_own<Acceleration::wide_octree>},
-        {"wide", false, false, kits_own<Acceleration::wide>},
-#ifdef RAYSTEPS_EMBREE
-        {"embree", false, true, embree<EmbreeMode::fast>},
-        {"embree-high", false, true, embree<EmbreeMode::high>},
-        {"embree-robust", false, true, embree<EmbreeMode::robust>},
-#endif
-    };
+    static const std::vector<Structure> structures = make_table();
     return structures;
 }
 

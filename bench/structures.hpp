@@ -1,5 +1,6 @@
 #pragma once
 // What is measured.
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ struct Structure {
     std::string name;
     bool slow = false;     ///< gets a sample of the rays and makes no whole picture
     bool foreign = false;  ///< somebody else's arithmetic: its hits are near the kit's, not the same
-    std::unique_ptr<Accelerator> (*make)(const SurfaceList& surfaces) = nullptr;
+    std::function<std::unique_ptr<Accelerator>(const SurfaceList&)> make;
 };
 
 /// All that this program has.

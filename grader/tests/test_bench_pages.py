@@ -52,7 +52,7 @@ def test_a_chart_is_readable_on_dark_paper() -> None:
 
 
 def test_a_table_keeps_its_columns_apart() -> None:
-    assert markdown(("a", "b"), [("x|y", "1")]) == "| a | b |\n|---|---:|\n| x\\|y | 1 |"
+    assert markdown(("scene", "ns"), [("x|y", "1")]) == "| scene | ns |\n|---|---:|\n| x\\|y | 1 |"
 
 
 def test_only_the_part_between_the_marks_is_replaced() -> None:

@@ -16,7 +16,7 @@ def _checked(outcome: Outcome) -> str:
     if outcome.timed_out:
         raise GraderFault(f"raysteps-bench took more than {_SECONDS} seconds")
     if outcome.code == 2:
-        raise UsageError(outcome.stderr.split("\nUsage:")[0].strip())
+        raise UsageError(outcome.stderr.split("\nUsage:")[0].strip().removeprefix("raysteps-bench: "))
     if outcome.code != 0:
         raise GraderFault(outcome.stderr.strip() or f"raysteps-bench ended with {outcome.signal_name or outcome.code}")
     return outcome.stdout

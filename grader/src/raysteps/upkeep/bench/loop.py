@@ -16,6 +16,7 @@ from raysteps.exports.kit_files import kit_files
 from raysteps.kit.building import release_tree
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
+from raysteps.kit.stubs import without_markers
 from raysteps.upkeep.bench.documents import keep
 from raysteps.upkeep.bench.machine import machine
 from raysteps.upkeep.bench.spread import spread_of
@@ -25,13 +26,14 @@ _START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from raysteps.cli imp
 
 
 def _copy(project: Project, root: Path) -> Project:
-    """A kit of its own, so that nobody's files are changed. Its steps are the solutions of a sample."""
+    """A kit of its own, so that nobody's files are changed. Its steps are the solutions."""
     for file in kit_files(project):
         target = root / file.place
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(file.source, target)
     for step in read_steps(project):
-        shutil.copy(project.samples / "complete" / "steps" / step.path, root / "steps" / step.path)
+        source = without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
+        (root / "steps" / step.path).write_text(source, encoding="utf-8")
     return Project(root)
 
 

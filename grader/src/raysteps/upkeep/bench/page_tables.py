@@ -3,15 +3,18 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from raysteps.upkeep.bench.render_tables import against_embree, faster, median_of, names_of
+from raysteps.upkeep.bench.render_tables import COMPARED, against_embree, against_povray, faster, median_of, names_of
 
 _PEER = "embree"
-_COMPARED = ("trace_seconds", "processor_seconds")
+
+
+_WORDS = ("scene", "structure", "program", "step", "way")  # columns that stand left; numbers stand right
 
 
 def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """One table; the first column stands left, the others right."""
-    lines = ["| " + " | ".join(headings) + " |", "|---" + "|---:" * (len(headings) - 1) + "|"]
+    """One table."""
+    marks = ["|---" if heading.split(" ")[0] in _WORDS else "|---:" for heading in headings]
+    lines = ["| " + " | ".join(headings) + " |", "".join(marks) + "|"]
     lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
     return "\n".join(lines)
 
@@ -65,19 +68,23 @@ def _povray(rows: list[dict[str, Any]]) -> Iterable[list[str]]:
             continue
         theirs = row["programs"][0]
         for number, side in enumerate(row["programs"]):
-            ratios = [f"{faster(theirs, side, what):.2f}" if number else "" for what in _COMPARED]
+            ratios = [f"{faster(theirs, side, what):.2f}" if number else "" for what in COMPARED]
+            tracing = [_spread(side[what], 3) for what in COMPARED]
             process = f"{side['process_seconds']['median']:.2f}"
-            processor = f"{side['processor_seconds']['median']:.2f}"
-            yield [row["scene"], side["program"], _spread(side["trace_seconds"], 3), process, processor, *ratios]
+            yield [row["scene"], side["program"], *tracing, process, *ratios]
 
 
 def render_tables(document: dict[str, Any]) -> str:
     """Rays beside Embree's, then pictures beside POV-Ray's."""
     parts = [_one_build(build) for build in document["builds"]]
     if document["povray"]:
-        headings = ("scene", "program", "tracing, s", "process, s", "processor, s", "tracing: times faster",
-                    "processor: times faster")  # fmt: skip
+        headings = ("scene", "program", "tracing, s", "tracing, processor, s", "process, s", "times faster",
+                    "times faster, processor")  # fmt: skip
         parts.append(markdown(headings, _povray(document["povray"])))
+        clock, processor = (dict(against_povray(document["povray"], what)) for what in COMPARED)
+        means = [(name, f"{clock[name]:.2f}", f"{processor[name]:.2f}") for name in clock if name in processor]
+        heads = ("program", "tracing: times faster than POV-Ray, geometric mean", "of the processor")
+        parts.append(markdown(heads, means))
     return "\n\n".join(parts)
 
 

@@ -48,7 +48,7 @@ class Taken:
     processor: float
 
 
-Runner = Callable[[], Taken]
+Runner = Callable[[int], Taken]  # of a picture with that many pixels on each side
 
 
 def _processor_seconds() -> float:
@@ -79,8 +79,8 @@ def _povray(folder: Path, size: int) -> Taken:
     return Taken(trace_seconds(outcome.stderr + outcome.stdout), outcome.seconds, processor)
 
 
-def _raytrace(program: Path, folder: Path, tree: str, race: Race) -> Taken:
-    options = ["--size", f"{race.size}x{race.size}", "--depth", str(race.depth), "--threads", "1", "--quiet"]
+def _raytrace(program: Path, folder: Path, tree: str, depth: int, size: int) -> Taken:
+    options = ["--size", f"{size}x{size}", "--depth", str(depth), "--threads", "1", "--quiet"]
     words: list[str | Path] = [program, "scene.nff", "-o", f"{tree}.ppm", "--accel", tree, "--stats", f"{tree}.json"]
     outcome, processor = _run([*words, *options], folder)
     stats = json.loads((folder / f"{tree}.json").read_text(encoding="utf-8"))
@@ -92,25 +92,30 @@ def _difference(folder: Path, tree: str) -> float:
     return brightness_difference(theirs, linear_picture(folder / f"{tree}.ppm", tone_mapped=True))
 
 
-def _measured(folder: Path, scene: str, runners: dict[str, Runner], rounds: int, bound: float) -> dict[str, Any]:
-    times: dict[str, list[Taken]] = {name: [] for name in runners}
+def _skipped(scene: str, why: str) -> dict[str, Any]:
+    return {"scene": scene, "skipped": why, "brightness_difference": None, "programs": []}
+
+
+def _measured(folder: Path, scene: str, runners: dict[str, Runner], race: Race, bound: float) -> dict[str, Any]:
+    """A picture of one pixel takes reading and building, but no rays to speak of: the rest is tracing."""
+    size = race.size
+    times: dict[str, list[tuple[Taken, float]]] = {name: [] for name in runners}
     for runner in runners.values():
-        runner()  # warms up, and leaves the pictures
+        runner(size)  # warms up, and leaves the pictures
     difference = _difference(folder, list(runners)[1].removeprefix("raytrace "))
     if difference > bound:
-        raise UsageError(
-            f"{scene}: POV-Ray's picture differs by {difference:.3f} in brightness, expected at most {bound}: "
-            "this is not the same scene; leave it out or add --no-povray"
-        )
-    for _ in range(rounds):
+        return _skipped(scene, f"not the same scene: brightness differs by {difference:.3f}, expected at most {bound}")
+    for _ in range(race.rounds):
         for name, runner in runners.items():
-            times[name].append(runner())
+            whole, without_rays = runner(size), runner(1)
+            times[name].append((whole, max(0.0, whole.processor - without_rays.processor)))
     programs = [
         {
             "program": name,
-            "trace_seconds": spread_of([one.trace for one in taken]),
-            "process_seconds": spread_of([one.process for one in taken]),
-            "processor_seconds": spread_of([one.processor for one in taken]),
+            "trace_seconds": spread_of([one.trace for one, _ in taken]),
+            "trace_processor_seconds": spread_of([tracing for _, tracing in taken]),
+            "process_seconds": spread_of([one.process for one, _ in taken]),
+            "processor_seconds": spread_of([one.processor for one, _ in taken]),
         }
         for name, taken in times.items()
     ]
@@ -125,12 +130,12 @@ def race_povray(programs: Programs, scene: Path, race: Race) -> dict[str, Any]:
     try:
         pov = pov_text(flat, race.depth)
     except UsageError as error:
-        return {"scene": scene.stem, "skipped": str(error), "brightness_difference": None, "programs": []}
+        return _skipped(scene.stem, str(error))
     with tempfile.TemporaryDirectory(prefix="raysteps-pov-") as name:
         folder = Path(name)
         (folder / "scene.pov").write_text(pov, encoding="utf-8")
         (folder / "scene.nff").write_text(_BACKGROUND.sub("b 0 0 0", text), encoding="utf-8")
-        runners: dict[str, Runner] = {"povray": partial(_povray, folder, race.size)}
+        runners: dict[str, Runner] = {"povray": partial(_povray, folder)}
         for tree in race.trees:
-            runners[f"raytrace {tree}"] = partial(_raytrace, programs.raytrace, folder, tree, race)
-        return _measured(folder, scene.stem, runners, race.rounds, bound)
+            runners[f"raytrace {tree}"] = partial(_raytrace, programs.raytrace, folder, tree, race.depth)
+        return _measured(folder, scene.stem, runners, race, bound)

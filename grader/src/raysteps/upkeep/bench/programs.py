@@ -3,6 +3,7 @@
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
@@ -12,6 +13,7 @@ from raysteps.upkeep.bench.machine import Machine, machine
 from raysteps.upkeep.same_picture import accelerations_of
 
 _NATIVE = "-march=native"
+_CONFIGURE_SECONDS = 600
 
 
 @dataclass(frozen=True)
@@ -24,8 +26,15 @@ class Programs:
     machine: Machine
 
 
+def _look_again(tree: BuildTree) -> None:
+    """CMake would not notice by itself that Embree or Highway has been installed since."""
+    if any(tree.cached(name).endswith("NOTFOUND") for name in ("embree_DIR", "hwy_DIR")):
+        run(["cmake", tree.folder], seconds=_CONFIGURE_SECONDS)
+
+
 def _built(tree: BuildTree, name: str) -> Programs:
     with tree.locked():
+        _look_again(tree)
         outcome = tree.build(["raysteps-bench", "raytrace-reference"])
     if outcome.code != 0:
         raise GraderFault("the benchmarks do not build:\n" + what_failed(outcome))
@@ -49,10 +58,12 @@ def accelerations(programs: Programs) -> list[str]:
     return [name for name in accelerations_of(programs.raytrace) if name not in ("none", "boxes")]
 
 
-def missing_peers(embree_version: str) -> list[str]:
-    """In words: who else could be measured, and how."""
+def what_is_missing(listed: dict[str, Any]) -> list[str]:
+    """In words: who else could be measured, and how; `listed` is what `raysteps-bench list` says."""
     lines = []
-    if not embree_version:
+    if "wide" not in [side["name"] for side in listed["structures"]]:
+        lines.append("Highway is not installed, so there are no wide trees to measure: apt-get install libhwy-dev")
+    if not listed["embree_version"]:
         lines.append(
             "Embree 3 is not installed, so there is nothing to compare rays with: apt-get install libembree-dev"
         )

@@ -12,7 +12,7 @@ from raysteps.kit.project import Project
 from raysteps.upkeep.bench.asking import ask, ask_pinned
 from raysteps.upkeep.bench.documents import keep
 from raysteps.upkeep.bench.povray import Race, race_povray
-from raysteps.upkeep.bench.programs import Programs, accelerations, missing_peers, native, portable
+from raysteps.upkeep.bench.programs import Programs, accelerations, native, portable, what_is_missing
 from raysteps.upkeep.bench.render_tables import print_pictures, print_rays
 from raysteps.upkeep.bench.scenes import checked, default_scenes
 
@@ -63,7 +63,7 @@ def bench_render(project: Project, wish: RenderWish, console: Console) -> int:
     scenes = checked(wish.scenes) or default_scenes(project)
     with console.status("building the benchmarks"):
         programs = portable(project)
-    for line in missing_peers(ask(programs.bench, "list")["embree_version"]):
+    for line in what_is_missing(ask(programs.bench, "list")):
         console.print(line, soft_wrap=True)
     builds = [_measure(programs, scenes, wish, console)]
     if wish.native:

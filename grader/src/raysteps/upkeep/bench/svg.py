@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape
 from raysteps.upkeep.bench.axes import Axis, tick_text
 
 # Told apart by most colour-blind readers too (Okabe and Ito), and visible on white as on black.
-_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a8a8a", "#b58900")
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a8a8a", "#b58900", "#56b4e9", "#a0522d")
 _WIDTH, _HEIGHT = 380.0, 300.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 14.0, 34.0, 48.0
 _LEGEND_LINE = 18.0
