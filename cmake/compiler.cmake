@@ -8,7 +8,7 @@ target_link_libraries(raysteps-flags INTERFACE Threads::Threads)
 add_library(raysteps-strict INTERFACE)  # for the kit's own code; a student's warnings stay warnings
 
 if(MSVC)
-    target_compile_options(raysteps-flags INTERFACE /W4 /utf-8 /fp:precise)
+    target_compile_options(raysteps-flags INTERFACE /W4 /utf-8 /fp:precise /wd4324)  # alignas may pad
     target_compile_definitions(raysteps-flags INTERFACE NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
     if(RAYSTEPS_WERROR)
         target_compile_options(raysteps-strict INTERFACE /WX)
