@@ -1,10 +1,14 @@
 #include "steps/06-octree/octree.hpp"
 
-#include "core/threads.hpp"
 #include "core/unfinished.hpp"
 
-#include <algorithm>
+// BEGIN SOLUTION
+#include "core/threads.hpp"
+
 #include <atomic>
+// END SOLUTION
+
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>

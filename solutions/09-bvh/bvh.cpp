@@ -1,11 +1,15 @@
 #include "steps/09-bvh/bvh.hpp"
 
-#include "core/threads.hpp"
 #include "core/unfinished.hpp"
+
+// BEGIN SOLUTION
+#include "core/threads.hpp"
+
+#include <atomic>
+// END SOLUTION
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>

@@ -2,6 +2,10 @@
 
 #include "core/unfinished.hpp"
 
+#include "core/threads.hpp"
+
+#include <atomic>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,9 +19,12 @@ namespace {
 
 constexpr int k_max_depth = 12;
 constexpr std::size_t k_leaf_size = 8;
-constexpr std::size_t k_max_growth = 4;    // children may hold this many times the parent's surfaces
-constexpr float k_padding = 2e-6F;         // share of the scene's size by which boxes are grown against rounding
-constexpr float k_distance_slack = 1e-5F;  // share of a distance within which rounding may move it
+constexpr std::size_t k_max_growth = 4;          // children may hold this many times the parent's surfaces
+constexpr std::size_t k_most_references = 24;    // of a surface on average, whatever the scene
+constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
+constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
+constexpr float k_padding = 2e-6F;               // share of the scene's size by which boxes are grown against rounding
+constexpr float k_distance_slack = 1e-5F;        // share of a distance within which rounding may move it
 
 float diagonal(const Box& box) { return glm::length(box.max - box.min); }
 
@@ -48,10 +55,21 @@ SurfaceList touching(const Box& cell, const SurfaceList& surfaces, float padding
     return list;
 }
 
-Node build_node(const Box& cell, SurfaceList surfaces, int depth, float padding) {
-    Node node{tight_box(cell, surfaces, padding), {}, {}};
-    if (surfaces.size() > k_leaf_size && depth < k_max_depth) {
-        const std::array<Box, 8> cells = split(cell);
+/// A part of the tree that is still to be built.
+struct Part {
+    Node* node = nullptr;
+    Box cell;
+    SurfaceList surfaces;
+    std::size_t most_references = 0;  // in the lists of all boxes below
+    int depth = 0;
+};
+
+/// Hands the surfaces on to the eight parts of the cell and returns those that got any, or makes a leaf.
+std::vector<Part> split_part(Part& part, float padding) {
+    const SurfaceList& surfaces = part.surfaces;
+    part.node->box = tight_box(part.cell, surfaces, padding);
+    if (surfaces.size() > k_leaf_size && part.depth < k_max_depth) {
+        const std::array<Box, 8> cells = split(part.cell);
         std::array<SurfaceList, 8> lists;
         std::size_t references = 0;
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -59,17 +77,58 @@ Node build_node(const Box& cell, SurfaceList surfaces, int depth, float padding)
             references += lists[i].size();
         }
         // Where the boxes are already smaller than the surfaces, splitting multiplies lists and sorts nothing out.
-        if (references <= k_max_growth * surfaces.size()) {
+        if (references <= std::min(k_max_growth * surfaces.size(), part.most_references)) {
+            std::vector<Part> parts;
             for (std::size_t i = 0; i < cells.size(); ++i) {
                 if (!lists[i].empty()) {
-                    node.children.push_back(build_node(cells[i], std::move(lists[i]), depth + 1, padding));
+                    const std::size_t share = part.most_references * lists[i].size() / references;
+                    parts.push_back({nullptr, cells[i], std::move(lists[i]), share, part.depth + 1});
                 }
             }
-            return node;
+            part.node->children.resize(parts.size());
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                parts[i].node = &part.node->children[i];
+            }
+            return parts;
         }
     }
-    node.surfaces = std::move(surfaces);
-    return node;
+    part.node->surfaces = SurfaceList(surfaces);  // a copy, as that takes no more room than it needs
+    return {};
+}
+
+void build_below(Part& part, float padding) {
+    std::vector<Part> parts = split_part(part, padding);
+    part.surfaces = {};
+    for (Part& child : parts) {
+        build_below(child, padding);
+    }
+}
+
+/// Calls work with the numbers 0 to count - 1, on all threads.
+template <typename Work>
+void in_parallel(std::size_t count, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    run_on_threads(count == 1 ? 1 : default_threads(), [&] {
+        for (std::size_t i = next++; i < count; i = next++) {
+            work(i);
+        }
+    });
+}
+
+/// Level by level, until there are enough parts for all threads; then each part to its end.
+void build_all(Part root, float padding) {
+    std::vector<Part> parts;
+    const bool small = root.surfaces.size() < k_enough_surfaces;
+    parts.push_back(std::move(root));
+    while (!small && !parts.empty() && parts.size() < k_enough_parts) {
+        std::vector<std::vector<Part>> next(parts.size());
+        in_parallel(parts.size(), [&](std::size_t i) { next[i] = split_part(parts[i], padding); });
+        parts.clear();
+        for (std::vector<Part>& some : next) {
+            std::move(some.begin(), some.end(), std::back_inserter(parts));
+        }
+    }
+    in_parallel(parts.size(), [&](std::size_t i) { build_below(parts[i], padding); });
 }
 
 /// Surfaces so large that they would stretch the boxes over everything else: a ground under a flake of spheres.
@@ -226,7 +285,8 @@ Node build_octree(const SurfaceList& surfaces) {
     Node root{{all.min - padding, all.max + padding}, large, {}};
     if (!others.empty()) {
         const Box box = bounds_of(others);
-        root.children.push_back(build_node(box, std::move(others), 0, padding));
+        const std::size_t most_references = k_most_references * others.size();
+        build_all({&root.children.emplace_back(), box, std::move(others), most_references, 0}, padding);
     }
     return root;
 }

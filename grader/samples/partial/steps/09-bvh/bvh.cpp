@@ -1,11 +1,9 @@
 #include "steps/09-bvh/bvh.hpp"
 
-#include "core/threads.hpp"
 #include "core/unfinished.hpp"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
