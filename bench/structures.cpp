@@ -4,6 +4,7 @@
 #include <array>
 
 #include "bench/arguments.hpp"
+#include "bench/by_bounds.hpp"
 #include "bench/json.hpp"
 #ifdef RAYSTEPS_EMBREE
 #include "bench/embree_accelerator.hpp"
@@ -38,6 +39,7 @@ std::vector<Structure> make_table() {
             table.push_back({own.name, own.slow, false, make});
         }
     }
+    table.push_back({"octree-by-bounds", false, false, make_octree_by_bounds});
 #ifdef RAYSTEPS_EMBREE
     const auto add_embree = [&table](const char* name, EmbreeMode mode) {
         const auto make = [mode](const SurfaceList& surfaces) { return make_embree(surfaces, mode); };

@@ -8,11 +8,12 @@ import pytest
 from raysteps.kit.project import Project
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
-_LAYERS = ("core", "io", "render", "apps", "testing")
+_LAYERS = ("core", "io", "render", "wide", "apps", "testing")
 _ALLOWED = {
     "core": {"core"},
     "io": {"core", "io"},
     "render": {"core", "io", "steps", "render"},
+    "wide": {"core", "steps", "render", "wide"},
     "apps": {"core", "io", "steps", "render", "apps"},
     "testing": {"core", "testing"},
 }
@@ -39,7 +40,7 @@ def test_framework(project: Project, layer: str) -> None:
     for path in files:
         allowed = set(_ALLOWED[layer])
         if path.name.endswith("_test.cpp"):
-            allowed |= {"testing", "io", "render"} if layer in ("render", "apps") else {"testing"}
+            allowed |= {"testing", "io", "render"} if layer in ("render", "wide", "apps") else {"testing"}
         for include in _includes(path):
             found = _layer(include)
             assert ".." not in include, f"{path}: {include}"
