@@ -42,16 +42,16 @@ void StepTracer::count(bool hit) {
     next_ = RayKind::reflect;  // what step 05 casts after the ray that it was given
 }
 
-std::vector<Light> StepTracer::lights_that_reach(const HitRecord& hit) {
+const std::vector<Light>& StepTracer::lights_that_reach(const HitRecord& hit) {
     const RayKind before = std::exchange(next_, RayKind::shadow);
-    std::vector<Light> lit;
+    lit_.clear();
     for (const Light& light : scene_.lights) {
         if (is_lit(*this, hit, light)) {
-            lit.push_back(light);
+            lit_.push_back(light);
         }
     }
     next_ = before;
-    return lit;
+    return lit_;
 }
 
 Color StepTracer::local_light(const HitRecord& hit, int depth) {

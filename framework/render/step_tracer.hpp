@@ -35,12 +35,13 @@ private:
     enum class RayKind { eye, shadow, reflect, refract };
 
     void count(bool hit);
-    [[nodiscard]] std::vector<Light> lights_that_reach(const HitRecord& hit);
+    [[nodiscard]] const std::vector<Light>& lights_that_reach(const HitRecord& hit);
     [[nodiscard]] Color surface_color(const HitRecord& hit) const;
 
     const Scene& scene_;
     const Accelerator& accelerator_;
     StepOptions options_;
+    std::vector<Light> lit_;       ///< by the hit that is shaded; kept, so that no hit needs memory of its own
     RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
     bool through_glass_ = false;   ///< whether step 08 is at work, so that a ray given to trace is refracted
 };

@@ -166,4 +166,5 @@ class StepGrader:
             self._expect_room()
             return Cumulative(False, f"The steps do not build together. {link_message(ran)}")
         assert program is not None
-        return judge_together(self._gallery, program, step, replaced)
+        own = [other for other in (*earlier, step) if other.id not in replaced]
+        return judge_together(self._gallery, program, step, own, replaced)

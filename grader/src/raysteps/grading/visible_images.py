@@ -85,14 +85,18 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     return result
 
 
-def judge_together(gallery: Gallery, program: Program, step: Step, replaced: Sequence[str]) -> Cumulative:
-    """The step's first picture with the student's steps up to this one; `replaced` are the reference's among them."""
+def judge_together(
+    gallery: Gallery, program: Program, step: Step, own: Sequence[Step], replaced: Sequence[str]
+) -> Cumulative:
+    """The step's first picture with the student's steps up to this one, `own`; `replaced` are the reference's among
+    them. Each step may differ by as much as its own pictures may, and in one picture the differences add up."""
     case = step.images[0]
     scene = gallery.kit.project.root / case.scene
     rendered = gallery.render(program, scene, case.args)
     if rendered.pixels is None:
         return Cumulative(False, f"{case.name}: {trouble(rendered)[1]}")
-    verdict = compare(rendered.pixels, reference_picture(gallery.kit, scene, case.args), case.max_wrong)
+    most_wrong = sum(max(image.max_wrong for image in other.images) for other in own)
+    verdict = compare(rendered.pixels, reference_picture(gallery.kit, scene, case.args), most_wrong)
     if not verdict.passed:
         return Cumulative(False, f"{case.name}: {verdict.message}")
     why = (
