@@ -34,3 +34,15 @@ def in_seconds(amount: float) -> str:
 def count(amount: int, noun: str) -> str:
     """`1 test`, `2 tests`."""
     return f"{amount} {noun}" if amount == 1 else f"{amount} {noun}s"
+
+
+def size(amount: int) -> str:
+    """Of memory: `12.3 kB`, `0.42 MB`, `137 MB`."""
+    if amount < 100_000:
+        return f"{amount / 1e3:.1f} kB"
+    return f"{amount / 1e6:.2f} MB" if amount < 10_000_000 else f"{amount / 1e6:.0f} MB"
+
+
+def mean(value: float) -> str:
+    """Of counts: `0.25`, `8.3`, `1234`."""
+    return f"{value:.2f}" if value < 1 else f"{value:.1f}" if value < 100 else f"{value:.0f}"
