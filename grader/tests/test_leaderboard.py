@@ -20,6 +20,7 @@ from raysteps.classroom.report import class_document
 from raysteps.cli import main
 from raysteps.commands.leaderboard.command import add_arguments, run
 from raysteps.common.errors import UsageError
+from raysteps.common.schemas import complaint, read_schema
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.results.model import StepResult
@@ -184,6 +185,14 @@ def test_kits_that_differ_are_named(
     results = {"ann": _graded(steps, "ann"), "bob": {**_graded(steps, "bob"), "kit": "other"}}
     assert _ranking(project, tmp_path, _class(tmp_path / "class", results))["steps"][0]["kits"] == ["abc123", "other"]
     assert "Graded by 2 kits (abc123, other)" in capsys.readouterr().out
+
+
+def test_the_example_in_the_documents_is_one(project: Project) -> None:
+    text = (project.root / "docs" / "formats.md").read_text(encoding="utf-8")
+    example = json.loads(text.split("## Leaderboard")[1].split("```json")[1].split("```")[0])
+    assert not complaint(example, read_schema("raysteps.commands.leaderboard", "leaderboard.schema.json"))
+    named = {**example, "anonymous": True}
+    assert complaint(named, read_schema("raysteps.commands.leaderboard", "leaderboard.schema.json"))
 
 
 def test_usage(tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]) -> None:

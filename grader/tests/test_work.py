@@ -116,4 +116,4 @@ def test_the_report_says_what_the_pictures_cost(steps: list[Step], capsys: pytes
 
 def test_numbers_are_short() -> None:
     assert [mean(value) for value in (0.25, 8.34, 1234.5)] == ["0.25", "8.3", "1234"]
-    assert [size(value) for value in (900, 99_000, 420_000, 137_400_000)] == ["0.9 kB", "99.0 kB", "0.42 MB", "137 MB"]
+    assert [size(value) for value in (900, 420_000, 7_500_000, 137_400_000)] == ["0.9 kB", "420 kB", "7.5 MB", "137 MB"]

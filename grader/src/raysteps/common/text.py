@@ -37,10 +37,9 @@ def count(amount: int, noun: str) -> str:
 
 
 def size(amount: int) -> str:
-    """Of memory: `12.3 kB`, `0.42 MB`, `137 MB`."""
-    if amount < 100_000:
-        return f"{amount / 1e3:.1f} kB"
-    return f"{amount / 1e6:.2f} MB" if amount < 10_000_000 else f"{amount / 1e6:.0f} MB"
+    """Of memory: `12.3 kB`, `420 kB`, `7.5 MB`, `137 MB`."""
+    value, unit = (amount / 1e3, "kB") if amount < 1_000_000 else (amount / 1e6, "MB")
+    return f"{value:.1f} {unit}" if value < 100 else f"{value:.0f} {unit}"
 
 
 def mean(value: float) -> str:

@@ -25,9 +25,9 @@ def _table(board: Board, *, anonymous: bool) -> Table:
     pictures = board.step.limited_pictures
     table = Table(title=escape(f"{board.step.number} {board.step.title}"), title_justify="left")
     table.add_column("rank", justify="right")
-    table.add_column("submission", overflow="fold")
+    table.add_column("submission", overflow="fold", min_width=13)
     for heading in ("work", *pictures, "memory"):
-        table.add_column(escape(heading), justify="right")
+        table.add_column(escape(heading.replace("-", "-\n", 1)), justify="right")
     for one in board.ranked:
         works = (f"{value:.3f}" for value in (one.effort.relative, *(one.effort.pictures[name] for name in pictures)))
         name = _HIDDEN if anonymous else escape(printable(one.name))
