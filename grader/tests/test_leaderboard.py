@@ -19,6 +19,9 @@ from raysteps.classroom.records import Registered, RunFacts
 from raysteps.classroom.report import class_document
 from raysteps.cli import main
 from raysteps.commands.leaderboard.command import add_arguments, run
+from raysteps.commands.leaderboard.entries import read_entries
+from raysteps.commands.leaderboard.ranking import rank
+from raysteps.commands.leaderboard.showing import print_board
 from raysteps.common.errors import UsageError
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.kit.manifest import Step
@@ -177,6 +180,17 @@ def test_an_empty_class(tmp_path: Path, project: Project, capsys: pytest.Capture
     document = _ranking(project, tmp_path, _class(tmp_path / "class", {}))
     assert all(board["ranked"] == board["not_ranked"] == [] for board in document["steps"])
     assert "06 Octree: nobody is ranked\n  there is no submission" in capsys.readouterr().out
+
+
+def test_a_narrow_terminal_has_room_for_what_decides(
+    tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]
+) -> None:
+    board = rank(read_entries([_class(tmp_path / "class", {"ann": _graded(steps, "ann", 700)})]), steps[8])
+    for width, shown in ((80, False), (120, True)):
+        print_board(Console(width=width), board, anonymous=False)
+        text = capsys.readouterr().out
+        assert ("mountain-bvh" in text) == shown
+        assert all(word in text for word in ("ann", "0.700", "20.0 kB", "15.0 kB"))
 
 
 def test_kits_that_differ_are_named(

@@ -71,6 +71,14 @@ def test_surfaces_and_boxes_weigh_alike_and_pictures_are_averaged_as_factors(ste
     assert (effort.bytes, effort.reference_bytes) == (16000, 12000)
 
 
+def test_only_the_pictures_of_the_manifest_count(steps: list[Step]) -> None:
+    made = _step(steps[5], (600, 400), (300, 200), (3000, 2000), (300, 200))
+    effort = effort_of(made, steps[5].limited_pictures[:2])
+    assert isinstance(effort, Effort)
+    assert effort.pictures == {"strands-octree": 1, "slivers-octree": 0.5}
+    assert effort.bytes == 8000
+
+
 def _why(result: dict[str, Any], *expected: str) -> str:
     effort = effort_of(result, expected)
     assert isinstance(effort, NoEffort)

@@ -69,7 +69,8 @@ def limited(result: Document) -> list[Document]:
 
 
 def effort_of(result: Document, expected: Sequence[str] = ()) -> Effort | NoEffort:
-    """Of one step in results.json. `expected` are the pictures that must be there."""
+    """Of one step in results.json. `expected` are the pictures that count and must be there; else all that have a
+    max_share."""
     if result["status"] in _NO_PICTURES:
         return NoEffort(_NO_PICTURES[result["status"]])
     if result["inconsistent"]:
@@ -77,7 +78,7 @@ def effort_of(result: Document, expected: Sequence[str] = ()) -> Effort | NoEffo
     problem = _wrong(result["images"])
     if problem:
         return NoEffort(problem)
-    images = limited(result)
+    images = [image for image in limited(result) if not expected or image["name"] in expected]
     missing = [name for name in expected if name not in {image["name"] for image in images}]
     if missing or not images:
         return NoEffort(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")

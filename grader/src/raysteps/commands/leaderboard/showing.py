@@ -14,6 +14,7 @@ from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import count, printable, size
 
 _HIDDEN = "-"
+_ROOM = 110  # columns of a terminal in which the pictures have room, too
 _CAPTION = (
     "work: tests per ray, as a multiple of the reference's. A surface test and a box test weigh alike; over the "
     "pictures it is the geometric mean. Equal work: less memory comes first."
@@ -21,13 +22,13 @@ _CAPTION = (
 _COUNTED = "The counters come from the kit's framework inside the student's program. No points hang on a rank."
 
 
-def _table(board: Board, *, anonymous: bool) -> Table:
-    pictures = board.step.limited_pictures
+def _table(board: Board, width: int, *, anonymous: bool) -> Table:
+    pictures = board.step.limited_pictures if width >= _ROOM else ()
     table = Table(title=escape(f"{board.step.number} {board.step.title}"), title_justify="left")
     table.add_column("rank", justify="right")
-    table.add_column("submission", overflow="fold", min_width=13)
+    table.add_column("submission", overflow="fold")
     for heading in ("work", *pictures, "memory"):
-        table.add_column(escape(heading.replace("-", "-\n", 1)), justify="right")
+        table.add_column(escape(heading), justify="right", no_wrap=True)
     for one in board.ranked:
         works = (f"{value:.3f}" for value in (one.effort.relative, *(one.effort.pictures[name] for name in pictures)))
         name = _HIDDEN if anonymous else escape(printable(one.name))
@@ -48,7 +49,7 @@ def _others(board: Board, *, anonymous: bool) -> list[str]:
 def print_board(console: Console, board: Board, *, anonymous: bool) -> None:
     """The table, and below it who has no place."""
     if board.ranked:
-        console.print(_table(board, anonymous=anonymous))
+        console.print(_table(board, console.width, anonymous=anonymous))
     else:
         console.print(f"{board.step.number} {board.step.title}: nobody is ranked", markup=False, highlight=False)
     if not board.ranked and not board.not_ranked:
