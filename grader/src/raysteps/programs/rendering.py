@@ -1,5 +1,6 @@
 """Pictures: the reference's, which are kept, and a student's, made in the sandbox."""
 
+import contextlib
 import hashlib
 import json
 import math
@@ -69,29 +70,28 @@ def _stats_beside(picture: Path) -> Path:
 def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
     """Rendered at the first call; a reference that cannot is the kit's fault."""
     path = _kept(kit, scene, args)
-    try:
-        return read_ppm(path)
-    except PictureError:
-        pass
+    if _stats_beside(path).is_file():
+        with contextlib.suppress(PictureError):
+            return read_ppm(path)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         picture, stats = Path(folder) / "picture.ppm", Path(folder) / "stats.json"
         command: list[str | Path] = [kit.reference("raytrace"), scene, *args, "-o", picture, "--quiet"]
         command += ["--stats", stats]
         outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder))
         try:
-            pixels = read_ppm(picture)
-        except PictureError as error:
+            pixels, told = read_ppm(picture), stats.read_bytes()
+        except (PictureError, OSError) as error:
             said = outcome.stderr.strip() or str(error)
             raise GraderFault(f"the reference cannot render {scene.name}: {said}") from error
-        write_bytes(_stats_beside(path), stats.read_bytes())  # first: where the picture is, they are
+        write_bytes(_stats_beside(path), told)
         write_bytes(path, picture.read_bytes())
     return pixels
 
 
 def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
     """What the same picture costs the reference."""
-    path = _stats_beside(_kept(kit, scene, args))
     reference_picture(kit, scene, args)
+    path = _stats_beside(_kept(kit, scene, args))
     work = read_work(path.read_bytes())
     if work is None:
         raise GraderFault(f"{path}: expected what `raytrace --stats` writes; delete the folder {kit.pictures}")
