@@ -17,6 +17,7 @@ from raysteps.results.model import (
     TestResult,
     Timing,
 )
+from raysteps.results.work import Work
 
 HOSTILE = "<script>alert(1)</script>\x1b[31m\x00\u202eevil\n::error::done\nfine ##[error]done"
 
@@ -32,7 +33,9 @@ def step_result(step: Step, *, share: float = 1.0, text: str = "is wrong") -> St
         good = at < round(len(step.images) * share)
         image = ImageResult(case.name, case.scene, good, case.max_wrong, 0.0 if good else 0.5, case.max_share)
         image.message = "" if good else text
-        image.share_tested = 0.01 * (at + 1) if case.max_share is not None else None
+        if case.max_share is not None:
+            image.share_tested = 0.01 * (at + 1)
+            image.work, image.reference_work = Work(100, 500, 1500, 9, 20, 4000), Work(100, 300, 700, 9, 20, 3000)
         result.images.append(image)
     for at in range(3):
         hidden = HiddenResult(f"function {at}", "function", 1.0 if share >= 1 else share * at / 2, weight=at + 1.0)

@@ -12,6 +12,7 @@ from raysteps.exports.formats import validate, write
 from raysteps.exports.gradescope import VISIBILITIES, not_graded, submitters, to_gradescope
 from raysteps.exports.hosted import by_id
 from raysteps.kit.manifest import Step
+from raysteps.results.model import StepResult
 
 
 def _converted(made: dict[str, Any], steps: list[Step], **options: Any) -> dict[str, Any]:
@@ -68,12 +69,29 @@ def test_hidden_entries_tell_all_and_the_rest_tells_no_points(steps: list[Step],
 
 
 def test_leaderboard(steps: list[Step]) -> None:
-    assert _converted(full(steps), steps)["leaderboard"] == [
-        {"name": "Objects tested per ray (%)", "value": 2.5, "order": "asc"}
+    octree = [
+        {"name": "06 Octree: work (1 is the reference's)", "value": 2.0, "order": "asc"},
+        {"name": "06 Octree: memory (kB)", "value": 16.0, "order": "asc"},
     ]
+    bvh = [
+        {"name": "09 Bounding volumes (bonus): work (1 is the reference's)", "value": 2.0, "order": "asc"},
+        {"name": "09 Bounding volumes (bonus): memory (kB)", "value": 20.0, "order": "asc"},
+    ]
+    assert _converted(full(steps), steps)["leaderboard"] == octree + bvh
+    one_wrong = document([step_result(steps[5]), step_result(steps[8], share=0.9)])
+    assert _converted(one_wrong, steps)["leaderboard"] == octree
     wrong = document([step_result(steps[5], share=0.5)])
     assert "leaderboard" not in _converted(wrong, steps)
     assert "leaderboard" not in _converted(document([step_result(steps[0])]), steps)
+    not_started = StepResult(steps[8].id, "not-started", 0.0, 10.0, True)
+    assert "leaderboard" not in _converted(document([not_started]), steps)
+
+
+def test_a_leaderboard_needs_counters(steps: list[Step]) -> None:
+    older = document([step_result(steps[5])])
+    for image in older["steps"][0]["images"]:
+        del image["work"], image["reference_work"]
+    assert "leaderboard" not in _converted(older, steps)
 
 
 def test_hostile_text_stays_text(steps: list[Step]) -> None:

@@ -142,6 +142,12 @@ def test_brute_force_in_disguise_gets_at_most_half(
         assert image.wrong_share <= image.max_wrong
         assert image.share_tested > image.max_share
         assert image.message.startswith("The picture is right, but each ray tested ")
+        assert image.work is not None
+        assert image.reference_work is not None
+        assert image.work.rays == image.reference_work.rays > 0
+        assert image.work.surface_tests > 2 * image.reference_work.surface_tests > 0
+        assert (image.work.boxes, image.reference_work.boxes > 1) == (1, True)
+        assert 0 < image.work.bytes < image.reference_work.bytes
 
 
 @pytest.mark.parametrize("name", ["with space", "unicöde"])

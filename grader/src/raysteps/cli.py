@@ -12,6 +12,7 @@ from rich.console import Console
 from raysteps.classroom import command as classroom
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.demo import demo
+from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
 from raysteps.common.errors import RaystepsError
@@ -68,6 +69,7 @@ def _parser() -> argparse.ArgumentParser:
     add.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
 
     classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
+    leaderboard.add_arguments(commands.add_parser("leaderboard", help="rank submissions by counted work"))
     exports.add_arguments(commands.add_parser("export", help="for Gradescope, Classroom 50, Canvas and others"))
 
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
@@ -99,6 +101,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return exit_code(grade(project, _wish(project, arguments), console))
         case "grade-class":
             return classroom.run(project, arguments, console)
+        case "leaderboard":
+            return leaderboard.run(project, arguments, console)
         case "export":
             return exports.run(project, arguments, console)
         case "demo":

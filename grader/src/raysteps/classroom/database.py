@@ -15,7 +15,8 @@ from raysteps.judge.feedback import Feedback
 
 FILE = "class.sqlite"
 LOCK = "class.lock"
-_CURRENT = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
+# The run whose result of a submission counts.
+LATEST = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
 
 
 class ClassDatabase:
@@ -101,7 +102,7 @@ class ClassDatabase:
         """The result that counts for a submission: that of the last run that has one."""
         row: sqlite3.Row | None = self.connection.execute(
             "SELECT results.* FROM results JOIN submissions ON submissions.id = results.submission "  # noqa: S608
-            f"WHERE submissions.name = ? AND run = ({_CURRENT})",
+            f"WHERE submissions.name = ? AND run = ({LATEST})",
             (name,),
         ).fetchone()
         return row

@@ -7,9 +7,10 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.common.text import number
+from raysteps.common.text import mean, number, size
 from raysteps.kit.manifest import Step
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
+from raysteps.results.work import Work
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
@@ -50,6 +51,20 @@ def _print_test(console: Console, test: TestResult) -> None:
         console.print(f"             [dim]{escape(test.location)}[/dim]")
 
 
+def _work_lines(mine: Work, reference: Work) -> list[str]:
+    """What a picture cost, beside the reference; clocks differ, counters do not."""
+
+    def per_ray(work: Work) -> tuple[str, str]:
+        return mean(work.surfaces_per_ray), mean(work.boxes_per_ray)
+
+    surfaces, boxes = per_ray(mine)
+    return [
+        f"per ray {surfaces} surfaces and {boxes} boxes tested; the reference: {' and '.join(per_ray(reference))}",
+        f"{mine.references} entries in {mine.boxes} boxes, {size(mine.bytes)}; the reference: "
+        f"{reference.references} in {reference.boxes}, {size(reference.bytes)}",
+    ]
+
+
 def _print_image(console: Console, image: ImageResult, out: Path) -> None:
     color = "green" if image.passed else "red"
     share = "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
@@ -59,6 +74,9 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
         if image.difference or image.mine:
             shown = out / (image.difference or image.mine or "")
             console.print(f"             see {escape(short_path(shown))}")
+    if image.work is not None and image.reference_work is not None:
+        for line in _work_lines(image.work, image.reference_work):
+            console.print(f"             {line}", style="dim", highlight=False)
 
 
 def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:

@@ -34,3 +34,14 @@ def in_seconds(amount: float) -> str:
 def count(amount: int, noun: str) -> str:
     """`1 test`, `2 tests`."""
     return f"{amount} {noun}" if amount == 1 else f"{amount} {noun}s"
+
+
+def size(amount: int) -> str:
+    """Of memory: `12.3 kB`, `420 kB`, `7.5 MB`, `137 MB`."""
+    value, unit = (amount / 1e3, "kB") if amount < 1_000_000 else (amount / 1e6, "MB")
+    return f"{value:.1f} {unit}" if value < 100 else f"{value:.0f} {unit}"
+
+
+def mean(value: float) -> str:
+    """Of counts: `0.25`, `8.3`, `1234`."""
+    return f"{value:.2f}" if value < 1 else f"{value:.1f}" if value < 100 else f"{value:.0f}"

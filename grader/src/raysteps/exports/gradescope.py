@@ -7,9 +7,10 @@ from typing import Any, Literal, get_args
 
 from raysteps.exports.items import Item
 from raysteps.exports.points import Entry, entries_of
-from raysteps.exports.summary import objects_tested, summary, title
+from raysteps.exports.summary import summary, title
 from raysteps.exports.wording import clean, one_line
 from raysteps.kit.manifest import Step
+from raysteps.results.effort import NoEffort, effort_of
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 VISIBILITIES: tuple[Visibility, ...] = get_args(Visibility)
@@ -45,6 +46,19 @@ def _tests(result: Mapping[str, Any], steps: Mapping[str, Step], hidden: Visibil
     return [_test(name, f"{number}.{at}", entry, hidden) for at, entry in enumerate(entries, 1)]
 
 
+def _leaderboard(result: Mapping[str, Any], steps: Mapping[str, Step]) -> list[dict[str, Any]]:
+    """Work and memory of a step whose rays may test few objects only; nothing unless its pictures are all right."""
+    step = steps.get(result["id"])
+    effort = effort_of(result, step.limited_pictures if step is not None else ())
+    if isinstance(effort, NoEffort):
+        return []
+    name = one_line(title(result, steps))
+    return [
+        {"name": f"{name}: work (1 is the reference's)", "value": round(effort.relative, 3), "order": "asc"},
+        {"name": f"{name}: memory (kB)", "value": round(effort.bytes / 1000, 1), "order": "asc"},
+    ]
+
+
 def _formats() -> dict[str, Any]:
     return {
         "output_format": "text",
@@ -73,10 +87,8 @@ def to_gradescope(
         "extra_data": {"kit": document["kit"], "isolation": document["isolation"]["name"]},
         "tests": [test for result in document["steps"] for test in _tests(result, steps, hidden)],
     }
-    tested = objects_tested(document)
-    if tested is not None:
-        results["leaderboard"] = [{"name": "Objects tested per ray (%)", "value": tested, "order": "asc"}]
-    return results
+    board = [entry for result in document["steps"] for entry in _leaderboard(result, steps)]
+    return {**results, "leaderboard": board} if board else results
 
 
 def not_graded(why: str) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from raysteps.kit.manifest import ImageCase, Step
 from raysteps.programs.endings import ending_of
 from raysteps.programs.limits import StepLimits
 from raysteps.programs.pictures import Pixels, compare, difference, write_png
-from raysteps.programs.rendering import Rendered, reference_picture, render
+from raysteps.programs.rendering import Rendered, reference_picture, reference_work, render
 from raysteps.programs.student_build import Program
 from raysteps.results.model import Cumulative, Ending, ImageResult
 from raysteps.sandbox.task import Sandbox
@@ -74,6 +74,7 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     verdict = compare(rendered.pixels, reference, case.max_wrong)
     result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
     if case.max_share is not None:
+        result.work, result.reference_work = rendered.work, reference_work(gallery.kit, scene, case.args)
         result.share_tested = None if rendered.share_tested is None else round(rendered.share_tested, 6)
         problem = too_many_tests(rendered.share_tested, case.max_share)
         if result.passed and problem:

@@ -59,6 +59,11 @@ class Step:
         """NN-name/name.cpp."""
         return Path(self.id) / self.file
 
+    @property
+    def limited_pictures(self) -> tuple[str, ...]:
+        """Those in which a ray may be tested with few of the objects only."""
+        return tuple(image.name for image in self.images if image.max_share is not None)
+
 
 def _image(table: dict[str, Any]) -> ImageCase:
     return ImageCase(

@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
+from raysteps.results.work import Work
 from raysteps.sandbox.isolation import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
@@ -35,6 +36,8 @@ class ImageResult:
     wrong_share: float | None = None
     max_share: float | None = None
     share_tested: float | None = None
+    work: Work | None = None  # where few objects may be tested: what the program counted
+    reference_work: Work | None = None
     message: str = ""
     mine: str | None = None
     reference: str | None = None

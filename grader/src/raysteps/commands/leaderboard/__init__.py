@@ -1,0 +1,1 @@
+"""Submissions ranked by counted work."""
