@@ -19,7 +19,7 @@ if(NOT TARGET Catch2::Catch2)
 endif()
 
 # For the wide trees alone: where it is missing there are none.
-find_package(hwy CONFIG QUIET)
+find_package(hwy 1.0 CONFIG QUIET)
 
 # Their headers are theirs: no warnings from them.
 foreach(library glm::glm Catch2::Catch2)

@@ -52,7 +52,7 @@ TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({"a.nff", "-o", "b", "--crop", "1,2,3"}) ==
           "--crop: expected X,Y,W,H in pixels, like 10,20,64,48, found '1,2,3'");
     CHECK(complaint_about({"a.nff", "-o", "b", "--accel", "kdtree"}) ==
-          "--accel: expected none, boxes, octree or bvh, found 'kdtree'");
+          "--accel: expected none, boxes, octree, bvh, wide or wide-octree, found 'kdtree'");
     CHECK(complaint_about({"a.nff", "c.nff", "-o", "b"}) ==
           "arguments: expected one scene and the options that --help lists, found 'c.nff'");
 }

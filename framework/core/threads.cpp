@@ -35,6 +35,7 @@ void run_on_threads(int count, const std::function<void()>& work) {
     };
     std::vector<std::thread> others;
     try {
+        others.reserve(static_cast<std::size_t>(std::max(0, count - 1)));
         for (int i = 1; i < count; ++i) {
             others.emplace_back(guarded);
         }

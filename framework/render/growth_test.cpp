@@ -3,6 +3,8 @@
 
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
+#include "core/stats.hpp"
+#include "core/threads.hpp"
 #include "core/triangle.hpp"
 #include "render/accelerator.hpp"
 #include "testing/testing.hpp"
@@ -74,6 +76,32 @@ std::vector<Acceleration> growing_trees() {
 }
 
 }  // namespace
+
+TEST_CASE("Trees are the same for any number of threads that build them", "[render][accelerator]") {
+    Random random;
+    INFO(random);
+    const Scene scene = stadium(random);
+    const Acceleration kind = GENERATE(from_range(growing_trees()));
+    const int before = default_threads();
+    set_default_threads(1);
+    const auto one = make_accelerator(kind, scene.surfaces());
+    set_default_threads(3);
+    const auto three = make_accelerator(kind, scene.surfaces());
+    set_default_threads(before);
+    CHECK(one->size().boxes == three->size().boxes);
+    CHECK(one->size().references == three->size().references);
+    for (int i = 0; i < 500; ++i) {
+        const Ray ray{4.0F * random.unit_vector(), random.unit_vector()};
+        const Stats start = thread_stats();
+        static_cast<void>(one->closest_hit(ray));
+        const Stats middle = thread_stats();
+        static_cast<void>(three->closest_hit(ray));
+        const Stats end = thread_stats();
+        INFO("ray " << i << " meets the same boxes and surfaces on its way");
+        REQUIRE(middle.box_tests - start.box_tests == end.box_tests - middle.box_tests);
+        REQUIRE(middle.surface_tests - start.surface_tests == end.surface_tests - middle.surface_tests);
+    }
+}
 
 TEST_CASE("No scene makes a tree grow without bound, or lose a hit", "[render][accelerator]") {
     Random random;

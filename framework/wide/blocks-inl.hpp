@@ -25,7 +25,7 @@ using M = hn::Mask<D>;
 
 /// Roundings that a test may go through, here or in Surface::hit, as a share of the numbers in it (about 70 of them).
 constexpr float k_rounding = 4e-6F;
-constexpr float k_farthest = std::numeric_limits<float>::max();
+constexpr float k_distance_slack = 1e-5F;  // share of a distance within which rounding may move it, as in step 06
 
 HWY_INLINE V load(const Lanes& lanes, std::size_t at) { return hn::Load(D(), lanes.data() + at); }
 HWY_INLINE V same(float value) { return hn::Set(D(), value); }
@@ -70,7 +70,6 @@ struct BoxRay {
 
 /// The boxes that the ray meets before `limit`, a bit for each; where it enters them is written to `enters`.
 HWY_INLINE std::uint32_t boxes_hit(const Node& node, const BoxRay& ray, float limit, Lanes& enters) {
-    constexpr float k_slack = 5e-7F;  // a few roundings, so that a flat box is not missed
     std::uint32_t hit = 0;
     for (std::size_t at = 0; at < k_lanes; at += hn::Lanes(D())) {
         V enter = hn::Zero(D());
@@ -85,7 +84,7 @@ HWY_INLINE std::uint32_t boxes_hit(const Node& node, const BoxRay& ray, float li
             leave = hn::Min(leave, (far_wall - origin) * inverse);
         }
         hn::Store(enter, D(), enters.data() + at);
-        hit |= bits(enter * same(1.0F - k_slack) <= leave * same(1.0F + k_slack), at);
+        hit |= bits(enter * same(1.0F - k_distance_slack) <= leave, at);
     }
     return hit;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <stdexcept>
 
 #include "core/cone.hpp"
@@ -14,8 +14,6 @@
 
 namespace raysteps::wide {
 namespace {
-
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
 void set(std::array<Lanes, 3>& vectors, std::size_t lane, const glm::vec3& value) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -37,7 +35,7 @@ void fill(TriangleBlock& block, const SurfaceList& surfaces) {
         set(block.edge_ac, lane, ac);
         block.longest[lane] = longest;
         block.area_bound[lane] = sides;
-        block.sliver_bound[lane] = sliver * 1.0F < k_infinity ? sliver : 1e30F;  // also where the area is 0
+        block.sliver_bound[lane] = std::isfinite(sliver) ? sliver : 1e30F;  // where the area is 0
     }
 }
 
@@ -55,7 +53,8 @@ void fill(ConeBlock& block, const SurfaceList& surfaces) {
     for (std::size_t lane = 0; lane < block.count; ++lane) {
         const auto& cone = static_cast<const Cone&>(*surfaces[block.surface[lane]]);
         set(block.base, lane, cone.base().center);
-        set(block.axis, lane, glm::normalize(cone.apex().center - cone.base().center));
+        const glm::dvec3 axis = glm::dvec3(cone.apex().center) - glm::dvec3(cone.base().center);
+        set(block.axis, lane, glm::vec3(glm::normalize(axis)));
         block.radius[lane] = std::max(cone.base().radius, cone.apex().radius);
     }
 }
@@ -89,6 +88,14 @@ Box around(std::span<const Item> items) {
         all.max = glm::max(all.max, item.box.max);
     }
     return all;
+}
+
+int levels_below(std::span<const Item> items) {
+    int most = 0;
+    for (const Item& item : items) {
+        most = std::max(most, item.levels);
+    }
+    return most;
 }
 
 }  // namespace
@@ -167,11 +174,14 @@ Item Builder::add_node(std::span<const Item> items) {
     }
     const std::uint32_t at = place(tree_.nodes.size());
     write_node(tree_.nodes.emplace_back(), few);
-    return {around(few), Reference(Kind::node, at, 0)};
+    return {around(few), Reference(Kind::node, at, 0), levels_below(few) + 1};
 }
 
 Tree Builder::finish(std::span<const Item> items) {
     const std::vector<Item> few = grouped(items);
+    if (levels_below(few) + 1 > k_most_levels) {
+        throw std::length_error("the tree has too many levels to be searched eight boxes at a time");
+    }
     write_node(tree_.nodes.front(), few);
     fill_all(tree_.triangles, tree_.surfaces);
     fill_all(tree_.spheres, tree_.surfaces);

@@ -11,6 +11,7 @@ namespace raysteps::wide {
 struct Item {
     Box box;
     Reference to;
+    int levels = 0;  // of nodes below
 };
 
 class Builder {

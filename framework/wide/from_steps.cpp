@@ -9,7 +9,7 @@
 namespace raysteps::wide {
 namespace {
 
-constexpr int k_deepest = 48;  // what lies deeper is put into one list; nodes of more than eight items add a few levels
+constexpr int k_deepest = 48;  // of the step's levels; what lies deeper is put into one list
 
 float padding_for(const Box& all) {
     constexpr float k_share_of_scene = 2e-6F;
@@ -95,7 +95,8 @@ private:
         for (const std::uint32_t part : opened(index)) {
             const Box& box = bvh_.nodes[part].box;
             if (can_be_opened(part) && depth < k_deepest) {
-                items.push_back({box, builder_.add_node(items_below(part, depth + 1)).to});
+                const Item below = builder_.add_node(items_below(part, depth + 1));
+                items.push_back({box, below.to, below.levels});
             } else {
                 builder_.add_surfaces(box, surfaces_below(part), items);
             }
@@ -132,7 +133,8 @@ std::vector<Item> items_of(const raysteps::Node& node, int depth, Builder& build
     for (const raysteps::Node& child : node.children) {
         const std::vector<Item> below = items_of(child, depth + 1, builder);
         if (!below.empty()) {
-            items.push_back({child.box, builder.add_node(below).to});
+            const Item node_below = builder.add_node(below);
+            items.push_back({child.box, node_below.to, node_below.levels});
         }
     }
     return items;

@@ -9,9 +9,7 @@ namespace raysteps::wide {
 /// Throws std::invalid_argument where the nodes are no tree: an index is too large, or a node is reached twice.
 [[nodiscard]] Tree from_bvh(const Bvh& bvh);
 
+/// Both throw std::length_error for a tree of too many levels, or with too many surfaces.
 [[nodiscard]] Tree from_octree(const raysteps::Node& root);
-
-/// Levels below the root that a search must be ready for.
-inline constexpr int k_most_levels = 64;
 
 }  // namespace raysteps::wide

@@ -6,9 +6,10 @@
 
 #include "core/stats.hpp"
 #include "wide/candidates.hpp"
-#include "wide/from_steps.hpp"
 
-// This file is compiled once for each set of instructions.
+// This file is compiled once for each set of instructions. Vectors without a fixed length are left out: they cannot be
+// members of a struct.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "wide/search.cpp"
 #include <hwy/foreach_target.h>  // has to come before highway.h
@@ -64,7 +65,7 @@ HWY_INLINE void walk(const Tree& tree, const BoxRay& ray, Counts& counts, const 
     stack.push({Reference(Kind::node, 0, 0), 0.0F});
     while (!stack.empty()) {
         const Open open = stack.pop();
-        if (open.enter > limit()) {
+        if (open.enter * (1.0F - k_distance_slack) > limit()) {
             continue;
         }
         if (open.to.kind() != Kind::node) {

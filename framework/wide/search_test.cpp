@@ -96,6 +96,43 @@ TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the pl
     }
 }
 
+TEST_CASE("A wide tree finds tiles that lie on a board, also from far away", "[wide]") {
+    Random random;
+    INFO(random);
+    Scene scene;
+    const auto add_square = [&scene](float left, float bottom, float size) {
+        const glm::vec3 corner(left, bottom, 0.0F);
+        const glm::vec3 right(size, 0.0F, 0.0F);
+        const glm::vec3 up(0.0F, size, 0.0F);
+        scene.add(std::make_unique<Triangle>(corner, corner + right, corner + right + up, Fill{}));
+        scene.add(std::make_unique<Triangle>(corner, corner + right + up, corner + up, Fill{}));
+    };
+    for (int i = 0; i < 100; ++i) {
+        add_square(static_cast<float>(i % 10) - 5.0F, static_cast<float>(i / 10) - 5.0F, 0.5F);
+    }
+    add_square(-6.0F, -6.0F, 12.0F);
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    const float away = GENERATE(10.0F, 100.0F, 1000.0F, 2000.0F);
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        for (int i = 0; i < 4000; ++i) {
+            const glm::vec3 origin = away * glm::normalize(random.unit_vector() + glm::vec3(0.0F, 0.0F, 1.5F));
+            const glm::vec3 target(random.uniform(-6.0F, 6.0F), random.uniform(-6.0F, 6.0F), 0.0F);
+            const Ray ray{origin, glm::normalize(target - origin)};
+            INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
+            const std::optional<HitRecord> expected = brute->closest_hit(ray);
+            const std::optional<HitRecord> actual = tree->closest_hit(ray);
+            REQUIRE(actual.has_value() == expected.has_value());
+            if (expected) {
+                REQUIRE(actual->distance == expected->distance);
+                const float behind = std::nextafter(expected->distance, 2.0F * expected->distance);
+                REQUIRE(tree->any_hit(ray, behind));
+                REQUIRE_FALSE(tree->any_hit(ray, expected->distance));
+            }
+        }
+    }
+}
+
 TEST_CASE("A wide tree counts what it tests, and asks few", "[wide]") {
     Random random;
     INFO(random);

@@ -71,6 +71,9 @@ struct alignas(32) ConeBlock {
     std::uint32_t count = 0;
 };
 
+/// Levels of nodes that a search is ready for.
+inline constexpr int k_most_levels = 64;
+
 struct Tree {
     std::vector<Node> nodes;  ///< nodes[0] is the root
     std::vector<TriangleBlock> triangles;

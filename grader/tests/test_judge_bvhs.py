@@ -134,6 +134,9 @@ def test_many_surfaces_must_be_divided_well() -> None:
     mixed = verdict(_row(4, 37))
     assert "dear" in mixed.problem
     assert not mixed.wasteful
+    root = " ".join(_row(4, 37).split(" ")[2:8])
+    inflated = _row(4, 37).replace(root, "-300 -300 -300 300 300 300", 1)
+    assert "dear" in verdict(inflated).problem, "a larger root makes no tree cheaper"
     assert MOST_COST > 1.5
 
 

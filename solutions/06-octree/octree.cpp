@@ -6,6 +6,7 @@
 #include "core/threads.hpp"
 
 #include <atomic>
+#include <cstdint>
 // END SOLUTION
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace {
 constexpr int k_max_depth = 12;
 constexpr std::size_t k_leaf_size = 8;
 constexpr std::size_t k_max_growth = 4;          // children may hold this many times the parent's surfaces
-constexpr std::size_t k_most_references = 24;    // of a surface on average, whatever the scene
+constexpr std::uint64_t k_most_references = 24;  // of a surface on average, whatever the scene
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
 constexpr float k_padding = 2e-6F;               // share of the scene's size by which boxes are grown against rounding
@@ -63,7 +64,7 @@ struct Part {
     Node* node = nullptr;
     Box cell;
     SurfaceList surfaces;
-    std::size_t most_references = 0;  // in the lists of all boxes below
+    std::uint64_t most_references = 0;  // in the lists of all boxes below
     int depth = 0;
 };
 
@@ -80,11 +81,11 @@ std::vector<Part> split_part(Part& part, float padding) {
             references += lists[i].size();
         }
         // Where the boxes are already smaller than the surfaces, splitting multiplies lists and sorts nothing out.
-        if (references <= std::min(k_max_growth * surfaces.size(), part.most_references)) {
+        if (references <= std::min<std::uint64_t>(k_max_growth * surfaces.size(), part.most_references)) {
             std::vector<Part> parts;
             for (std::size_t i = 0; i < cells.size(); ++i) {
                 if (!lists[i].empty()) {
-                    const std::size_t share = part.most_references * lists[i].size() / references;
+                    const std::uint64_t share = part.most_references * lists[i].size() / references;
                     parts.push_back({nullptr, cells[i], std::move(lists[i]), share, part.depth + 1});
                 }
             }
@@ -101,7 +102,7 @@ std::vector<Part> split_part(Part& part, float padding) {
 
 void build_below(Part& part, float padding) {
     std::vector<Part> parts = split_part(part, padding);
-    part.surfaces = {};
+    part.surfaces = SurfaceList();
     for (Part& child : parts) {
         build_below(child, padding);
     }
@@ -312,7 +313,7 @@ Node build_octree(const SurfaceList& surfaces) {
     Node root{{all.min - padding, all.max + padding}, large, {}};
     if (!others.empty()) {
         const Box box = bounds_of(others);
-        const std::size_t most_references = k_most_references * others.size();
+        const std::uint64_t most_references = k_most_references * others.size();
         build_all({&root.children.emplace_back(), box, std::move(others), most_references, 0}, padding);
     }
     return root;

@@ -77,6 +77,7 @@ bool inside(const Box& inner, const Box& outer) {
 /// Walks through the whole tree, and counts in how many leaves each surface is.
 class Inspection {
 public:
+    explicit Inspection(Bvh&&) = delete;  // it looks into the tree later
     explicit Inspection(const Bvh& bvh) : bvh_(bvh), visited_(bvh.nodes.size(), false) {
         if (!bvh.nodes.empty()) {
             visit(0, 1);
@@ -255,7 +256,8 @@ TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh][close
             const float far = std::ldexp(1.0F, i - 20);
             scene.add(sphere_at({far, 0.0F, 0.0F}, 0.25F * far));
         }
-        const Inspection inspection(build_bvh(scene.surfaces()));
+        const Bvh built = build_bvh(scene.surfaces());
+        const Inspection inspection(built);
         for (const Surface* surface : scene.surfaces()) {
             CHECK(inspection.leaves_with(surface) == 1);
         }

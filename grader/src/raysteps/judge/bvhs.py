@@ -1,6 +1,6 @@
 """Answers that are bounding volume hierarchies: any of them is right that loses no surface and is not too dear."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from raysteps.judge.answers import Answer, TooLarge, Wasteful
@@ -56,12 +56,28 @@ def area(box: Box) -> float:
     return 2 * (x * y + y * z + z * x)
 
 
-def bvh_cost(tree: Bvh) -> float:
-    """Surface tests that a ray into the root's box takes on average, by the surface area heuristic."""
-    whole = area(tree.nodes[0].box) if tree.nodes else 0.0
-    if whole <= 0:
+def bvh_cost(tree: Bvh, whole: Box | None = None) -> float:
+    """Surface tests that a ray into the box `whole`, or else into the root's, takes on average, by the surface area
+    heuristic. Nodes that cannot be reached do not count."""
+    if not tree.nodes:
         return float(len(tree.surfaces))
-    return sum(area(node.box) / whole * (node.count or _BOX_TESTS) for node in tree.nodes)
+    total = area(whole or tree.nodes[0].box)
+    if total <= 0:
+        return float(len(tree.surfaces))
+    return sum(area(node.box) / total * (node.count or _BOX_TESTS) for node in reached(tree))
+
+
+def reached(tree: Bvh) -> Iterator[BvhNode]:
+    """The nodes below the root, of what is a tree or not."""
+    seen: set[int] = set()
+    open_ = [0]
+    while open_:
+        place = open_.pop()
+        if place not in seen and place < len(tree.nodes):
+            seen.add(place)
+            node = tree.nodes[place]
+            yield node
+            open_ += [] if node.count else [node.first, node.first + 1]
 
 
 def bvh_words(tree: Bvh) -> str:
@@ -151,9 +167,14 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     problem = _structure_problem(actual, [bounds(surface) for surface in given.surfaces])
     if problem or size < _MANY:
         return problem
-    if sum(node.count > 0 for node in actual.nodes) < 1 / _MOST_IN_LEAF:
+    if sum(node.count > 0 for node in reached(actual)) < 1 / _MOST_IN_LEAF:
         return Wasteful("the tree has hardly any leaves: a ray is spared nothing")
-    return "" if bvh_cost(actual) <= MOST_COST * bvh_cost(expected) else "the tree is right, but its cuts are dear"
+    whole = expected.nodes[0].box
+    return (
+        ""
+        if bvh_cost(actual, whole) <= MOST_COST * bvh_cost(expected, whole)
+        else "the tree is right, but its cuts are dear"
+    )
 
 
 BVH = Answer(read_bvh, bvh_words, _problem)

@@ -51,6 +51,8 @@ def _race(programs: Programs, scenes: list[Path], wish: RenderWish, console: Con
         return []
     rows = []
     trees = [name for name in accelerations(programs) if not wish.structures or name in wish.structures.split(",")]
+    if not trees:
+        return []
     for scene in scenes:
         with console.status(f"POV-Ray and raytrace in turns: {escape(scene.name)}"):
             rows.append(race_povray(programs, scene, Race(wish.size, wish.depth, wish.rounds, trees)))
