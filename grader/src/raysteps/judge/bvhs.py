@@ -170,7 +170,8 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     if sum(node.count > 0 for node in reached(actual)) < 1 / _MOST_IN_LEAF:
         return Wasteful("the tree has hardly any leaves: a ray is spared nothing")
     whole = expected.nodes[0].box
-    return (
+    dear = bvh_cost(actual, whole) > MOST_COST * bvh_cost(expected, whole)
+    return "the tree is right, but its cuts are dear" if dear else ""
         ""
         if bvh_cost(actual, whole) <= MOST_COST * bvh_cost(expected, whole)
         else "the tree is right, but its cuts are dear"
