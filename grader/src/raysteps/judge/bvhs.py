@@ -172,10 +172,6 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     whole = expected.nodes[0].box
     dear = bvh_cost(actual, whole) > MOST_COST * bvh_cost(expected, whole)
     return "the tree is right, but its cuts are dear" if dear else ""
-        ""
-        if bvh_cost(actual, whole) <= MOST_COST * bvh_cost(expected, whole)
-        else "the tree is right, but its cuts are dear"
-    )
 
 
 BVH = Answer(read_bvh, bvh_words, _problem)
