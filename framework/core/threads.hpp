@@ -1,5 +1,8 @@
 #pragma once
 // The same work on several threads at once: for the pixels of a picture, and for the boxes of a tree.
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <functional>
 
 namespace raysteps {
@@ -12,5 +15,19 @@ void set_default_threads(int count);
 /// threads, those that there are do all the work: work must take its portions from a shared counter. An exception
 /// that leaves work is thrown again in the caller once all threads have ended.
 void run_on_threads(int count, const std::function<void()>& work);
+
+/// Calls work(0) to work(count - 1), each once, in any order and on default_threads() threads, which take `portion`
+/// numbers at a time. Where there is one portion only, the caller does it alone.
+template <typename Work>
+void for_each_on_threads(std::size_t count, std::size_t portion, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    run_on_threads(count <= portion ? 1 : default_threads(), [&] {
+        for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
+            for (std::size_t i = begin; i < std::min(begin + portion, count); ++i) {
+                work(i);
+            }
+        }
+    });
+}
 
 }  // namespace raysteps

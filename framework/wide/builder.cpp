@@ -1,7 +1,6 @@
 #include "wide/builder.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -62,16 +61,7 @@ void fill(ConeBlock& block, const SurfaceList& surfaces) {
 template <class Block>
 void fill_all(std::vector<Block>& blocks, const SurfaceList& surfaces) {
     constexpr std::size_t k_portion = 512;
-    std::atomic<std::size_t> next{0};
-    const int threads = blocks.size() < k_portion ? 1 : default_threads();
-    run_on_threads(threads, [&] {
-        for (std::size_t begin = next.fetch_add(k_portion); begin < blocks.size(); begin = next.fetch_add(k_portion)) {
-            const std::size_t end = std::min(begin + k_portion, blocks.size());
-            std::for_each(blocks.begin() + static_cast<std::ptrdiff_t>(begin),
-                          blocks.begin() + static_cast<std::ptrdiff_t>(end),
-                          [&](Block& block) { fill(block, surfaces); });
-        }
-    });
+    for_each_on_threads(blocks.size(), k_portion, [&](std::size_t i) { fill(blocks[i], surfaces); });
 }
 
 std::uint32_t place(std::size_t size) {

@@ -4,8 +4,6 @@
 
 // BEGIN SOLUTION
 #include "core/threads.hpp"
-
-#include <atomic>
 // END SOLUTION
 
 #include <algorithm>
@@ -223,16 +221,8 @@ private:
     /// Calls work(0) to work(count - 1), on all threads where the scene is large.
     template <typename Work>
     void in_parallel(std::size_t count, const Work& work) const {
-        const std::size_t portion = 1 + count / 1024;
-        std::atomic<std::size_t> next{0};
-        const auto take_portions = [&] {
-            for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
-                for (std::size_t i = begin; i < std::min(begin + portion, count); ++i) {
-                    work(i);
-                }
-            }
-        };
-        run_on_threads(items_.size() < k_enough_surfaces ? 1 : default_threads(), take_portions);
+        const bool large = items_.size() >= k_enough_surfaces;
+        for_each_on_threads(count, large ? 1 + count / 1024 : count, work);
     }
 
     std::vector<Item> items_;

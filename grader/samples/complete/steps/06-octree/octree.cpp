@@ -4,7 +4,6 @@
 
 #include "core/threads.hpp"
 
-#include <atomic>
 #include <cstdint>
 
 #include <algorithm>
@@ -105,17 +104,6 @@ void build_below(Part& part, float padding) {
     }
 }
 
-/// Calls work with the numbers 0 to count - 1, on all threads.
-template <typename Work>
-void in_parallel(std::size_t count, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    run_on_threads(count == 1 ? 1 : default_threads(), [&] {
-        for (std::size_t i = next++; i < count; i = next++) {
-            work(i);
-        }
-    });
-}
-
 /// Level by level, until there are enough parts for all threads; then each part to its end.
 void build_all(Part root, float padding) {
     std::vector<Part> parts;
@@ -123,13 +111,13 @@ void build_all(Part root, float padding) {
     parts.push_back(std::move(root));
     while (!small && !parts.empty() && parts.size() < k_enough_parts) {
         std::vector<std::vector<Part>> next(parts.size());
-        in_parallel(parts.size(), [&](std::size_t i) { next[i] = split_part(parts[i], padding); });
+        for_each_on_threads(parts.size(), 1, [&](std::size_t i) { next[i] = split_part(parts[i], padding); });
         parts.clear();
         for (std::vector<Part>& some : next) {
             std::move(some.begin(), some.end(), std::back_inserter(parts));
         }
     }
-    in_parallel(parts.size(), [&](std::size_t i) { build_below(parts[i], padding); });
+    for_each_on_threads(parts.size(), 1, [&](std::size_t i) { build_below(parts[i], padding); });
 }
 
 /// Surfaces so large that they would stretch the boxes over everything else: a ground under a flake of spheres.
