@@ -10,7 +10,7 @@ from raysteps.upkeep.bench.axes import Axis, tick_text
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a8a8a", "#b58900", "#56b4e9", "#a0522d")
 _WIDTH, _HEIGHT = 380.0, 300.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 14.0, 34.0, 48.0
-_LEGEND_LINE = 18.0
+_LEGEND_LINE, _LEGEND_COLUMN = 18.0, 135.0
 _STYLE = """text{font:12px system-ui,sans-serif;fill:#24292f}
 .grid{stroke:#d0d7de;stroke-width:1}.axis{stroke:#57606a;stroke-width:1.2;fill:none}
 .title{font-weight:600;font-size:13px}
@@ -97,10 +97,10 @@ class _Panel:
                 yield f'<rect x="{x:.1f}" y="{y:.1f}" {size} fill="{color}"/>'
 
 
-def _legend(names: Sequence[str]) -> Iterator[str]:
+def _legend(names: Sequence[str], columns: int) -> Iterator[str]:
     for number, name in enumerate(names):
-        x = _LEFT + 110.0 * (number % 6)
-        y = _HEIGHT + _LEGEND_LINE * (number // 6)
+        x = _LEFT + _LEGEND_COLUMN * (number % columns)
+        y = _HEIGHT + _LEGEND_LINE * (number // columns + 0.7)
         color = _COLORS[number % len(_COLORS)]
         yield f'<rect x="{x:.1f}" y="{y - 9:.1f}" width="10" height="10" rx="2" fill="{color}"/>'
         yield _text(x + 15, y, name, "start")
@@ -113,8 +113,9 @@ def svg_text(charts: Sequence[Chart], *, width: float = _WIDTH) -> str:
     for number, chart in enumerate(charts):
         panel = _Panel(chart, number * width, width)
         parts += [*panel.frame(), *(panel.bars() if chart.groups else panel.lines())]
-    height = _HEIGHT + _LEGEND_LINE * ((len(names) + 5) // 6)
+    columns = max(1, int((width * len(charts) - _LEFT) / _LEGEND_COLUMN))
+    height = _HEIGHT + _LEGEND_LINE * (-(-len(names) // columns) + 0.7)
     size = f"{width * len(charts):.0f} {height:.0f}"
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" role="img">'
     title = f"<title>{escape('; '.join(chart.title for chart in charts))}</title>"
-    return "\n".join([head, title, f"<style>{_STYLE}</style>", *parts, *_legend(names), "</svg>"]) + "\n"
+    return "\n".join([head, title, f"<style>{_STYLE}</style>", *parts, *_legend(names, columns), "</svg>"]) + "\n"
