@@ -62,17 +62,18 @@ const std::vector<Structure>& all_structures() {
 std::vector<Structure> chosen_structures(const std::vector<std::string>& names) {
     std::vector<Structure> chosen;
     std::string known;
-    std::size_t found = 0;
+    std::vector<std::string> unknown = names;
     for (const Structure& structure : all_structures()) {
         const auto count = std::count(names.begin(), names.end(), structure.name);
-        found += static_cast<std::size_t>(count);
+        std::erase(unknown, structure.name);
         if (names.empty() || count > 0) {
             chosen.push_back(structure);
         }
         known += (known.empty() ? "" : ", ") + structure.name;
     }
-    if (found != names.size()) {
-        throw UsageError("--structures: expected names among " + known + ", parted by commas");
+    if (!unknown.empty()) {
+        throw UsageError("--structures: expected names among " + known + ", separated by commas, found '" +
+                         unknown.front() + "'");
     }
     return chosen;
 }

@@ -115,8 +115,8 @@ std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceLi
         case Acceleration::wide_octree:
             if (!has_accelerator(kind)) {
                 throw std::invalid_argument(
-                    "this program was built without wide trees: they need the library Highway (Debian: libhwy-dev), "
-                    "and only the reference has them; --accel bvh draws the same picture");
+                    "only the reference has wide trees (--impl reference), and only where the library Highway is "
+                    "installed (Debian: libhwy-dev); --accel bvh draws the same picture");
             }
             return offered()[kind](surfaces);
     }

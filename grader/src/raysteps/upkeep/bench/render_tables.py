@@ -75,8 +75,8 @@ def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> No
                 f"{picture['median']:.3f} s" if picture else "",
                 f"{side['build_seconds']['median'] * 1e3:.2f} ms",
                 _megabytes(side["bytes"]),
-                f"{side['surface_tests_per_ray']:.2f}",
-                f"{side['box_tests_per_ray']:.2f}",
+                _counted(side["surface_tests_per_ray"]),
+                _counted(side["box_tests_per_ray"]),
                 str(side["differing"]),
                 end_section=side is scene["structures"][-1],
             )
@@ -84,7 +84,14 @@ def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> No
     means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
     told = [f"{name} {ratio:.2f} x" for name, ratio in means if ratio and name != _PEER]
     if told:
-        console.print(f"Time of a ray against Embree's, geometric mean of {len(scenes)} scenes: {', '.join(told)}")
+        console.print(
+            f"Time of a ray against Embree's, geometric mean of {len(scenes)} scene(s), below 1 is faster: {', '.join(told)}"
+        )
+
+
+def _counted(tests: float) -> str:
+    """Nobody can count what Embree tests by itself."""
+    return f"{tests:.2f}" if tests else ""
 
 
 def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
