@@ -84,9 +84,8 @@ def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> No
     means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
     told = [f"{name} {ratio:.2f} x" for name, ratio in means if ratio and name != _PEER]
     if told:
-        console.print(
-            f"Time of a ray against Embree's, geometric mean of {len(scenes)} scene(s), below 1 is faster: {', '.join(told)}"
-        )
+        mean = f"geometric mean of {len(scenes)} scene(s), below 1 is faster"
+        console.print(f"Time of a ray against Embree's, {mean}: {', '.join(told)}")
 
 
 def _counted(tests: float) -> str:
