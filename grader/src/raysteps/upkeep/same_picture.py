@@ -20,7 +20,7 @@ def render_with(
 
 
 def accelerations_of(program: Path) -> list[str]:
-    """All that this program has: every object first, then the trees."""
+    """All that this program has: those that every raytrace has come first."""
     names = run([program, "--list-accel"], seconds=_SECONDS).stdout.split()
     return [*ACCELERATIONS, *(name for name in names if name not in ACCELERATIONS)]
 
