@@ -1,7 +1,6 @@
 #include "render/accelerator.hpp"
 
 #include <algorithm>
-
 #include <map>
 #include <stdexcept>
 

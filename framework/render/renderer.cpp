@@ -4,9 +4,9 @@
 #include <chrono>
 #include <mutex>
 
+#include "core/threads.hpp"
 #include "render/encode.hpp"
 #include "render/progress.hpp"
-#include "core/threads.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 
