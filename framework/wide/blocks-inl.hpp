@@ -59,7 +59,7 @@ struct BoxRay {
             constexpr float k_smallest = 1e-30F;  // a direction of 0 would give 0 * infinity on a box's wall
             const float along = ray.direction[axis];
             inverse[axis] = 1.0F / (std::abs(along) < k_smallest ? std::copysign(k_smallest, along) : along);
-            backwards[axis] = along < 0.0F || (along == 0.0F && std::signbit(along));
+            backwards[static_cast<std::size_t>(axis)] = along < 0.0F || (along == 0.0F && std::signbit(along));
         }
     }
 
