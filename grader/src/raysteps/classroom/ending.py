@@ -5,9 +5,12 @@ import os
 import shutil
 import signal
 import sys
+import time
 from pathlib import Path
 
 from raysteps.sandbox.processes import descendants
+
+_LONGEST_SECONDS = 30
 
 
 def _send(pid: int, number: signal.Signals) -> None:
@@ -31,6 +34,14 @@ def end_tree(root: int) -> None:
         _send(pid, signal.SIGKILL)
 
 
+def remove(folder: Path) -> None:
+    """Again and again for a while: a process that was killed dies a little later, and may still have written there."""
+    end = time.monotonic() + _LONGEST_SECONDS
+    while folder.exists() and time.monotonic() < end:
+        shutil.rmtree(folder, ignore_errors=True)
+        time.sleep(0.01)
+
+
 if __name__ == "__main__":
     end_tree(int(sys.argv[1]))
-    shutil.rmtree(Path(sys.argv[2]), ignore_errors=True)
+    remove(Path(sys.argv[2]))
