@@ -1,7 +1,8 @@
 """Searches through a tree: which rays, in whose tree, and what was found with how much work."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 from raysteps.judge.answers import Answer, Wasteful, first
 from raysteps.judge.hits import MaybeHit, found_problem, found_words, read_hit
@@ -10,8 +11,8 @@ from raysteps.judge.surfaces import Surfaces
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Inputs, Ray
 
-MOST_RAYS = 1000
-_MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
+_MOST_RAYS = 1000
+MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
 
 
 @dataclass(frozen=True)
@@ -50,30 +51,65 @@ class Search:
     found: MaybeHit
 
 
-def _read(tokens: Tokens) -> tuple[Search, ...]:
-    searches: list[Search] = []
+class Counted(Protocol):
+    """The answer for one ray."""
+
+    @property
+    def asked(self) -> int: ...
+
+
+One = TypeVar("One", bound=Counted)
+Work = Callable[[Inputs, Sequence[int], Sequence[int]], str]  # what the reference asked, and what was asked
+
+
+def read_all(tokens: Tokens, read_one: Callable[[Tokens], One]) -> tuple[One, ...]:
+    """An answer for each ray."""
+    found: list[One] = []
     while not tokens.at_end():
-        if len(searches) == MOST_RAYS:
+        if len(found) == _MOST_RAYS:
             raise Garbled("the answer is too long")
-        searches.append(Search(tokens.whole(), read_hit(tokens)))
-    return tuple(searches)
+        found.append(read_one(tokens))
+    return tuple(found)
 
 
-def _words(searches: Sequence[Search]) -> str:
-    shown = [f"{found_words(search.found)}, {search.asked} surfaces asked" for search in searches[:2]]
-    return "; ".join(shown) + ("; and more" if len(searches) > 2 else "") or "nothing"
+def words_of(answers: Sequence[One], one_in_words: Callable[[One], str]) -> str:
+    """The first two."""
+    shown = [f"{one_in_words(answer)}, {answer.asked} surfaces asked" for answer in answers[:2]]
+    return "; ".join(shown) + ("; and more" if len(answers) > 2 else "") or "nothing"
+
+
+def problem_of(
+    inputs: Inputs,
+    answers: tuple[Sequence[One], Sequence[One]],
+    one_problem: Callable[[One, One], str],
+    work_problem: Work,
+) -> str:
+    """Of the expected and the actual answers: the first that is wrong, and then the work."""
+    expected, actual = answers
+    if len(expected) != len(actual):
+        return "no proper answer came"
+    problem = first(*(one_problem(*pair) for pair in zip(expected, actual, strict=True)))
+    return problem or work_problem(inputs, [one.asked for one in expected], [one.asked for one in actual])
+
+
+def hit_without_asking(*, hit: bool, asked: int) -> str:
+    return "a hit came without asking a surface" if hit and asked == 0 else ""
+
+
+def _read_one(tokens: Tokens) -> Search:
+    return Search(tokens.whole(), read_hit(tokens))
 
 
 def one_problem(expected: Search, actual: Search) -> str:
-    unasked = actual.found.hit is not None and actual.asked == 0
-    return first(found_problem(expected.found, actual.found), "a hit came without asking a surface" if unasked else "")
+    unasked = hit_without_asking(hit=actual.found.hit is not None, asked=actual.asked)
+    return first(found_problem(expected.found, actual.found), unasked)
 
 
-def too_many_asked(inputs: Inputs, asked: Sequence[int]) -> str:
-    """Where there are many rays, the boxes must spare them most of the surfaces."""
+def too_many_asked(inputs: Inputs, expected: Sequence[int], asked: Sequence[int]) -> str:
+    """Where there are many rays, the boxes must spare them most of the surfaces, whatever the reference asked."""
     surfaces = inputs["surfaces"]
     assert isinstance(surfaces, Surfaces)
-    if len(asked) > 1 and sum(asked) > _MOST_ASKED * len(surfaces.surfaces) * len(asked):
+    if len(asked) > 1 and sum(asked) > MOST_ASKED * len(surfaces.surfaces) * len(asked):
         return Wasteful(
             "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
         )
@@ -81,12 +117,11 @@ def too_many_asked(inputs: Inputs, asked: Sequence[int]) -> str:
 
 
 def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
-    if len(expected) != len(actual):
-        return "no proper answer came"
-    return first(
-        *(one_problem(*pair) for pair in zip(expected, actual, strict=True)),
-        too_many_asked(inputs, [search.asked for search in actual]),
-    )
+    return problem_of(inputs, (expected, actual), one_problem, too_many_asked)
 
 
-SEARCHES = Answer(_read, _words, _problem)
+SEARCHES: Answer[tuple[Search, ...]] = Answer(
+    lambda tokens: read_all(tokens, _read_one),
+    lambda searches: words_of(searches, lambda search: found_words(search.found)),
+    _problem,
+)
