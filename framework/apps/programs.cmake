@@ -20,7 +20,7 @@ raysteps_link_wide(raytrace-reference)
 
 # worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
 add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
-            apps/worker_output.cpp
-            apps/worker_surfaces.cpp apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_values.cpp
+            apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp
+            apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_trees.cpp apps/worker_values.cpp
             apps/worker_words.cpp)
 target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)

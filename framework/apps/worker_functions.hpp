@@ -1,12 +1,21 @@
 #pragma once
 // The functions of all steps by their names in the manifests.
+#include <map>
 #include <string_view>
 
 #include "apps/worker_words.hpp"
 
 namespace raysteps {
 
-/// Reads the inputs, asks the function, and writes what it returned. Throws BadCase for an unknown function.
+/// Reads the inputs, asks the function, and writes what it returned.
+using Function = void (*)(Words&, Answer&);
+using FunctionTable = std::map<std::string_view, Function>;
+
+void add_intersections(FunctionTable& functions);
+void add_light(FunctionTable& functions);
+void add_trees(FunctionTable& functions);
+
+/// Asks the function of that name. Throws BadCase where there is none.
 void answer_case(std::string_view function, Words& words, Answer& answer);
 
 }  // namespace raysteps
