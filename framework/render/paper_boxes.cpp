@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <glm/geometric.hpp>
 
+#include "core/rounding.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
 
 namespace raysteps {
 namespace {
-
-constexpr float k_padding = 2e-6F;  // share of the scene's size by which boxes are grown against rounding
 
 Box grown(const Box& box, float padding) { return {box.min - padding, box.max + padding}; }
 
@@ -56,7 +54,7 @@ PaperBoxes::PaperBoxes(const SurfaceList& surfaces) : surfaces_(surfaces) {
         return;
     }
     const Box all = bounds_of(surfaces_);
-    const float padding = k_padding * (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max));
+    const float padding = padding_within(all);
     main_ = grown(all, padding);
     const std::array<Box, 8> middle_boxes = split(main_);
     for (std::size_t m = 0; m < 8; ++m) {

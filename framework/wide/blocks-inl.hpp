@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "core/ray.hpp"
+#include "core/rounding.hpp"
 #include "wide/tree.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,7 +26,6 @@ using M = hn::Mask<D>;
 
 /// Roundings that a test may go through, here or in Surface::hit, as a share of the numbers in it (about 70 of them).
 constexpr float k_rounding = 4e-6F;
-constexpr float k_distance_slack = 1e-5F;  // share of a distance within which rounding may move it, as in step 06
 
 HWY_INLINE V load(const Lanes& lanes, std::size_t at) { return hn::Load(D(), lanes.data() + at); }
 HWY_INLINE V same(float value) { return hn::Set(D(), value); }

@@ -1,20 +1,15 @@
 #include "wide/from_steps.hpp"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "core/rounding.hpp"
 #include "wide/builder.hpp"
 
 namespace raysteps::wide {
 namespace {
 
 constexpr int k_deepest = 48;  // of the step's levels; what lies deeper is put into one list
-
-float padding_for(const Box& all) {
-    constexpr float k_share_of_scene = 2e-6F;
-    return k_share_of_scene * (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max));
-}
 
 float half_area(const Box& box) {
     const glm::vec3 size = glm::max(box.max - box.min, 0.0F);
@@ -24,7 +19,7 @@ float half_area(const Box& box) {
 /// A binary tree is folded into one of eight: the largest box is opened until there are eight.
 class BvhFolder {
 public:
-    explicit BvhFolder(const Bvh& bvh) : bvh_(bvh), builder_(padding_for(bvh.nodes.front().box)) { count_surfaces(); }
+    explicit BvhFolder(const Bvh& bvh) : bvh_(bvh), builder_(padding_within(bvh.nodes.front().box)) { count_surfaces(); }
 
     [[nodiscard]] Tree fold() { return builder_.finish(items_below(0, 0)); }
 
@@ -145,7 +140,7 @@ std::vector<Item> items_of(const raysteps::Node& node, int depth, Builder& build
 Tree from_bvh(const Bvh& bvh) { return bvh.nodes.empty() ? Builder(0.0F).finish({}) : BvhFolder(bvh).fold(); }
 
 Tree from_octree(const raysteps::Node& root) {
-    Builder builder(padding_for(root.box));
+    Builder builder(padding_within(root.box));
     return builder.finish(items_of(root, 0, builder));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/rounding.hpp"
 #include "core/stats.hpp"
 #include "wide/candidates.hpp"
 

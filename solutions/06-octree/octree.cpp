@@ -3,6 +3,7 @@
 #include "core/unfinished.hpp"
 
 // BEGIN SOLUTION
+#include "core/rounding.hpp"
 #include "core/threads.hpp"
 
 #include <cstdint>
@@ -26,8 +27,6 @@ constexpr std::size_t k_max_growth = 4;          // children may hold this many 
 constexpr std::uint64_t k_most_references = 24;  // of a surface on average, whatever the scene
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
-constexpr float k_padding = 2e-6F;               // share of the scene's size by which boxes are grown against rounding
-constexpr float k_distance_slack = 1e-5F;        // share of a distance within which rounding may move it
 
 float diagonal(const Box& box) { return glm::length(box.max - box.min); }
 
@@ -297,7 +296,7 @@ Node build_octree(const SurfaceList& surfaces) {
         return std::find(large.begin(), large.end(), surface) == large.end();
     });
     const Box all = bounds_of(surfaces);
-    const float padding = k_padding * (diagonal(all) + glm::length(all.min) + glm::length(all.max));
+    const float padding = padding_within(all);
     Node root{{all.min - padding, all.max + padding}, large, {}};
     if (!others.empty()) {
         const Box box = bounds_of(others);

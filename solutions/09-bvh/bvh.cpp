@@ -3,13 +3,13 @@
 #include "core/unfinished.hpp"
 
 // BEGIN SOLUTION
+#include "core/rounding.hpp"
 #include "core/threads.hpp"
 // END SOLUTION
 
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -25,8 +25,6 @@ constexpr std::size_t k_largest_leaf = 8;
 constexpr int k_levels_by_cost = 32;             // below them surfaces are halved: so no tree becomes too deep
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_ranges = 64;      // that wait to be built, for any number of threads
-constexpr float k_padding = 2e-6F;               // share of the scene's size by which boxes are grown against rounding
-constexpr float k_distance_slack = 1e-5F;        // share of a distance within which rounding may move it
 
 void grow(Box& box, const Box& other) {
     box.min = glm::min(box.min, other.min);
@@ -198,9 +196,7 @@ private:
             place[i] = used;
             used += is_used(nodes_[i]) ? 1U : 0U;
         }
-        const Box& all = nodes_.front().box;
-        const glm::vec3 padding(k_padding *
-                                (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max)));
+        const float padding = padding_within(nodes_.front().box);
         Bvh bvh;
         bvh.nodes.reserve(used);
         for (const BvhNode& node : nodes_) {
