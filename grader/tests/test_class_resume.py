@@ -89,6 +89,23 @@ def test_no_table_of_earlier_results_stays_beside_new_ones(
     assert (out / "results.csv").exists()
 
 
+def test_half_written_files_of_a_killed_run_go_away(tmp_path: Path, handed_in: Path) -> None:
+    out = tmp_path / "out"
+    assert grade_class(handed_in, "--out", out) == 0
+    one = out / "submissions" / "s1"
+    picture = next((one / "pictures").rglob("*-mine.png"))
+    left = [folder / f".{name}.a_b4c6d8" for folder, name in ((out, "results.csv"), (one, "results.json"))]
+    left.append(picture.with_name(f".{picture.name}.zzzzzzzz"))
+    for path in left:
+        path.write_bytes(b"half")
+    own = out / ".notes"
+    own.write_text("somebody's own")
+    assert grade_class(handed_in, "--out", out, "--resume") == 0
+    assert not any(path.exists() for path in left)
+    assert picture.is_file()
+    assert own.read_text() == "somebody's own"
+
+
 def test_tables_stay_when_nothing_was_graded(tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "out"
     assert grade_class(handed_in, "--out", out) == 0

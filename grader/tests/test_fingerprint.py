@@ -47,6 +47,8 @@ def test_what_a_grade_depends_on_counts(copy: Project, name: str) -> None:
         "steps/01-camera-rays/camera_rays.hpp~",
         "steps/01-camera-rays/README.md",
         "scenes/mine.ppm",
+        "grader/src/raysteps/commands/render.py",
+        "grader/src/raysteps/upkeep/bench/svg.py",
         "scenes/.DS_Store",
         "grader/src/raysteps/__pycache__/cli.cpython-311.pyc",
     ],

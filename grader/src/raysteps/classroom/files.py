@@ -7,7 +7,7 @@ from typing import Any
 
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.spreadsheet import Cell, csv_bytes
-from raysteps.common.files import write_bytes, write_if_changed, write_json
+from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.feedback import withhold
 
@@ -23,6 +23,9 @@ def _forget_files(folder: Path, kept: set[str]) -> None:
         for path in list(room.rglob(ending)):
             if path.relative_to(folder).as_posix() not in kept and path.resolve().is_relative_to(room.resolve()):
                 path.unlink(missing_ok=True)
+        for place in (room, *room.rglob("*/")):
+            if not place.is_symlink():
+                forget_unfinished(place)
 
 
 def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> set[str]:
@@ -42,6 +45,7 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(document, files)
     _forget_files(folder, shown)
+    forget_unfinished(folder)
     for path in sorted(shown):
         write_if_changed(folder / path, files[path])
     if document is not None:
@@ -95,6 +99,7 @@ def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], do
     for one in document["submissions"]:
         if one["name"] not in done:
             write_submission(database, out, one["name"])
+    forget_unfinished(out)
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))
     write_json(out / facts, document)

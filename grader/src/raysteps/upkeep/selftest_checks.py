@@ -57,7 +57,8 @@ def python_checks(project: Project) -> list[Check]:
 
 
 def run_pytest(project: Project, marked: str) -> Report:
-    words: list[str | Path] = [sys.executable, "-m", "pytest", "-q", "-n", "auto", "--dist", "worksteal", "-m", marked]
+    spread = ["-n", "auto", "--dist", "loadgroup"]  # a group is for tests that would make something costly twice
+    words: list[str | Path] = [sys.executable, "-m", "pytest", "-q", "--tb", "short", *spread, "-m", marked]
     return command(words, project.root / "grader", _PYTEST_SECONDS)
 
 
