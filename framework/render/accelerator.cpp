@@ -100,6 +100,11 @@ bool has_accelerator(Acceleration kind) {
     return (kind != Acceleration::wide && kind != Acceleration::wide_octree) || offered().contains(kind);
 }
 
+std::vector<Acceleration> available(std::vector<Acceleration> kinds) {
+    std::erase_if(kinds, [](Acceleration kind) { return !has_accelerator(kind); });
+    return kinds;
+}
+
 std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces) {
     switch (kind) {
         case Acceleration::none:

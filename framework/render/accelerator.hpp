@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/hit_record.hpp"
 #include "core/scene.hpp"
@@ -53,6 +54,9 @@ bool offer_accelerator(Acceleration kind, AcceleratorMaker make);
 
 /// Whether this program has the structure.
 [[nodiscard]] bool has_accelerator(Acceleration kind);
+
+/// Of these structures, those that this program has.
+[[nodiscard]] std::vector<Acceleration> available(std::vector<Acceleration> kinds);
 
 /// Builds the structure. The surfaces must outlive it. Throws std::invalid_argument for one that the program lacks.
 [[nodiscard]] std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces);

@@ -58,21 +58,9 @@ Ray ray_in_a_face(Random& random, const Scene& scene, int i) {
     return ray;
 }
 
-void check_same(const std::optional<HitRecord>& expected, const std::optional<HitRecord>& actual) {
-    REQUIRE(actual.has_value() == expected.has_value());
-    if (expected) {
-        CHECK(actual->distance == expected->distance);
-        CHECK(actual->fill.kd == expected->fill.kd);
-        CHECK(actual->normal == expected->normal);
-    }
-}
-
-/// Of the structures with trees, those that this program has.
 std::vector<Acceleration> trees() {
-    std::vector<Acceleration> all{Acceleration::boxes, Acceleration::octree, Acceleration::bvh, Acceleration::wide,
-                                  Acceleration::wide_octree};
-    std::erase_if(all, [](Acceleration kind) { return !has_accelerator(kind); });
-    return all;
+    return available({Acceleration::boxes, Acceleration::octree, Acceleration::bvh, Acceleration::wide,
+                      Acceleration::wide_octree});
 }
 
 }  // namespace
@@ -88,7 +76,7 @@ TEST_CASE("Boxes, octree and bounding volumes find what brute force finds", "[re
     for (int i = 0; i < 2000; ++i) {
         const Ray ray = i % 5 == 4 && surfaces > 0 ? ray_in_a_face(random, scene, i) : any_ray(random, i);
         INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
-        check_same(brute->closest_hit(ray), other->closest_hit(ray));
+        check_identical(brute->closest_hit(ray), other->closest_hit(ray));
     }
 }
 
@@ -177,7 +165,7 @@ TEST_CASE("A huge ground and small squares in the same plane: the first in the s
         const Ray ray{{0.05F + 0.25F * static_cast<float>(i % 20), 0.1F + 0.25F * static_cast<float>(i / 20), 4.0F},
                       {0.0F, 0.0F, -1.0F}};
         INFO("ray " << i);
-        check_same(brute->closest_hit(ray), tree->closest_hit(ray));
+        check_identical(brute->closest_hit(ray), tree->closest_hit(ray));
     }
 }
 

@@ -13,11 +13,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-std::vector<Acceleration> wide_trees() {
-    std::vector<Acceleration> all{Acceleration::wide, Acceleration::wide_octree};
-    std::erase_if(all, [](Acceleration kind) { return !has_accelerator(kind); });
-    return all;
-}
+std::vector<Acceleration> wide_trees() { return available({Acceleration::wide, Acceleration::wide_octree}); }
 
 void add_triangle(Scene& scene, Random& random, const glm::vec3& at, float size) {
     const glm::vec3 along = random.point(size);
@@ -27,7 +23,7 @@ void add_triangle(Scene& scene, Random& random, const glm::vec3& at, float size)
 }
 
 /// Surfaces of every kind, among them slivers, and much smaller and larger ones.
-Scene mixed_scene(Random& random, int surfaces, float scale, const glm::vec3& middle) {
+Scene scene_of_all_kinds(Random& random, int surfaces, float scale, const glm::vec3& middle) {
     Scene scene;
     for (int i = 0; i < surfaces; ++i) {
         const glm::vec3 at = middle + random.point(10.0F * scale);
@@ -76,7 +72,7 @@ TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the pl
     const float scale = GENERATE(1e-3F, 1.0F, 1e4F);
     const float away = GENERATE(0.0F, 300.0F);  // so many scales from the point 0, where numbers are coarse
     const glm::vec3 middle = away * scale * glm::vec3(1.0F, -1.0F, 0.5F);
-    const Scene scene = mixed_scene(random, 300, scale, middle);
+    const Scene scene = scene_of_all_kinds(random, 300, scale, middle);
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
     for (const Acceleration kind : wide_trees()) {
         const auto tree = make_accelerator(kind, scene.surfaces());
@@ -85,11 +81,7 @@ TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the pl
             INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
             const std::optional<HitRecord> expected = brute->closest_hit(ray);
             const std::optional<HitRecord> actual = tree->closest_hit(ray);
-            REQUIRE(actual.has_value() == expected.has_value());
-            if (expected) {
-                REQUIRE(actual->distance == expected->distance);
-                REQUIRE(actual->normal == expected->normal);
-            }
+            check_identical(expected, actual);
             const float distance = expected && i % 2 == 0 ? expected->distance : scale * random.uniform(0.0F, 60.0F);
             REQUIRE(tree->any_hit(ray, distance) == (expected && expected->distance < distance));
         }
@@ -122,9 +114,8 @@ TEST_CASE("A wide tree finds tiles that lie on a board, also from far away", "[w
             INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
             const std::optional<HitRecord> expected = brute->closest_hit(ray);
             const std::optional<HitRecord> actual = tree->closest_hit(ray);
-            REQUIRE(actual.has_value() == expected.has_value());
+            check_identical(expected, actual);
             if (expected) {
-                REQUIRE(actual->distance == expected->distance);
                 const float behind = std::nextafter(expected->distance, 2.0F * expected->distance);
                 REQUIRE(tree->any_hit(ray, behind));
                 REQUIRE_FALSE(tree->any_hit(ray, expected->distance));
@@ -136,7 +127,7 @@ TEST_CASE("A wide tree finds tiles that lie on a board, also from far away", "[w
 TEST_CASE("A wide tree counts what it tests, and asks few", "[wide]") {
     Random random;
     INFO(random);
-    const Scene scene = mixed_scene(random, 2000, 0.3F, glm::vec3(0.0F));
+    const Scene scene = scene_of_all_kinds(random, 2000, 0.3F, glm::vec3(0.0F));
     for (const Acceleration kind : wide_trees()) {
         const auto tree = make_accelerator(kind, scene.surfaces());
         const Stats before = thread_stats();

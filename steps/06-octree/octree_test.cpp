@@ -16,38 +16,8 @@ namespace {
 
 const glm::vec3 k_down{0.0F, 0.0F, -1.0F};
 
-std::unique_ptr<Sphere> sphere_at(const glm::vec3& center, float radius) {
-    return std::make_unique<Sphere>(center, radius, Fill{});
-}
-
-/// Small spheres everywhere, and some triangles as large as the scene, which lie in many boxes at once.
-Scene mixed_scene(Random& random, int spheres, int triangles) {
-    Scene scene;
-    for (int i = 0; i < spheres; ++i) {
-        const glm::vec3 center = random.point(5.0F);
-        scene.add(sphere_at(center, random.uniform(0.05F, 0.4F)));
-    }
-    for (int i = 0; i < triangles; ++i) {
-        const glm::vec3 a = random.point(5.0F);
-        const glm::vec3 b = random.point(5.0F);
-        const glm::vec3 c = random.point(5.0F);
-        scene.add(std::make_unique<Triangle>(a, b, c, Fill{}));
-    }
-    return scene;
-}
-
-/// Compares the tree with the search through the whole list.
 void check_same_hit(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
-    const std::optional<HitRecord> expected = closest_hit(surfaces, ray);
-    const std::optional<HitRecord> actual = closest_hit_in(root, ray);
-    CAPTURE(ray);
-    INFO("expected: " << (expected ? text(*expected) : "a miss"));
-    INFO("actual:   " << (actual ? text(*actual) : "a miss"));
-    REQUIRE(actual.has_value() == expected.has_value());
-    if (expected) {
-        INFO("a larger distance: a nearer surface was lost, or the search stopped too early");
-        REQUIRE(actual->distance == about(expected->distance));
-    }
+    testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in(root, ray));
 }
 
 /// Asks for any hit well before the closest hit of the whole list and well behind it, and without an end.

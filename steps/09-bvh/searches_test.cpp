@@ -1,0 +1,151 @@
+// Visible tests of step 09: the same hits as without the tree, with fewer tests.
+#include <limits>
+#include <memory>
+
+#include "core/stats.hpp"
+#include "steps/02-intersection/intersection.hpp"
+#include "steps/09-bvh/bvh.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+const glm::vec3 k_down{0.0F, 0.0F, -1.0F};
+
+/// One behind the other, and all of them met by a ray along z.
+Scene hundred_sheets() {
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+        const auto z = -static_cast<float>(i);
+        scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, z}, glm::vec3{1.0F, -1.0F, z},
+                                             glm::vec3{0.0F, 1.0F, z}, Fill{}));
+    }
+    return scene;
+}
+
+void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray) {
+    testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_bvh(bvh, ray));
+}
+
+void check_any_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray, float distance) {
+    const std::optional<HitRecord> nearest = closest_hit(surfaces, ray);
+    CAPTURE(ray, distance);
+    INFO("the nearest hit: " << (nearest ? text(*nearest) : "none"));
+    REQUIRE(any_hit_in_bvh(bvh, ray, distance) == (nearest && nearest->distance < distance));
+}
+
+}  // namespace
+
+TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 250, 25);
+    const Bvh bvh = build_bvh(scene.surfaces());
+    SECTION("rays from inside the scene") {
+        for (int i = 0; i < 1500; ++i) {
+            check_same_hit(bvh, scene.surfaces(), random.ray(5.0F));
+        }
+    }
+    SECTION("rays from outside") {
+        for (int i = 0; i < 1500; ++i) {
+            check_same_hit(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
+        }
+    }
+    SECTION("rays along the axes, also in the faces of boxes") {
+        for (int i = 0; i < 600; ++i) {
+            glm::vec3 direction(0.0F);
+            direction[i % 3] = i % 2 == 0 ? 1.0F : -1.0F;
+            glm::vec3 target = random.point(5.0F);
+            if (i % 5 == 0) {
+                target = scene.surfaces()[static_cast<std::size_t>(i) % 275]->bounds().min;
+            }
+            check_same_hit(bvh, scene.surfaces(), {target - 12.0F * direction, direction});
+        }
+    }
+}
+
+TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the scene counts",
+          "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+    Scene scene;
+    for (int i = 0; i < 200; ++i) {
+        Fill fill;
+        fill.kd = static_cast<float>(i);  // to tell which one was hit
+        scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
+                                             glm::vec3{0.0F, 1.0F + static_cast<float>((i * 7 + 100) % 200), 0.0F}, fill));
+    }
+    const Bvh bvh = build_bvh(scene.surfaces());
+    const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down});
+    REQUIRE(hit.has_value());
+    INFO("number of the triangle that was found; all of them are hit at distance 5");
+    CHECK(hit->fill.kd == 0.0F);
+}
+
+TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree",
+          "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 1000, 0);
+    const Bvh bvh = build_bvh(scene.surfaces());
+    const int rays = 500;
+    int hits = 0;
+    const std::uint64_t before = thread_stats().surface_tests;
+    for (int i = 0; i < rays; ++i) {
+        hits += closest_hit_in_bvh(bvh, random.ray_towards(random.point(5.0F), 20.0F)).has_value() ? 1 : 0;
+    }
+    const double tested = static_cast<double>(thread_stats().surface_tests - before);
+    INFO("many of the rays hit something");
+    CHECK(hits > rays / 4);
+    INFO("share of the 1000 spheres that a ray is tested against; a good tree needs less than 1 %");
+    CHECK(tested / rays / 1000.0 < 0.05);
+    INFO("ask a surface with surface->hit(ray) and a box with box.hit(ray), so that the tests are counted");
+    CHECK(tested > 0.0);
+}
+
+TEST_CASE("any_hit_in_bvh: whether there is a hit before the distance", "[09-bvh][build_bvh][any_hit_in_bvh]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 150, 20);
+    const Bvh bvh = build_bvh(scene.surfaces());
+    for (int i = 0; i < 1500; ++i) {
+        check_any_hit(bvh, scene.surfaces(), random.ray(5.0F), random.uniform(0.0F, 12.0F));
+        check_any_hit(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F), random.uniform(10.0F, 30.0F));
+    }
+}
+
+TEST_CASE("any_hit_in_bvh: a hit at the distance itself does not count",
+          "[09-bvh][build_bvh][any_hit_in_bvh][part]") {
+    Scene scene;
+    scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
+                                         glm::vec3{0.0F, 1.0F, 0.0F}, Fill{}));
+    const Bvh bvh = build_bvh(scene.surfaces());
+    const Ray ray{{0.0F, 0.0F, 4.0F}, k_down};
+    CHECK_FALSE(any_hit_in_bvh(bvh, ray, 3.9F));
+    CHECK_FALSE(any_hit_in_bvh(bvh, ray, 4.0F));
+    CHECK(any_hit_in_bvh(bvh, ray, 4.1F));
+    CHECK(any_hit_in_bvh(bvh, ray, std::numeric_limits<float>::infinity()));
+}
+
+TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared",
+          "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+    const Scene scene = hundred_sheets();
+    const Bvh bvh = build_bvh(scene.surfaces());
+    const auto sheets_tested = [&bvh](const Ray& ray) {
+        const std::uint64_t before = thread_stats().surface_tests;
+        CHECK(closest_hit_in_bvh(bvh, ray).has_value());
+        return thread_stats().surface_tests - before;
+    };
+    INFO("sheets that were tested, though the first one hides all others; a ray comes from each side");
+    CHECK(sheets_tested({{0.0F, 0.0F, 5.0F}, k_down}) < 50);
+    CHECK(sheets_tested({{0.0F, 0.0F, -105.0F}, -k_down}) < 50);
+}
+
+TEST_CASE("any_hit_in_bvh: ends with the first hit", "[09-bvh][build_bvh][any_hit_in_bvh][part]") {
+    const Scene scene = hundred_sheets();
+    const Bvh bvh = build_bvh(scene.surfaces());
+    const std::uint64_t before = thread_stats().surface_tests;
+    CHECK(any_hit_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down}, 200.0F));
+    INFO("sheets that were tested, though one was enough");
+    CHECK(thread_stats().surface_tests - before < 50);
+}
