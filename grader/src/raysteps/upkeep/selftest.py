@@ -5,6 +5,7 @@ from rich.console import Console
 from raysteps.kit.building import BuildTree
 from raysteps.kit.project import Project
 from raysteps.upkeep.checks import Check, Report, run_checks
+from raysteps.upkeep.packages import PAGES, WINDOW, install
 from raysteps.upkeep.selftest_checks import grade_checks, python_checks, run_pytest
 from raysteps.upkeep.selftest_programs import asan_checks, build, clang_checks, program_checks, same_pictures
 
@@ -13,6 +14,7 @@ _SLOW = "pytest, hostile submissions and packages for other systems"
 
 def selftest(project: Project, console: Console, *, full: bool) -> int:
     """All checks, or all that need no more than the basic tools."""
+    install((*PAGES, *WINDOW))  # before anything is configured; what cannot be had is skipped by its tests
     tree = BuildTree(project, "dev", project.build / "dev", project.steps)
     checks = [Check("build everything, warnings are errors", lambda: build(tree, [])), *program_checks(tree)]
     checks.append(Check("all structures give the same picture", lambda: same_pictures(project, tree)))

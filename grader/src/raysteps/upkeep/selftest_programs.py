@@ -1,8 +1,6 @@
 """Checks that build the C++ programs and run them, with the usual compiler, with sanitizers and with clang."""
 
-import os
 import shutil
-import subprocess
 from functools import partial
 from pathlib import Path
 
@@ -11,6 +9,7 @@ from raysteps.kit.building import BuildTree, what_failed
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.upkeep.checks import Check, Report
+from raysteps.upkeep.packages import CLANG, install
 from raysteps.upkeep.same_picture import scenes_that_differ
 
 _TEST_SECONDS = 900
@@ -65,17 +64,8 @@ def asan_checks(project: Project) -> list[Check]:
     return [Check(name, lambda: build(tree, targets)), *program_checks(tree, ", sanitized")]
 
 
-def _install_clang() -> bool:
-    """Whether clang++ is there, after an attempt to install it where that is possible."""
-    if shutil.which("clang++") is None and shutil.which("apt-get") is not None:
-        admin = [] if os.geteuid() == 0 else ["sudo", "-n"]
-        install = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "install", "-y", "clang"]
-        for words in ([*admin, "apt-get", "update"], install):
-            try:
-                subprocess.run(words, check=False, capture_output=True, stdin=subprocess.DEVNULL, timeout=900)
-            except (OSError, subprocess.TimeoutExpired):
-                return False
-    return shutil.which("clang++") is not None
+def _has_clang() -> bool:
+    return shutil.which("clang++") is not None or install(CLANG)
 
 
 def _fuzz(project: Project, tree: BuildTree) -> Report:
@@ -87,7 +77,7 @@ def _fuzz(project: Project, tree: BuildTree) -> Report:
 
 
 def clang_checks(project: Project) -> list[Check]:
-    if not _install_clang():
+    if not _has_clang():
         missing = Report("skipped", "install: clang")
         return [Check(name, lambda: missing) for name in ("build everything with clang", "fuzz-readers for 60 s")]
     compiler = ("-DCMAKE_CXX_COMPILER=clang++",)
