@@ -1,6 +1,7 @@
 """A real headless Chromium for the tests of pages; whatever a page asks the network for fails its test."""
 
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -50,7 +51,7 @@ class Watched:
         self._contexts: list[BrowserContext] = []
         self.troubles: list[str] = []
         self.allowed: list[str] = []  # beginnings of addresses, such as of a server that a test started
-        self.expected = ""  # a word of the trouble that a test makes on purpose
+        self.expected = ""  # a pattern of the trouble that a test makes on purpose
 
     def open(
         self, where: Path | str, width: int = 1440, scheme: Scheme = "light", height: int = 900, *, calm: bool = False
@@ -93,7 +94,7 @@ def watched(browser: "Browser") -> Iterator[Watched]:
     pages = Watched(browser)
     yield pages
     pages.close()
-    wanted = [trouble for trouble in pages.troubles if pages.expected and pages.expected in trouble]
+    wanted = [trouble for trouble in pages.troubles if pages.expected and re.search(pages.expected, trouble)]
     assert [trouble for trouble in pages.troubles if trouble not in wanted] == []
     assert bool(wanted) == bool(pages.expected)
 

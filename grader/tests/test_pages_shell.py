@@ -34,13 +34,13 @@ def test_a_script_that_was_put_in_does_not_run(watched: Watched, tmp_path: Path)
     path.write_text(
         text.replace("</main>", "<script>window.ran = true</script><p onclick='1'></main>"), encoding="utf-8"
     )
-    watched.expected = "script-src"
+    watched.expected = "script-src|Content Security Policy"
     page = watched.open(path)
     assert page.evaluate("window.ran === undefined")
 
 
 @pytest.mark.parametrize("address", ["https://example.org/", "file-that-is-not-here.json"])
 def test_a_page_may_ask_nobody(watched: Watched, tmp_path: Path, address: str) -> None:
-    watched.expected = "connect-src"
+    watched.expected = "connect-src|Content Security Policy"
     page = watched.open(_page(tmp_path))
     assert page.evaluate("address => fetch(address).then(() => 'answered', () => 'refused')", address) == "refused"
