@@ -26,6 +26,8 @@ struct Meeting {
     std::optional<std::size_t> surface;  ///< nothing: no surface that was tested gave this hit
     std::string kind;
     glm::vec3 point{0.0F};  ///< step 01's point_at for the distance
+    std::optional<glm::vec3> mirrored;   ///< from step 05 on: step 03's mirror of the ray
+    std::optional<glm::vec3> refracted;  ///< from step 08 on, glass: step 08's refract of the ray; nothing: it cannot
 };
 
 /// Why a surface that the ray does meet was not found.

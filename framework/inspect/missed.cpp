@@ -48,8 +48,8 @@ public:
         if (place.lists_wanted) {
             listing_ = place.box;
             entered_ = entered_ || (asked != recorder_.asked_boxes().end() && asked->second);
-        } else if (place.listed > 0 || !around_) {
-            around_ = place.box;
+        } else {
+            around_ = place.box;  // the last one is the smallest, as boxes come before those within them
         }
     }
 
@@ -63,7 +63,7 @@ public:
             missed.reason = entered_ ? MissReason::not_tested : MissReason::not_visited;
             missed.box = listing_;
         } else if (around_) {
-            missed.reason = surface_.overlaps(*around_) ? MissReason::not_listed : MissReason::no_overlap;
+            missed.reason = overlaps_all() ? MissReason::not_listed : MissReason::no_overlap;
             missed.box = around_;
         } else {
             missed.reason = MissReason::no_box;
@@ -71,6 +71,18 @@ public:
     }
 
 private:
+    /// Smaller and smaller boxes around the point, as a tree has them: the surface touches them all.
+    [[nodiscard]] bool overlaps_all() const {
+        Box box = *around_;
+        for (int i = 0; i < 8; ++i) {
+            if (!surface_.overlaps(box)) {
+                return false;
+            }
+            box = {glm::mix(box.min, point_, 0.5F), glm::mix(box.max, point_, 0.5F)};
+        }
+        return true;
+    }
+
     const Surface& surface_;
     glm::vec3 point_;
     const Recorder& recorder_;

@@ -7,22 +7,30 @@ namespace {
 
 void write_color(JsonWriter& json, const std::optional<Color>& color) { color ? json.vector(*color) : json.null(); }
 
+void write_number(JsonWriter& json, const std::optional<float>& number) {
+    number ? json.number(*number) : json.null();
+}
+
+void write_whole(JsonWriter& json, const std::optional<std::uint64_t>& number) {
+    number ? json.whole(*number) : json.null();
+}
+
 void write_box(JsonWriter& json, const BoxEvent& event) {
     json.begin_object().key("min").vector(event.box.min).key("max").vector(event.box.max);
     json.key("enter");
-    event.part ? json.number(event.part->enter) : json.null();
+    write_number(json, event.part ? std::optional(event.part->enter) : std::nullopt);
     json.key("leave");
-    event.part ? json.number(event.part->leave) : json.null();
+    write_number(json, event.part ? std::optional(event.part->leave) : std::nullopt);
     json.key("level");
     event.level ? json.whole(static_cast<std::uint64_t>(*event.level)) : json.null();
     json.key("listed");
-    event.listed ? json.whole(*event.listed) : json.null();
+    write_whole(json, event.listed);
     json.end_object();
 }
 
 void write_test(JsonWriter& json, const SurfaceEvent& event) {
     json.begin_object().key("surface").whole(event.surface).key("distance");
-    event.distance ? json.number(*event.distance) : json.null();
+    write_number(json, event.distance);
     json.key("boxes_before").whole(event.boxes_before).end_object();
 }
 
@@ -38,7 +46,12 @@ void write_hit(JsonWriter& json, const Meeting& meeting) {
     meeting.surface ? json.whole(*meeting.surface) : json.null();
     json.key("kind").text(meeting.kind).key("distance").number(hit.distance);
     json.key("position").vector(hit.position).key("point_at").vector(meeting.point).key("normal").vector(hit.normal);
-    json.key("ray_direction").vector(hit.ray_direction).key("from_outside").flag(hit.from_outside).key("fill");
+    json.key("ray_direction").vector(hit.ray_direction).key("from_outside").flag(hit.from_outside);
+    json.key("mirrored");
+    write_color(json, meeting.mirrored);
+    json.key("refracted");
+    write_color(json, meeting.refracted);
+    json.key("fill");
     write_fill(json, hit.fill);
     json.end_object();
 }
@@ -97,13 +110,21 @@ void write_ray(JsonWriter& json, const RayNode& node) {
     json.line_break().begin_object().key("role").text(name_of(node.role));
     json.key("depth").whole(static_cast<std::uint64_t>(node.depth > 0 ? node.depth : 0));
     json.key("origin").vector(node.ray.origin).key("direction").vector(node.ray.direction).key("limit");
-    node.limit ? json.number(*node.limit) : json.null();
+    write_number(json, node.limit);
     json.line_break();
     write_search(json, node);
     json.key("hit");
-    node.hit ? write_hit(json, *node.hit) : void(json.null());
+    if (node.hit) {
+        write_hit(json, *node.hit);
+    } else {
+        json.null();
+    }
     json.key("missed");
-    node.missed ? write_missed(json, *node.missed) : void(json.null());
+    if (node.missed) {
+        write_missed(json, *node.missed);
+    } else {
+        json.null();
+    }
     json.line_break().key("lights").begin_array();
     for (const LightRecord& light : node.lights) {
         write_light(json, light);

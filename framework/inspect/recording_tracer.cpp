@@ -122,6 +122,13 @@ void RecordingTracer::meet(RayNode& node, const HitRecord& hit, const Surface* s
     Meeting& meeting = node.hit.emplace();
     meeting.hit = hit;
     meeting.point = point_at(node.ray, hit.distance);
+    if (node.role != RayRole::shadow && options().step >= 5) {
+        meeting.mirrored = mirror(hit.ray_direction, hit.normal);
+    }
+    if (node.role != RayRole::shadow && options().step >= 8 && hit.fill.transmittance > 0.0F) {
+        const float index = hit.fill.index_of_refraction > 0.0F ? hit.fill.index_of_refraction : 1.0F;
+        meeting.refracted = refract(hit.ray_direction, hit.normal, hit.from_outside ? 1.0F / index : index);
+    }
     if (surface != nullptr) {
         meeting.surface = surface->order();
         meeting.kind = describe(*surface).kind;
