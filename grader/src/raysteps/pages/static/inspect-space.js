@@ -87,7 +87,7 @@ class InsideView {
     for (const lamp of this.lamps) this.painter.draw(lamp, [1, 0.92, 0.6, 1]);
     for (const surface of this.surfaces.filter(opaque)) this.painter.draw(surface.kept, [...this.shown(surface), 1]);
     for (const surface of this.surfaces.filter((one) => !opaque(one))) {
-      this.painter.draw(surface.kept, [...this.shown(surface), this.tested.has(surface.number) ? 0.45 : 0.13]);
+      this.painter.draw(surface.kept, [...this.shown(surface), this.tested.has(surface.number) ? 0.34 : 0.12]);
     }
   }
 

@@ -5,20 +5,20 @@ class PixelInside extends HTMLElement {
   connectedCallback() {
     this.spaces = JSON.parse(document.getElementById("data").textContent);
     this.names = Object.keys(this.spaces);
-    this.part = (name) => this.querySelector(`[data-part="${name}"]`);
+    this.piece = (name) => this.querySelector(`[data-part="${name}"]`);
     try {
       this.choose(this.names[0]);
     } catch (error) {
-      this.part("trouble").textContent = `${error.message} The tree of rays beside it tells the same in words.`;
-      this.part("trouble").hidden = false;
-      this.part("stage").hidden = true;
+      this.piece("trouble").textContent = `${error.message} The tree of rays beside it tells the same in words.`;
+      this.piece("trouble").hidden = false;
+      this.piece("stage").hidden = true;
       return;
     }
-    this.part("boxes").addEventListener("input", () => this.step(Number(this.part("boxes").value)));
-    this.part("play").addEventListener("click", () => this.play());
-    this.part("eye").addEventListener("click", () => this.view.fromTheEye());
-    this.part("side").addEventListener("click", () => this.view.fromTheSide());
-    this.part("solid").addEventListener("change", (event) => { this.view.solid = event.target.checked; this.view.later(); });
+    this.piece("boxes").addEventListener("input", () => this.step(Number(this.piece("boxes").value)));
+    this.piece("play").addEventListener("click", () => this.play());
+    this.piece("eye").addEventListener("click", () => this.view.fromTheEye());
+    this.piece("side").addEventListener("click", () => this.view.fromTheSide());
+    this.piece("solid").addEventListener("change", (event) => { this.view.solid = event.target.checked; this.view.later(); });
     for (const button of this.querySelectorAll("button[data-space]")) {
       button.addEventListener("click", () => this.choose(button.dataset.space));
     }
@@ -28,8 +28,8 @@ class PixelInside extends HTMLElement {
   /** @param {string} name whose rays: mine or the reference's */
   choose(name) {
     this.name = name;
-    const canvas = this.part("canvas").cloneNode();
-    this.part("canvas").replaceWith(canvas);
+    const canvas = this.piece("canvas").cloneNode();
+    this.piece("canvas").replaceWith(canvas);
     this.view = new InsideView(canvas, this.spaces[name]);
     for (const button of this.querySelectorAll("button[data-space]")) {
       button.setAttribute("aria-pressed", String(button.dataset.space === name));
@@ -44,18 +44,18 @@ class PixelInside extends HTMLElement {
     for (const entry of this.querySelectorAll(".ray[data-chosen]")) delete entry.dataset.chosen;
     const entry = document.getElementById(`${this.name}-${id}`);
     entry.dataset.chosen = "";
-    this.part("ray").textContent = entry.querySelector(".ray-title").textContent;
-    const scrubber = this.part("boxes");
+    this.piece("ray").textContent = entry.querySelector(".ray-title").textContent;
+    const scrubber = this.piece("boxes");
     scrubber.max = String(this.ray.boxes.length);
-    scrubber.disabled = this.part("play").disabled = this.ray.boxes.length === 0;
+    scrubber.disabled = this.piece("play").disabled = this.ray.boxes.length === 0;
     this.step(this.ray.boxes.length);
   }
 
   /** @param {number} count how many boxes of the chosen ray are shown */
   step(count) {
-    this.part("boxes").value = String(count);
+    this.piece("boxes").value = String(count);
     this.view.show(this.ray, count);
-    this.part("box").textContent = this.boxWords(count);
+    this.piece("box").textContent = this.boxWords(count);
     for (const line of this.querySelectorAll("li[aria-current]")) line.removeAttribute("aria-current");
     const entry = document.getElementById(`${this.name}-${this.ray.id}`);
     entry.querySelector(`:scope > .ray-body > .boxes li[data-box="${count}"]`)?.setAttribute("aria-current", "step");
@@ -72,8 +72,8 @@ class PixelInside extends HTMLElement {
 
   play() {
     if (this.timer) return this.stop();
-    let count = Number(this.part("boxes").value) % this.ray.boxes.length;
-    this.part("play").textContent = "Stop";
+    let count = Number(this.piece("boxes").value) % this.ray.boxes.length;
+    this.piece("play").textContent = "Stop";
     this.timer = setInterval(() => {
       this.step(++count);
       if (count >= this.ray.boxes.length) this.stop();
@@ -84,7 +84,7 @@ class PixelInside extends HTMLElement {
   stop() {
     clearInterval(this.timer);
     this.timer = 0;
-    this.part("play").textContent = "Play";
+    this.piece("play").textContent = "Play";
   }
 
   /** A ray's button chooses it; a line of its boxes moves the scrubber there. */
@@ -97,7 +97,7 @@ class PixelInside extends HTMLElement {
     if (entry.dataset.space !== this.name) this.choose(entry.dataset.space);
     this.select(entry.dataset.ray);
     if (box) this.step(Number(box.dataset.box));
-    if (button) this.part("stage").scrollIntoView({ block: "nearest" });
+    if (button) this.piece("stage").scrollIntoView({ block: "nearest" });
   }
 }
 
