@@ -60,7 +60,8 @@ def ball_record(*, lit: bool = True) -> dict[str, Any]:
     axes = {"right": [1, 0, 0], "up": [0, 1, 0], "forward": [0, 0, -1], "half_width": 0.48, "half_height": 0.36}
     record |= {"camera": camera, "frame": axes, "background": [0.2, 0.3, 0.5]}
     record |= {"lights": [{"position": [0, 0, 8], "color": [1, 1, 1]}], "structure": {"boxes": 2, "references": 2}}
-    record |= {"ray": eye, "endless": False, "color": eye["color"], "mapped": [0.44, 0.33, 0.29] if lit else [0, 0, 0]}
+    record |= {"ray": eye, "endless": False, "color": eye["color"]}
+    record["mapped"] = [0.44, 0.33, 0.29] if lit else [0, 0, 0]
     record |= {
         "bytes": [113, 85, 73] if lit else [0, 0, 0],
         "rays": {"eye": 1, "shadow": 1, "reflect": 1, "refract": 0},

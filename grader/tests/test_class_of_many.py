@@ -61,7 +61,7 @@ def difference(expected: object, actual: object, place: str) -> str:
     if isinstance(expected, dict) and isinstance(actual, dict) and expected.keys() == actual.keys():
         found = (difference(expected[key], actual[key], f"{place}/{key}") for key in expected)
     elif isinstance(expected, list) and isinstance(actual, list) and len(expected) == len(actual):
-        found = (difference(*pair, f"{place}/{at}") for at, pair in enumerate(zip(expected, actual, strict=True)))
+        found = (difference(a, b, f"{place}/{at}") for at, (a, b) in enumerate(zip(expected, actual, strict=True)))
     else:
         return "" if expected == actual else f"{place}: {expected!r} became {actual!r}"
     return next(filter(None, found), "")
