@@ -87,10 +87,8 @@ def test_killed_and_gone_on_with(project: Project, tmp_path: Path) -> None:
     subprocess.run(_words(folder, killed, "--resume"), check=True, capture_output=True, timeout=_SECONDS)
     found = _results(killed)
     assert sorted(found) == sorted(expected)
-    different = [
-        f"{name}\n{difference(expected[name], found[name])}" for name in expected if expected[name] != found[name]
-    ]
-    assert not different, "\n".join(different)
+    differences = [difference(expected[name], found[name], name) for name in expected]
+    assert not any(differences), "\n".join(filter(None, differences))
     with closing(sqlite3.connect(killed / "class.sqlite")) as database:
         once = database.execute(
             "SELECT max(amount), min(amount), count(*) FROM (SELECT count(*) AS amount "
