@@ -44,7 +44,10 @@ def ball_record(*, lit: bool = True) -> dict[str, Any]:
     }
     light |= {"diffuse": [0.5, 0.2, 0.1], "specular": [0.3, 0.3, 0.3], "rays": [shadow]}
     eye = _ray(
-        *("eye", 1, [0, 0, 5], [0, 0, -1]),
+        "eye",
+        1,
+        [0, 0, 5],
+        [0, 0, -1],
         boxes=[_box(2.0, 3.0, 0), _box(1.0, None, 1)],
         tests=[{"surface": 0, "distance": 4.0, "boxes_before": 1}],
         hit=_hit(0, [0, 0, 1]),
