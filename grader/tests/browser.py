@@ -88,7 +88,7 @@ class Watched:
             self.troubles.append(f"asked for {request.url}")
 
     def _console(self, message: "ConsoleMessage") -> None:
-        if message.type in ("error", "warning"):
+        if message.type in ("error", "warning") and "GL Driver Message" not in message.text:  # the driver, not the page
             self.troubles.append(f"console: {message.text}")
 
     def _error(self, error: "Error") -> None:

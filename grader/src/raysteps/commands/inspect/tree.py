@@ -9,7 +9,7 @@ from raysteps.common.text import count
 
 Key = tuple[str, ...]
 
-_TITLES = {
+TITLES = {
     "eye": "eye ray",
     "reflect": "reflected ray",
     "refract": "refracted ray",
@@ -47,7 +47,7 @@ def _hit(ray: Record, key: Key, level: int) -> Iterator[Line]:
         yield Line((*key, "normal"), level + 1, f"normal {point(hit['normal'])}")
 
 
-def _verdict(light: Record) -> str:
+def light_words(light: Record) -> str:
     if light["lit"]:
         return "visible" if light["rays"] else "counts"
     hit = light["rays"][-1]["hit"] if light["rays"] else None
@@ -56,7 +56,7 @@ def _verdict(light: Record) -> str:
 
 def _light(light: Record, key: Key, level: int) -> Iterator[Line]:
     number = light["light"] + 1
-    yield Line((*key, f"light{number}"), level, f"light {number}: {_verdict(light)}")
+    yield Line((*key, f"light{number}"), level, f"light {number}: {light_words(light)}")
     for ray in light["rays"]:
         text = f"shadow ray {point(ray['origin'])} towards {point(ray['direction'])}"
         yield Line((*key, f"shadow{number}"), level + 1, text)
@@ -67,7 +67,7 @@ def _light(light: Record, key: Key, level: int) -> Iterator[Line]:
 
 def _ray(ray: Record, key: Key, level: int, step: int) -> Iterator[Line]:
     depth = "" if ray["role"] == "eye" else f", depth {ray['depth']}"
-    text = f"{_TITLES[ray['role']]}{depth}: {point(ray['origin'])} towards {point(ray['direction'])}"
+    text = f"{TITLES[ray['role']]}{depth}: {point(ray['origin'])} towards {point(ray['direction'])}"
     yield Line((*key, "ray"), level, text)
     if step > 1:
         yield from _search(ray, key, level + 1)
