@@ -8,9 +8,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
+from raysteps.commands.inspect.html import write_page
+from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.parting import find_parting
 from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
 from raysteps.commands.inspect.side_by_side import print_trees
+from raysteps.commands.inspect.values import Record
 from raysteps.commands.inspect.verdict import print_verdict
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
@@ -39,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--against", choices=["reference"], help="both trees side by side, and where they part; exit code 1 if they do"
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the record there, too")
+    parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")
 
 
 def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
@@ -110,18 +114,34 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         _tell_problem(inspected, program, wish)
         return 1
     _write_json(arguments, inspected, console)
+    assert inspected.record is not None
     if reference is None:
         sys.stdout.write(inspected.text)
+        _write_html(arguments, console, inspected.record)
         return 0
-    return compare(project, inspected, inspect(reference, wish), console)
+    return _compare(project, arguments, inspected.record, inspect(reference, wish), console)
 
 
-def compare(project: Project, mine: Inspected, reference: Inspected, console: Console) -> int:
+def _write_html(
+    arguments: argparse.Namespace,
+    console: Console,
+    record: Record,
+    reference: Record | None = None,
+    parting: Difference | None = None,
+) -> None:
+    if arguments.html is not None:
+        write_page(record, reference, parting, arguments.html)
+        console.print(f"Page: {escape(str(arguments.html))}", soft_wrap=True, highlight=False)
+
+
+def _compare(
+    project: Project, arguments: argparse.Namespace, mine: Record, reference: Inspected, console: Console
+) -> int:
     """Both trees, and the first place where they part."""
-    assert mine.record is not None
     if reference.record is None:
         raise UsageError(f"the reference's program {reference.problem}")
-    parting = find_parting(mine.record, reference.record)
-    print_trees(console, mine.record, reference.record, parting)
-    print_verdict(console, read_steps(project), mine.record, reference.record, parting)
+    parting = find_parting(mine, reference.record)
+    print_trees(console, mine, reference.record, parting)
+    print_verdict(console, read_steps(project), mine, reference.record, parting)
+    _write_html(arguments, console, mine, reference.record, parting)
     return 0 if parting is None else 1

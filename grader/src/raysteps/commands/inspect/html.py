@@ -6,7 +6,7 @@ from raysteps.commands.inspect.page_rays import PageRay, page_ray, shown_color
 from raysteps.commands.inspect.page_space import space_of
 from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.values import Record
-from raysteps.common.files import write_bytes
+from raysteps.exports.formats import write_out
 from raysteps.pages.page import render_page
 
 _SCRIPTS = ("space-vectors", "space-shapes", "space-painter", "space-orbit", "inspect-space", "inspect")
@@ -41,4 +41,4 @@ def page_html(record: Record, reference: Record | None = None, parting: Differen
 
 def write_page(record: Record, reference: Record | None, parting: Difference | None, target: Path) -> None:
     """Writes the page of one record, or of two beside each other with the first difference marked."""
-    write_bytes(target, page_html(record, reference, parting).encode())
+    write_out(target, page_html(record, reference, parting).encode())
