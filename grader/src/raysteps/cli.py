@@ -11,6 +11,7 @@ from rich.console import Console
 
 from raysteps.classroom import command as classroom
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
+from raysteps.commands.course import command as course
 from raysteps.commands.demo import demo
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
@@ -45,6 +46,8 @@ def _parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    course.add_arguments(commands.add_parser)
 
     add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
     add.add_argument("args", nargs=argparse.REMAINDER)
@@ -95,6 +98,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
     match arguments.command:
         case "check":
             return check(project, arguments.steps, console)
+        case name if name in course.COMMANDS:
+            return course.run(project, arguments, console)
         case "replay":
             return replay(project, arguments.case, arguments.submission, console)
         case "grade":

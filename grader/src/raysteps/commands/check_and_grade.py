@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.commands.course.remembered import remember
 from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
@@ -71,6 +72,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
+        remember(project, results, submission.sources)
     print_details(console, results, kit.steps, out, lambda case: f"./raysteps replay {case}")
     console.print()
     print_table(console, results)
