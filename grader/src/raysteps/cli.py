@@ -16,6 +16,7 @@ from raysteps.commands.demo import demo
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
+from raysteps.commands.watch import command as watch
 from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
@@ -47,6 +48,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
+    watch.add_arguments(commands.add_parser("watch", help="build, test and draw a step again with every save"))
     course.add_arguments(commands.add_parser)
 
     add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
@@ -96,6 +98,8 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
 def _run(arguments: argparse.Namespace, console: Console) -> int:
     project = here()
     match arguments.command:
+        case "watch":
+            return watch.run(project, arguments, console)
         case "check":
             return check(project, arguments.steps, console)
         case name if name in course.COMMANDS:

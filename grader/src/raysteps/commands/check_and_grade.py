@@ -17,6 +17,7 @@ from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.case_files import place_of
+from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
@@ -61,18 +62,25 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
-def check(project: Project, names: list[str], console: Console) -> int:
-    """Checks the steps in the repository and explains what is wrong. Your own code needs no sandbox."""
-    chosen = choose(read_steps(project), names)
+def check_steps(project: Project, chosen: list[Step], say: Say) -> tuple[BuiltKit, Results]:
+    """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
     out = project.build / "check"
-    with console.status("starting") as status, one_at_a_time(project.build / "check.lock"):
-        say = progress(console, status)
+    with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say)
         clear(out, kit.steps, chosen)
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
         remember(project, results, submission.sources)
+    return kit, results
+
+
+def check(project: Project, names: list[str], console: Console) -> int:
+    """Checks the steps in the repository and explains what is wrong."""
+    chosen = choose(read_steps(project), names)
+    out = project.build / "check"
+    with console.status("starting") as status:
+        kit, results = check_steps(project, chosen, progress(console, status))
     print_details(console, results, kit.steps, out, lambda case: f"./raysteps replay {case}")
     console.print()
     print_table(console, results)
