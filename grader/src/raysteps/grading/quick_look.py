@@ -7,7 +7,6 @@ from pathlib import Path
 
 from raysteps.common.text import listed
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.scoring import sum_up
 from raysteps.grading.visible_images import Gallery, judge
 from raysteps.grading.visible_tests import run_tests
 from raysteps.kit.built_kit import BuiltKit, Kind
@@ -83,7 +82,6 @@ class QuickLook:
         for case in self.step.images:
             result.images.append(judge(gallery, raytrace, self.step, case))
             self.tell(result)
-        result.messages += sum_up(result)
         passed = [item.passed for items in (result.tests, result.images) for item in items]
         result.status = "passed" if all(passed) else "partial" if any(passed) else "failed"
         return result

@@ -1,6 +1,7 @@
 """The page of `watch`: its state, and its HTML."""
 
 import json
+import re
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ from PIL import Image
 
 from raysteps.commands.watch.board import State
 from raysteps.commands.watch.inspecting import template
-from raysteps.commands.watch.view import View, is_right, passed_of, verdict
+from raysteps.commands.watch.view import Result, View, is_right, passed_of, verdict
 from raysteps.common.text import number
 from raysteps.kit.manifest import Step
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
@@ -18,6 +19,7 @@ from raysteps.pages.flip import flip_map
 from raysteps.pages.page import render_page
 from raysteps.pages.picture_data import NotAPicture, data_uri, gray_data
 
+_NUMBERS = re.compile(r"\d+ of \d+ [a-z ]+ (failed|did not pass|lost points)\.")
 _MOST_LOG = 20_000
 _PHASES = {"looking": "building and testing", "checking": "checking all of it", "idle": "watching"}
 _WORDS = {"mistake": "Most likely", "transformation": "It looks as if", "finding": "Look here"}
@@ -98,6 +100,11 @@ def _diagnosis(found: dict[str, Any]) -> State:
     return {"word": _WORDS[found["kind"]]} | {key: found[key] for key in ("title", "sees", "cause", "hint", "alike")}
 
 
+def _messages(result: Result) -> list[str]:
+    """Those that say more than the numbers which the page shows anyway."""
+    return [message for message in result["messages"] if not _NUMBERS.fullmatch(message)]
+
+
 def _step(step: Step) -> State:
     return {"number": step.number, "id": step.id, "title": step.title, "points": number(step.points)}
 
@@ -117,7 +124,7 @@ def state_of(view: View) -> State:
         "complete": view.complete or view.gone or bool(view.problem),
         "full": view.full,
         "verdict": {"tone": tone, "text": text},
-        "messages": result["messages"] if result else [],
+        "messages": _messages(result) if result else [],
         "log": result["build_log"][:_MOST_LOG] if result else "",
         "diagnoses": [_diagnosis(found) for found in result["diagnoses"]] if result else [],
         "tests": _tests(result["tests"] if result else []),

@@ -3,6 +3,7 @@
 import secrets
 import socket
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -22,6 +23,7 @@ _HEADERS = {
 }
 _SIGN_OF_LIFE_SECONDS = 5.0
 _PATIENCE_SECONDS = 10.0
+_FAREWELL_SECONDS = 0.5
 _MOST_LISTENERS = 16
 
 MakePage = Callable[[str], str]  # from the state, as JSON, to HTML
@@ -140,6 +142,9 @@ class PageServer:
     def close(self) -> None:
         """Open pages hear of it first."""
         self._board.close()
+        end = time.monotonic() + _FAREWELL_SECONDS
+        for _ in range(_MOST_LISTENERS):
+            self._server.listeners.acquire(timeout=max(0.0, end - time.monotonic()))
         self._server.shutdown()
         with suppress(OSError):
             self._server.socket.shutdown(socket.SHUT_RDWR)

@@ -64,9 +64,10 @@ class Showing:
                 for line in message.splitlines():
                     self.line(f"  {line}")
             return
+        if not view.full:
+            self._tests(view.result)
+            self._pictures(view.result)
         self._diagnoses(view.result)
-        self._tests(view.result)
-        self._pictures(view.result)
         self._hidden(view.result)
         if view.full and not view.is_done and not view.result["cumulative"]["passed"]:
             self.line(f"  together: {view.result['cumulative']['message']}")

@@ -1,14 +1,12 @@
 "use strict";
 
-/** A list of facts; those without a text are left out. */
+/** A list of facts; those without a text are left out, and so is a list without facts. */
 function watchFacts(facts) {
-  const list = make("dl", { class: "watch-facts" });
-  for (const [label, text, mono] of facts) {
-    if (text) {
-      list.append(make("dt", {}, label), make("dd", {}, mono ? make("code", { class: "watch-lines" }, text) : text));
-    }
-  }
-  return list;
+  const told = facts.filter(([, text]) => text);
+  const rows = told.flatMap(([label, text, mono]) => [
+    make("dt", {}, label), make("dd", {}, mono ? make("code", { class: "watch-lines" }, text) : text),
+  ]);
+  return rows.length ? [make("dl", { class: "watch-facts" }, ...rows)] : [];
 }
 
 function watchPanel(tone, ...children) {
@@ -19,36 +17,44 @@ function watchName(text) {
   return make("p", { class: "watch-name" }, text);
 }
 
-/** @param {{message: string, log: string, tone: string}} build */
+/** Lines that keep their columns: wide ones scroll in their own box. */
+function watchLines(text, label) {
+  return make("pre", { tabindex: 0, role: "region", "aria-label": label }, text);
+}
+
+/** The first line is a sentence, what follows are lines of the source. */
+function watchMessage(message, tone) {
+  const [first, ...lines] = message.replace(/^It does not build: /, "").split("\n");
+  const source = lines.length ? [watchLines(lines.join("\n"), "lines of the source")] : [];
+  return watchPanel(tone, make("p", {}, first), ...source);
+}
+
 function watchMessages(state) {
-  const parts = [];
-  for (const message of state.messages) {
-    const [first, ...lines] = message.split("\n");
-    const tone = state.verdict.tone === "plain" ? "plain" : "warn";
-    parts.push(watchPanel(lines.length ? "bad" : tone, make("p", {}, first), ...(lines.length ? [make("pre", {}, lines.join("\n"))] : [])));
-  }
+  const tone = { bad: "bad", plain: "plain" }[state.verdict.tone] ?? "warn";
+  const parts = state.messages.map((message) => watchMessage(message, tone));
   if (state.log) {
-    parts.push(make("details", {}, make("summary", {}, "All that the compiler said"), make("pre", {}, state.log)));
+    const summary = make("summary", {}, "All that the compiler said");
+    parts.push(make("details", {}, summary, watchLines(state.log, "what the compiler said")));
   }
   return parts;
 }
 
 function watchDiagnosis(found) {
   const facts = [["You see", found.sees], ["Cause", found.cause], ["Hint", found.hint], ["Or", found.alike.join("; ")]];
-  return watchPanel("warn", watchName(`${found.word}: ${found.title}`), watchFacts(facts));
+  return watchPanel("warn", watchName(`${found.word}: ${found.title}`), ...watchFacts(facts));
 }
 
 function watchTest(test) {
   const message = test.message ? [make("p", { class: "watch-lines" }, test.message)] : [];
   const facts = [["expected", test.expected, true], ["actual", test.actual, true], ["where", test.place, true]];
-  return watchPanel("bad", watchName(test.name), watchFacts(facts), ...message);
+  return watchPanel("bad", watchName(test.name), ...watchFacts(facts), ...message);
 }
 
 function watchHidden(item) {
   const facts = [
     ["given", item.given, true], ["expected", item.expected, true], ["actual", item.actual, true], ["again", item.again, true],
   ];
-  return watchPanel("bad", watchName(item.name), make("p", {}, item.message), watchFacts(facts));
+  return watchPanel("bad", watchName(item.name), make("p", {}, item.message), ...watchFacts(facts));
 }
 
 /** A heading with the numbers, then what failed. */
@@ -62,7 +68,7 @@ function watchKind(title, items, makeOne) {
 }
 
 function watchHint(hint) {
-  return watchPanel("plain", watchName(`Hint ${hint.level} of ${hint.of}`), make("p", { class: "watch-lines" }, hint.text));
+  return watchPanel("plain", watchName(`Hint ${hint.level} of ${hint.of}`), watchLines(hint.text, "the hint"));
 }
 
 /** Everything but the pictures. */
