@@ -58,7 +58,7 @@ def result_of(step: Step, source: str, out: Path, *, full: bool) -> StepResult:
     image.message = "" if right else "50.00% of the pixels are wrong."
     for role, value in (("mine", shade), ("reference", 200)):
         pixels = np.full((6, 8, 3), 100, dtype=np.uint8)
-        pixels[3, 5] = value
+        pixels[3, 5:] = value
         write_png(pixels, out / f"{role}.png")
     image.mine, image.reference = "mine.png", "reference.png"
     result.images = [image]

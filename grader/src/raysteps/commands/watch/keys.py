@@ -1,6 +1,7 @@
 """Single keys from the terminal, on Unix and on Windows. The terminal is as it was when all is over."""
 
 import os
+import re
 import sys
 import threading
 import time
@@ -11,6 +12,7 @@ from typing import Protocol
 from raysteps.commands.watch.events import Key, Post
 
 _LOOK_SECONDS = 0.2
+_SEQUENCE = re.compile(r"\x1b(?:\[[0-9;?]*[ -/]*[@-~]|O.|.)?", re.DOTALL)  # arrows, function keys, Alt with a letter
 _LONGEST = 4  # letters that come at once; more were pasted, and by mistake
 
 
@@ -26,7 +28,8 @@ class Keyboard(Protocol):
 
 def letters(text: str) -> list[str]:
     """What was typed: no arrows and function keys, which come as sequences, and nothing pasted."""
-    if text.startswith("\x1b") or len(text) > _LONGEST:
+    text = _SEQUENCE.sub("", text)
+    if len(text) > _LONGEST:
         return []
     return [" " if letter in "\r\n" else letter for letter in text if letter.isprintable() or letter in "\r\n"]
 
