@@ -1,7 +1,10 @@
-"""The files that are made from the database: of each submission results.json, pictures and cases; and two tables."""
+"""The files that are made from the database: of each submission results.json, its page,
+pictures and cases; and two tables."""
 
 import json
+import sys
 from collections.abc import Container, Iterable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +13,9 @@ from raysteps.classroom.spreadsheet import Cell, csv_bytes
 from raysteps.common.files import write_bytes, write_if_changed, write_json
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.feedback import withhold
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import here
+from raysteps.reports.student import REPORT, try_student_page
 
 SUBMISSIONS = "submissions"
 _TABLES = ("results.csv", "class.json")
@@ -32,6 +38,11 @@ def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> se
     return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
 
 
+@cache
+def _steps() -> list[Step]:
+    return read_steps(here())
+
+
 def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     """The result that counts. Of a fault there is only fault.txt."""
     row = database.current(name)
@@ -42,15 +53,17 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(document, files)
     _forget_files(folder, shown)
-    for path in sorted(shown):
-        write_if_changed(folder / path, files[path])
+    changed = [write_if_changed(folder / path, files[path]) for path in sorted(shown)]
     if document is not None:
         text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
-        write_if_changed(folder / "results.json", text.encode())
+        changed.append(write_if_changed(folder / "results.json", text.encode()))
+        if any(changed) or not (folder / REPORT).is_file():
+            try_student_page(folder, _steps(), lambda words: print(f"raysteps: {name}: {words}", file=sys.stderr))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
-        (folder / "results.json").unlink(missing_ok=True)
+        for result in ("results.json", REPORT):
+            (folder / result).unlink(missing_ok=True)
 
 
 _HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")

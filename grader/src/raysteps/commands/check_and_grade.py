@@ -21,6 +21,7 @@ from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
+from raysteps.reports.student import REPORT, replay_beside, try_student_page
 from raysteps.results.model import Results
 from raysteps.sandbox.choice import find_sandbox
 from raysteps.sandbox.open_air import OpenAir
@@ -42,7 +43,8 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
     stay for `replay` until their step is graded again."""
     usable_folder(out)
     try:
-        (out / "results.json").unlink(missing_ok=True)
+        for name in ("results.json", REPORT):
+            (out / name).unlink(missing_ok=True)
         for step in steps:
             folder = out / "pictures" / step.id
             if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
@@ -62,7 +64,16 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
-def check_steps(project: Project, chosen: list[Step], say: Say) -> tuple[BuiltKit, Results]:
+@dataclass(frozen=True)
+class Checked:
+    """What came of checking one's own steps; there is no page where it could not be made."""
+
+    kit: BuiltKit
+    results: Results
+    page: Path | None
+
+
+def check_steps(project: Project, chosen: list[Step], say: Say) -> Checked:
     """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
     out = project.build / "check"
     with one_at_a_time(project.build / "check.lock"):
@@ -72,7 +83,7 @@ def check_steps(project: Project, chosen: list[Step], say: Say) -> tuple[BuiltKi
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
         remember(project, results, submission.sources)
-    return kit, results
+        return Checked(kit, results, try_student_page(out, kit.steps, say))
 
 
 def check(project: Project, names: list[str], console: Console) -> int:
@@ -80,12 +91,12 @@ def check(project: Project, names: list[str], console: Console) -> int:
     chosen = choose(read_steps(project), names)
     out = project.build / "check"
     with console.status("starting") as status:
-        kit, results = check_steps(project, chosen, progress(console, status))
-    print_details(console, results, kit.steps, out, lambda case: f"./raysteps replay {case}")
+        checked = check_steps(project, chosen, progress(console, status))
+    print_details(console, checked.results, checked.kit.steps, out, replay_beside)
     console.print()
-    print_table(console, results)
-    print_files(console, out / "results.json")
-    return exit_code(results)
+    print_table(console, checked.results)
+    print_files(console, out / "results.json", checked.page)
+    return exit_code(checked.results)
 
 
 @dataclass(frozen=True)
@@ -102,6 +113,10 @@ class Wish:
 
 def grade(project: Project, wish: Wish, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
+
+    def again(case: str) -> str:
+        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+
     sandbox = find_sandbox(require=wish.require_sandbox)
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
@@ -112,14 +127,12 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         clear(out, kit.steps, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
-
-    def again(case: str) -> str:
-        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+        page = try_student_page(out, kit.steps, say, again)
 
     if wish.details:
         print_details(console, results, kit.steps, out, again)
         console.print()
     print_table(console, results)
     print_isolation(console, results)
-    print_files(console, out / "results.json")
+    print_files(console, out / "results.json", page)
     return results

@@ -59,8 +59,7 @@ def check(project: Project, name: str) -> None:
     with contextlib.suppress(AttributeError, OSError):
         os.nice(_UNHURRIED)
     chosen = choose(read_steps(project), [name])
-    _, results = check_steps(project, chosen, _say)
-    (result,) = results.steps
+    (result,) = check_steps(project, chosen, _say).results.steps
     _tell(result=asdict(result), out=str(project.build / "check"), complete=True)
 
 

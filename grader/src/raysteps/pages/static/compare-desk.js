@@ -1,5 +1,8 @@
 "use strict";
 
+/** A stage is narrow below so many CSS pixels. */
+const compareNarrow = 520;
+
 /** One comparison at work: what is looked at, and what the reader does with it. */
 class CompareDesk {
   #shared;
@@ -8,8 +11,6 @@ class CompareDesk {
   #timer = 0;
   #rate = 1;
   #playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  /** @type {Shown[]} */
-  #shown = [];
   #hover = null;
   #cursor = null;
   #mark = null;
@@ -45,10 +46,9 @@ class CompareDesk {
   }
 
   #actions() {
-    const middle = () => [this.#size.width / 2, this.#size.height / 2];
     return {
       view: (id) => this.choose(id),
-      zoom: (factor) => this.#zoomAt(factor, ...middle()),
+      zoom: (factor) => this.#shown[0]?.pane.zoomedAtCentre(this.#shared, factor),
       zoomAt: (factor, left, top) => this.#zoomAt(factor, left, top),
       fit: () => this.#shared.set(1, 0.5, 0.5),
       pull: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, right, down),
@@ -79,6 +79,19 @@ class CompareDesk {
     return { width: this.ui.stage.clientWidth, height: this.ui.stage.clientHeight };
   }
 
+  /** What is on the stage, by what is known now: between two frames a view may change more than once. */
+  get #shown() {
+    const size = this.#size;
+    return this.pair?.width && size.width ? shownIn(this.view, this.pair, this.names, size, this.#shared, this) : [];
+  }
+
+  /** The stage has the shape of the pictures; where it is narrow, two of them stand one above the other. */
+  shape(width, height) {
+    const { stage } = this.ui;
+    const twice = this.view === "side" && stage.clientWidth < compareNarrow ? 2 : 1;
+    stage.style.aspectRatio = `${width} / ${height * twice}`;
+  }
+
   /** Takes the pictures when they were read. */
   take(pair) {
     this.pair = pair;
@@ -104,6 +117,9 @@ class CompareDesk {
     const button = this.ui.views.find(({ dataset }) => dataset.view === view);
     if (button && !button.disabled) {
       this.view = view;
+      if (this.pair?.width) {
+        this.shape(this.pair.width, this.pair.height);
+      }
       this.#tellView();
       this.#tick();
       this.refresh();
@@ -127,21 +143,22 @@ class CompareDesk {
     canvas.height = Math.round(size.height * devicePixelRatio);
     const context = canvas.getContext("2d");
     context.scale(devicePixelRatio, devicePixelRatio);
-    this.#shown = shownIn(this.view, this.pair, this.names, size, this.#shared, this);
+    const all = this.#shown;
     names.left.textContent = names.right.textContent = "";
-    for (const { pane, layer, clip, name, at } of this.#shown) {
+    for (const { pane, layer, clip, name, at } of all) {
       names[at].textContent = name;
       if (layer) {
         paintLayer(context, pane, layer, clip);
       }
     }
-    for (const { pane } of this.view === "slider" ? this.#shown.slice(0, 1) : this.#shown) {
+    for (const { pane } of this.view === "slider" ? all.slice(0, 1) : all) {
       this.#mark && paintFrame(context, pane, this.#mark, "mark");
       this.#cursor && paintFrame(context, pane, this.#cursor, "cursor");
     }
-    const { pane } = this.#shown[0];
+    const { pane } = all[0];
     this.ui.zoom.textContent = `${pane.zoom < 10 ? Number(pane.zoom.toFixed(1)) : Math.round(pane.zoom)}×`;
     this.ui.stage.classList.toggle("zoomed", this.#shared.zoom > 1);
+    this.ui.stage.classList.toggle("stacked", all.length > 1 && all[1].pane.box.top > 0);
   }
 
   #tellView() {
