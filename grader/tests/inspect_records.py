@@ -43,15 +43,9 @@ def ball_record(*, lit: bool = True) -> dict[str, Any]:
     shadow = _ray(
         "shadow", 1, [0, 0, 1.001], [0, 0, 1], limit=7.0, any=not lit, hit=None if lit else _hit(1, [0, 0, 1.5])
     )
-    light: dict[str, Any] = {
-        "light": 0,
-        "lit": lit,
-        "to_light": [0, 0, 1],
-        "mirrored": [0, 0, 1],
-        "l_n": 1.0,
-        "r_v": 1.0,
-    }
-    light |= {"diffuse": [0.5, 0.2, 0.1], "specular": [0.3, 0.3, 0.3], "rays": [shadow]}
+    light: dict[str, Any] = {"light": 0, "lit": lit, "to_light": [0, 0, 1], "mirrored": [0, 0, 1]}
+    light["shadow_ray"] = {"origin": shadow["origin"], "direction": shadow["direction"]}
+    light |= {"l_n": 1.0, "r_v": 1.0, "diffuse": [0.5, 0.2, 0.1], "specular": [0.3, 0.3, 0.3], "rays": [shadow]}
     eye = _ray(
         "eye",
         1,
