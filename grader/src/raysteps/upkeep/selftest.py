@@ -11,12 +11,18 @@ from raysteps.upkeep.selftest_programs import asan_checks, build, clang_checks, 
 _SLOW = "pytest, hostile submissions and packages for other systems"
 
 
+def _browser() -> Report:
+    return Report("passed") if has_program("chromium", "chromium") else Report("skipped", "install: chromium")
+
+
 def selftest(project: Project, console: Console, *, full: bool) -> int:
     """All checks, or all that need no more than the basic tools."""
     tree = BuildTree(project, "dev", project.build / "dev", project.steps)
     checks = [Check("build everything, warnings are errors", lambda: build(tree, [])), *program_checks(tree)]
     checks.append(Check("all structures give the same picture", lambda: same_pictures(project, tree)))
     checks += grade_checks(project, console, full=full)
+    if full:
+        checks.append(Check("a browser for the tests of pages", _browser))
     checks += python_checks(project)
     if full:
         checks.append(Check(_SLOW, lambda: run_pytest(project, "slow")))
