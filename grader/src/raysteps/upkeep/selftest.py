@@ -7,6 +7,7 @@ from raysteps.kit.project import Project
 from raysteps.upkeep.checks import Check, Report, run_checks
 from raysteps.upkeep.selftest_checks import grade_checks, python_checks, run_pytest
 from raysteps.upkeep.selftest_programs import asan_checks, build, clang_checks, program_checks, same_pictures
+from raysteps.upkeep.system_packages import has_program
 
 _SLOW = "pytest, hostile submissions and packages for other systems"
 
