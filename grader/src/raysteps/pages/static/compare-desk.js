@@ -1,0 +1,247 @@
+"use strict";
+
+/** One comparison at work: what is looked at, and what the reader does with it. */
+class CompareDesk {
+  #shared;
+  #inspect;
+  #frame = 0;
+  #timer = 0;
+  #rate = 1;
+  #playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  /** @type {Shown[]} */
+  #shown = [];
+  #hover = null;
+  #cursor = null;
+  #mark = null;
+
+  /**
+   * @param {string} label what is compared
+   * @param {{reference: string, mine: string}} names
+   * @param {SharedView} shared
+   * @param {string | null} inspect the command that inspects a pixel, with {x} and {y}
+   */
+  constructor(label, names, shared, inspect) {
+    this.names = names;
+    this.pair = null;
+    this.view = "slider";
+    this.split = 0.5;
+    this.blinkMine = false;
+    this.seen = false;
+    /** @type {(place: {x: number, y: number}) => void} */
+    this.onPixel = () => {};
+    this.#shared = shared;
+    this.#inspect = inspect;
+    const act = this.#actions();
+    this.ui = makeControls(label, names, act);
+    this.ui.inspect.hidden = !inspect;
+    this.#tellCommand();
+    listenToPointers(this.ui, act);
+    this.ui.root.addEventListener("keydown", (event) => {
+      if (this.pair && compareKey(event, this.ui, act)) {
+        event.preventDefault();
+      }
+    });
+    this.#tellView();
+  }
+
+  #actions() {
+    const middle = () => [this.#size.width / 2, this.#size.height / 2];
+    return {
+      view: (id) => this.choose(id),
+      zoom: (factor) => this.#zoomAt(factor, ...middle()),
+      zoomAt: (factor, left, top) => this.#zoomAt(factor, left, top),
+      fit: () => this.#shared.set(1, 0.5, 0.5),
+      pull: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, right, down),
+      push: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, -right * 40, -down * 40),
+      canZoom: (factor) => (factor < 1 ? this.#shared.zoom > 1 : true),
+      zoomed: () => this.#shared.zoom > 1,
+      splits: () => this.view === "slider",
+      split: (left) => this.#splitTo(left / this.#size.width),
+      splitNow: () => this.split,
+      splitTo: (split) => this.#splitTo(split),
+      hover: (left, top) => this.#point(this.#pixelAt(left, top)),
+      leave: () => this.#point(null),
+      pick: (left, top) => this.#keep(this.#pixelAt(left, top)),
+      keep: () => this.#keep(this.#cursor ?? this.#mark),
+      step: (right, down) => this.#step(right, down),
+      go: (which) => this.#go(which),
+      blinks: () => this.view === "blink",
+      play: () => this.#play(!this.#playing),
+      swap: () => this.#swap(),
+      rate: (rate) => {
+        this.#rate = rate;
+        this.#play(true);
+      },
+    };
+  }
+
+  get #size() {
+    return { width: this.ui.stage.clientWidth, height: this.ui.stage.clientHeight };
+  }
+
+  /** Takes the pictures when they were read. */
+  take(pair) {
+    this.pair = pair;
+    tellPair(this.ui, pair, this.names);
+    if (!pair.comparable) {
+      this.view = "side";
+    }
+    this.choose(this.view);
+  }
+
+  /** Nothing is drawn, and no memory of a canvas is held, while nobody sees it. */
+  see(seen) {
+    this.seen = seen;
+    this.#tick();
+    if (seen) {
+      this.refresh();
+    } else {
+      this.ui.canvas.width = this.ui.canvas.height = 0;
+    }
+  }
+
+  choose(view) {
+    const button = this.ui.views.find(({ dataset }) => dataset.view === view);
+    if (button && !button.disabled) {
+      this.view = view;
+      this.#tellView();
+      this.#tick();
+      this.refresh();
+    }
+  }
+
+  /** Draws before the next frame. */
+  refresh() {
+    this.#frame ||= requestAnimationFrame(() => {
+      this.#frame = 0;
+      if (this.seen && this.pair?.width && this.#size.width) {
+        this.#draw();
+      }
+    });
+  }
+
+  #draw() {
+    const { canvas, names } = this.ui;
+    const size = this.#size;
+    canvas.width = Math.round(size.width * devicePixelRatio);
+    canvas.height = Math.round(size.height * devicePixelRatio);
+    const context = canvas.getContext("2d");
+    context.scale(devicePixelRatio, devicePixelRatio);
+    this.#shown = shownIn(this.view, this.pair, this.names, size, this.#shared, this);
+    names.left.textContent = names.right.textContent = "";
+    for (const { pane, layer, clip, name, at } of this.#shown) {
+      names[at].textContent = name;
+      if (layer) {
+        paintLayer(context, pane, layer, clip);
+      }
+    }
+    for (const { pane } of this.view === "slider" ? this.#shown.slice(0, 1) : this.#shown) {
+      this.#mark && paintFrame(context, pane, this.#mark, "mark");
+      this.#cursor && paintFrame(context, pane, this.#cursor, "cursor");
+    }
+    const { pane } = this.#shown[0];
+    this.ui.zoom.textContent = `${pane.zoom < 10 ? Number(pane.zoom.toFixed(1)) : Math.round(pane.zoom)}×`;
+    this.ui.stage.classList.toggle("zoomed", this.#shared.zoom > 1);
+  }
+
+  #tellView() {
+    const { ui, view } = this;
+    ui.views.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.view === view)));
+    ui.stage.dataset.view = view;
+    ui.divider.hidden = view !== "slider";
+    ui.blink.hidden = view !== "blink";
+    ui.legend.hidden = view !== "flip";
+    ui.play.textContent = this.#playing ? "Pause" : "Play";
+    this.#splitTo(this.split);
+  }
+
+  #splitTo(split) {
+    this.split = Math.min(1, Math.max(0, split));
+    const percent = Math.round(this.split * 100);
+    this.ui.divider.style.left = `${this.split * 100}%`;
+    this.ui.divider.setAttribute("aria-valuenow", String(percent));
+    this.ui.divider.setAttribute("aria-valuetext", `${percent} % ${this.names.reference}, ${100 - percent} % ${this.names.mine}`);
+    this.refresh();
+  }
+
+  #zoomAt(factor, left, top) {
+    const under = this.#shown.find(({ pane }) => pane.contains(left, top)) ?? this.#shown[0];
+    under?.pane.zoomed(this.#shared, factor, left, top);
+  }
+
+  #pixelAt(left, top) {
+    return this.#shown.map(({ pane }) => pane.pixelAt(left, top)).find(Boolean) ?? null;
+  }
+
+  /** The pixel under the pointer; without one the readout keeps to the cursor or the mark. */
+  #point(pixel) {
+    const same = pixel?.x === this.#hover?.x && pixel?.y === this.#hover?.y;
+    if (!this.pair || same) {
+      return;
+    }
+    this.#hover = pixel;
+    this.#tellPixel(pixel ?? this.#cursor ?? this.#mark);
+  }
+
+  #tellPixel(pixel) {
+    tellPixel(this.ui.cells, this.pair, pixel);
+    if (pixel) {
+      this.onPixel(pixel);
+    }
+  }
+
+  #step(right, down) {
+    const from = this.#cursor ?? this.#mark ?? { x: this.pair.width >> 1, y: this.pair.height >> 1 };
+    const limit = (value, most) => Math.min(most - 1, Math.max(0, value));
+    this.#cursor = { x: limit(from.x + right, this.pair.width), y: limit(from.y + down, this.pair.height) };
+    this.#shown[0]?.pane.shows(this.#cursor) || this.#shown[0]?.pane.centred(this.#shared, this.#cursor);
+    this.#tellPixel(this.#cursor);
+    this.ui.say.textContent = pixelInWords(this.pair, this.names, this.#cursor);
+    this.refresh();
+  }
+
+  /** Marks a pixel and fills in the command that inspects it. */
+  #keep(pixel) {
+    if (pixel && this.pair) {
+      this.#mark = pixel;
+      this.#cursor = null;
+      this.#tellPixel(pixel);
+      this.#tellCommand();
+      this.refresh();
+    }
+  }
+
+  #tellCommand() {
+    const { command, copy } = this.ui;
+    const { x, y } = this.#mark ?? { x: "X", y: "Y" };
+    command.textContent = (this.#inspect ?? "").replace("{x}", x).replace("{y}", y);
+    copy.disabled = !this.#mark;
+  }
+
+  #go(which) {
+    const pixel = this.pair[which];
+    if (pixel) {
+      this.#keep(pixel);
+      this.#shown[0]?.pane.centred(this.#shared, pixel);
+      this.ui.say.textContent = pixelInWords(this.pair, this.names, pixel);
+    }
+  }
+
+  #swap() {
+    this.blinkMine = !this.blinkMine;
+    this.refresh();
+  }
+
+  #play(playing) {
+    this.#playing = playing;
+    this.#tellView();
+    this.#tick();
+  }
+
+  #tick() {
+    clearInterval(this.#timer);
+    if (this.seen && this.view === "blink" && this.#playing) {
+      this.#timer = setInterval(() => this.#swap(), 1000 / this.#rate);
+    }
+  }
+}
