@@ -1,4 +1,5 @@
-"""The files that are made from the database: of each submission results.json, pictures and cases; and two tables."""
+"""The files that are made from the database: of each submission results.json, pictures and cases; two tables and a
+page."""
 
 import json
 from collections.abc import Container, Iterable, Iterator
@@ -10,6 +11,7 @@ from raysteps.classroom.spreadsheet import Cell, csv_bytes
 from raysteps.common.files import write_bytes, write_if_changed, write_json
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.feedback import withhold
+from raysteps.reports import class_report
 
 SUBMISSIONS = "submissions"
 _TABLES = ("results.csv", "class.json")
@@ -86,7 +88,7 @@ def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
 
 def withdraw_tables(out: Path) -> None:
     """Before the first result changes: tables of earlier results beside new ones would be taken for theirs."""
-    for name in _TABLES:
+    for name in (*_TABLES, class_report.FILE):
         (out / name).unlink(missing_ok=True)
 
 
@@ -98,3 +100,4 @@ def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], do
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))
     write_json(out / facts, document)
+    class_report.write_class_report(document, out)
