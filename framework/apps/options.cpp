@@ -135,7 +135,9 @@ const std::map<std::string, Setter>& options_with_value() {
         {"--crop", [](auto& o, const auto& text) { o.crop = parse_crop(text); }},
         {"--map", [](auto& o, const auto& text) { o.map = parse_map(text); }},
         {"--map-scale",
-         [](auto& o, const auto& text) { o.map_scale = number_between("--map-scale", text, 1, 1'000'000'000); }},
+         [](auto& o, const auto& text) {
+             o.map_scale = static_cast<std::uint64_t>(number_between("--map-scale", text, 1, 1'000'000'000));
+         }},
         {"--accel", [](auto& o, const auto& text) { o.acceleration = parse_acceleration(text); }},
     };
     return setters;

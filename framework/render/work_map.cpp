@@ -35,8 +35,9 @@ std::string name_of(CostKind kind) {
 
 /// The next number of one digit and zeros that is good to halve in one's head.
 std::uint64_t rounded_up(std::uint64_t value) {
+    constexpr std::array<std::uint64_t, 7> k_digits{1, 2, 3, 4, 5, 6, 8};
     for (std::uint64_t ten = 1;; ten *= 10) {
-        for (const std::uint64_t digit : {1, 2, 3, 4, 5, 6, 8}) {
+        for (const std::uint64_t digit : k_digits) {
             if (digit * ten >= value) {
                 return digit * ten;
             }
