@@ -10,6 +10,7 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.classroom import command as classroom
+from raysteps.commands import report_page
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.demo import demo
 from raysteps.commands.leaderboard import command as leaderboard
@@ -68,6 +69,7 @@ def _parser() -> argparse.ArgumentParser:
     add.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
     add.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
 
+    report_page.add_arguments(commands.add_parser("report", help="make report.html of results that are there already"))
     classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
     leaderboard.add_arguments(commands.add_parser("leaderboard", help="rank submissions by counted work"))
     exports.add_arguments(commands.add_parser("export", help="for Gradescope, Classroom 50, Canvas and others"))
@@ -99,6 +101,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return replay(project, arguments.case, arguments.submission, console)
         case "grade":
             return exit_code(grade(project, _wish(project, arguments), console))
+        case "report":
+            return report_page.run(project, arguments, console)
         case "grade-class":
             return classroom.run(project, arguments, console)
         case "leaderboard":

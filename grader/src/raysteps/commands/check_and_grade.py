@@ -19,6 +19,7 @@ from raysteps.judge.case_files import place_of
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
+from raysteps.reports.student import REPORT, replay_beside, try_student_page
 from raysteps.results.model import Results
 from raysteps.sandbox.choice import find_sandbox
 from raysteps.sandbox.open_air import OpenAir
@@ -40,7 +41,8 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
     stay for `replay` until their step is graded again."""
     usable_folder(out)
     try:
-        (out / "results.json").unlink(missing_ok=True)
+        for name in ("results.json", REPORT):
+            (out / name).unlink(missing_ok=True)
         for step in steps:
             folder = out / "pictures" / step.id
             if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
@@ -71,10 +73,11 @@ def check(project: Project, names: list[str], console: Console) -> int:
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
-    print_details(console, results, kit.steps, out, lambda case: f"./raysteps replay {case}")
+        page = try_student_page(out, kit.steps, say)
+    print_details(console, results, kit.steps, out, replay_beside)
     console.print()
     print_table(console, results)
-    print_files(console, out / "results.json")
+    print_files(console, out / "results.json", page)
     return exit_code(results)
 
 
@@ -92,6 +95,10 @@ class Wish:
 
 def grade(project: Project, wish: Wish, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
+
+    def again(case: str) -> str:
+        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+
     sandbox = find_sandbox(require=wish.require_sandbox)
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
@@ -102,14 +109,12 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         clear(out, kit.steps, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
-
-    def again(case: str) -> str:
-        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+        page = try_student_page(out, kit.steps, say, again)
 
     if wish.details:
         print_details(console, results, kit.steps, out, again)
         console.print()
     print_table(console, results)
     print_isolation(console, results)
-    print_files(console, out / "results.json")
+    print_files(console, out / "results.json", page)
     return results

@@ -109,3 +109,11 @@ def write_class_report(document: Document, folder: Path) -> Path:
     path = folder / FILE
     write_bytes(path, class_page(document, _links(folder)).encode("utf-8", "replace"))
     return path
+
+
+def try_class_report(document: Document, folder: Path, say: Callable[[str], None]) -> None:
+    """As `write_class_report`; no page is worth the grades of a class."""
+    try:
+        write_class_report(document, folder)
+    except Exception as error:  # whatever it is, the tables are written
+        say(f"no {FILE}: {error!r}")

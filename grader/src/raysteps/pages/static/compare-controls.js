@@ -87,7 +87,7 @@ function makeControls(label, names, act) {
     make("span", { class: "muted" }, "slow"), ui.rate, make("span", { class: "muted" }, "fast"));
   const scale = make("canvas", { "aria-hidden": "true" });
   drawHeatLegend(scale);
-  ui.legend = make("div", { class: "compare-below", hidden: true }, make("span", {}, "0 the same"), scale, make("span", {}, "1 as different as can be"));
+  ui.legend = make("div", { class: "compare-below", hidden: true }, make("span", {}, "0 same"), scale, make("span", {}, "1 different"));
 
   ui.count = make("p", { class: "compare-count" }, "Counting appears when the pictures are seen.");
   ui.first = makeButton("First wrong pixel", { disabled: true }, () => act.go("first"));

@@ -1,5 +1,8 @@
 "use strict";
 
+/** A stage is narrow below so many CSS pixels. */
+const compareNarrow = 520;
+
 /** One comparison at work: what is looked at, and what the reader does with it. */
 class CompareDesk {
   #shared;
@@ -79,6 +82,13 @@ class CompareDesk {
     return { width: this.ui.stage.clientWidth, height: this.ui.stage.clientHeight };
   }
 
+  /** The stage has the shape of the pictures; where it is narrow, two of them stand one above the other. */
+  shape(width, height) {
+    const { stage } = this.ui;
+    const twice = this.view === "side" && stage.clientWidth < compareNarrow ? 2 : 1;
+    stage.style.aspectRatio = `${width} / ${height * twice}`;
+  }
+
   /** Takes the pictures when they were read. */
   take(pair) {
     this.pair = pair;
@@ -104,6 +114,9 @@ class CompareDesk {
     const button = this.ui.views.find(({ dataset }) => dataset.view === view);
     if (button && !button.disabled) {
       this.view = view;
+      if (this.pair?.width) {
+        this.shape(this.pair.width, this.pair.height);
+      }
       this.#tellView();
       this.#tick();
       this.refresh();
@@ -142,6 +155,7 @@ class CompareDesk {
     const { pane } = this.#shown[0];
     this.ui.zoom.textContent = `${pane.zoom < 10 ? Number(pane.zoom.toFixed(1)) : Math.round(pane.zoom)}×`;
     this.ui.stage.classList.toggle("zoomed", this.#shared.zoom > 1);
+    this.ui.stage.classList.toggle("stacked", this.#shown.length > 1 && this.#shown[1].pane.box.top > 0);
   }
 
   #tellView() {

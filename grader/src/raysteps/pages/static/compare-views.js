@@ -29,6 +29,21 @@ function flipLayer(pair) {
   return { raster: pair.heatRaster, numbers: (x, y) => [value(x, y)] };
 }
 
+/** Whether two pictures are larger one above the other than side by side. */
+function stacks(pair, { width, height }) {
+  const fit = (wide, high) => Math.min(wide / pair.width, high / pair.height);
+  return fit(width, height / 2) > fit(width / 2, height);
+}
+
+/** Two parts of a box, with a gap between them. */
+function halves(whole, stacked) {
+  const gap = 2;
+  const [width, height] = [(whole.width - gap) / 2, (whole.height - gap) / 2];
+  return stacked
+    ? [{ ...whole, height }, { ...whole, top: height + gap, height }]
+    : [{ ...whole, width }, { ...whole, left: width + gap, width }];
+}
+
 /**
  * What a view shows on a stage of this size.
  * @param {string} view
@@ -62,9 +77,8 @@ function shownIn(view, pair, names, size, shared, state) {
     case "flip":
       return single(flipLayer(pair), "FLIP: what a person sees differ");
     default: {
-      const width = (size.width - 2) / 2;
-      const [left, right] = [{ ...whole, width }, { ...whole, left: width + 2, width }];
-      return [show("reference", left, left, "left"), show("mine", right, right, "right")];
+      const [one, other] = halves(whole, stacks(pair, size));
+      return [show("reference", one, one, "left"), show("mine", other, other, "right")];
     }
   }
 }

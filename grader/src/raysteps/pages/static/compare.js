@@ -75,8 +75,8 @@ class ComparePictures extends HTMLElement {
     this.#desk = new CompareDesk(this.getAttribute("label") ?? "Pictures", names, this.#shared, this.getAttribute("inspect"));
     this.#desk.onPixel = ({ x, y }) => this.#tell(x, y);
     const sized = this.#image("reference") ?? this.#image("mine");
-    this.#desk.ui.stage.style.aspectRatio = `${sized?.getAttribute("width") ?? 4} / ${sized?.getAttribute("height") ?? 3}`;
     this.append(this.#desk.ui.root);
+    this.#desk.shape(Number(sized?.getAttribute("width") ?? 4), Number(sized?.getAttribute("height") ?? 3));
     compareResize.observe(this.#desk.ui.stage);
     this.dataset.state = "waiting";
   }
@@ -108,9 +108,6 @@ class ComparePictures extends HTMLElement {
     const pair = new PicturePair(...(await Promise.all(images.map((image) => image && readRaster(image)))));
     if (desk !== this.#desk) {
       return; // other pictures came meanwhile
-    }
-    if (pair.width) {
-      desk.ui.stage.style.aspectRatio = `${pair.width} / ${pair.height}`;
     }
     desk.take(pair);
     this.dataset.state = "ready";
