@@ -54,16 +54,27 @@ class Watched:
         self.expected = ""  # a pattern of the trouble that a test makes on purpose
 
     def open(
-        self, where: Path | str, width: int = 1440, scheme: Scheme = "light", height: int = 900, *, calm: bool = False
+        self,
+        where: Path | str,
+        width: int = 1440,
+        scheme: Scheme = "light",
+        height: int = 900,
+        *,
+        calm: bool = False,
+        touch: bool = False,
+        before: str = "",
     ) -> "Page":
-        """Opens a file, or an address that the test allowed. `calm` is a reader who wants no motion."""
+        """Opens a file, or an address that the test allowed. `calm` is a reader who wants no motion, `touch` one with
+        fingers; `before` is a script that runs before those of the page."""
         context = self._browser.new_context(
             viewport={"width": width, "height": height},
             color_scheme=scheme,
             reduced_motion="reduce" if calm else "no-preference",
+            has_touch=touch,
+            permissions=["clipboard-read", "clipboard-write"],
         )
         self._contexts.append(context)
-        context.add_init_script(_WATCH_POLICY)
+        context.add_init_script(_WATCH_POLICY + before)
         page = context.new_page()
         page.set_default_timeout(10_000)
         page.on("request", self._request)

@@ -46,6 +46,8 @@ def test_what_a_grade_depends_on_counts(copy: Project, name: str) -> None:
         "steps/01-camera-rays/.camera_rays.hpp.swp",
         "steps/01-camera-rays/camera_rays.hpp~",
         "steps/01-camera-rays/README.md",
+        "grader/src/raysteps/pages/page.py",
+        "grader/src/raysteps/reports/student.py",
         "scenes/mine.ppm",
         "scenes/.DS_Store",
         "grader/src/raysteps/__pycache__/cli.cpython-311.pyc",

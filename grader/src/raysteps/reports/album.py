@@ -11,7 +11,6 @@ from PIL import Image
 from raysteps.pages.flip import flip_map
 from raysteps.pages.picture_data import NotAPicture, PictureData, gray_data, picture_data
 
-_ROOM = 4_300_000  # characters; with all the rest the page stays below 5 MB
 _MOST_PIXELS = 1 << 22
 
 Place = tuple[str, str]  # step and name of the picture
@@ -70,8 +69,8 @@ def _wrong_first(document: Document) -> Iterator[tuple[Place, Document]]:
     return iter(sorted(images, key=lambda item: bool(item[1]["passed"])))
 
 
-def make_album(document: Document, folder: Path, room: int = _ROOM) -> dict[Place, Shown]:
-    """Wrong pictures come first, then the right ones, and maps last; what does not fit is left out."""
+def make_album(document: Document, folder: Path, room: int) -> dict[Place, Shown]:
+    """As many as fit into so many characters: the wrong ones first, then the right ones, and maps last."""
     album: dict[Place, Shown] = {}
     for place, image in _wrong_first(document):
         sides = {role: _read(_path(folder, image[role])) for role in ("reference", "mine")}

@@ -25,6 +25,7 @@ STATUS_WORDS = {
 }
 _SURE = {"mistake": "Most likely:", "transformation": "It looks as if", "finding": "Look here:"}
 _LOG = 20_000  # characters of what the compiler said
+_TEXT = 2_000  # of any other text
 _HINTS = ("a question", "an idea", "pseudocode")
 
 
@@ -42,7 +43,7 @@ def diagnosis_view(diagnosis: Document) -> dict[str, Any]:
 
 
 def _test(test: Document) -> dict[str, Any]:
-    texts = {key: clean(test[key]) for key in ("name", "message", "expression", "expanded", "location")}
+    texts = {key: clean(test[key], _TEXT) for key in ("name", "message", "expression", "expanded", "location")}
     return {**texts, "passed": test["passed"], "outcome": test["outcome"]}
 
 
@@ -56,7 +57,7 @@ def _hidden(item: Document, again: Again) -> dict[str, Any]:
         "percent": f"{min(item['share'] * 100, 100 if item['share'] >= 1 else 99.9):.3g} %",
         "message": clean(item["message"]),
         "case": [
-            (label, clean(text))
+            (label, clean(text, _TEXT))
             for label, text in (("Given", item["given"]), ("Expected", item["expected"]), ("Actual", item["actual"]))
             if text
         ],

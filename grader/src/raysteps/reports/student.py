@@ -10,11 +10,13 @@ from raysteps.common.text import clean, in_seconds, number
 from raysteps.kit.manifest import Step
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
 from raysteps.pages.page import render_page
-from raysteps.reports.album import make_album
+from raysteps.reports.album import Place, Shown, make_album
 from raysteps.reports.points import Part
 from raysteps.reports.steps import Again, step_view
 
 REPORT = "report.html"
+_MOST = 4_900_000  # bytes: a page that can be sent by mail
+_ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
 
 
@@ -47,8 +49,13 @@ def _sums(steps: Sequence[Mapping[str, Any]]) -> dict[str, float]:
 
 def student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step], again: Again = replay_beside) -> str:
     """The page of a results.json whose pictures lie in the folder. It shows what the document holds, and no more."""
+    text = _page(document, make_album(document, folder, _ROOM), steps, again)
+    excess = len(text.encode()) - _MOST
+    return text if excess <= 0 else _page(document, make_album(document, folder, _ROOM - excess), steps, again)
+
+
+def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequence[Step], again: Again) -> str:
     known = {step.id: step for step in steps}
-    album = make_album(document, folder)
     views = [step_view(result, known.get(result["id"]), album, again) for result in document["steps"]]
     name = clean(document["submission"], 200)
     context = {

@@ -7,8 +7,13 @@ from raysteps.kit.project import Project
 from raysteps.upkeep.checks import Check, Report, run_checks
 from raysteps.upkeep.selftest_checks import grade_checks, python_checks, run_pytest
 from raysteps.upkeep.selftest_programs import asan_checks, build, clang_checks, program_checks, same_pictures
+from raysteps.upkeep.system_packages import has_program
 
 _SLOW = "pytest, hostile submissions and packages for other systems"
+
+
+def _browser() -> Report:
+    return Report("passed") if has_program("chromium", "chromium") else Report("skipped", "install: chromium")
 
 
 def selftest(project: Project, console: Console, *, full: bool) -> int:
@@ -17,6 +22,8 @@ def selftest(project: Project, console: Console, *, full: bool) -> int:
     checks = [Check("build everything, warnings are errors", lambda: build(tree, [])), *program_checks(tree)]
     checks.append(Check("all structures give the same picture", lambda: same_pictures(project, tree)))
     checks += grade_checks(project, console, full=full)
+    if full:
+        checks.append(Check("a browser for the tests of pages", _browser))
     checks += python_checks(project)
     if full:
         checks.append(Check(_SLOW, lambda: run_pytest(project, "slow")))

@@ -1,8 +1,5 @@
 """Checks that build the C++ programs and run them, with the usual compiler, with sanitizers and with clang."""
 
-import os
-import shutil
-import subprocess
 from functools import partial
 from pathlib import Path
 
@@ -12,6 +9,7 @@ from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.upkeep.checks import Check, Report
 from raysteps.upkeep.same_picture import scenes_that_differ
+from raysteps.upkeep.system_packages import has_program
 
 _TEST_SECONDS = 900
 _FUZZ_SECONDS = 60
@@ -65,19 +63,6 @@ def asan_checks(project: Project) -> list[Check]:
     return [Check(name, lambda: build(tree, targets)), *program_checks(tree, ", sanitized")]
 
 
-def _install_clang() -> bool:
-    """Whether clang++ is there, after an attempt to install it where that is possible."""
-    if shutil.which("clang++") is None and shutil.which("apt-get") is not None:
-        admin = [] if os.geteuid() == 0 else ["sudo", "-n"]
-        install = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "install", "-y", "clang"]
-        for words in ([*admin, "apt-get", "update"], install):
-            try:
-                subprocess.run(words, check=False, capture_output=True, stdin=subprocess.DEVNULL, timeout=900)
-            except (OSError, subprocess.TimeoutExpired):
-                return False
-    return shutil.which("clang++") is not None
-
-
 def _fuzz(project: Project, tree: BuildTree) -> Report:
     corpus = project.build / "fuzz" / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
@@ -87,7 +72,7 @@ def _fuzz(project: Project, tree: BuildTree) -> Report:
 
 
 def clang_checks(project: Project) -> list[Check]:
-    if not _install_clang():
+    if not has_program("clang++", "clang"):
         missing = Report("skipped", "install: clang")
         return [Check(name, lambda: missing) for name in ("build everything with clang", "fuzz-readers for 60 s")]
     compiler = ("-DCMAKE_CXX_COMPILER=clang++",)

@@ -93,6 +93,11 @@ class Pane {
     view.set(zoom, this.x + (dx / wide) * keep, this.y + (dy / high) * keep);
   }
 
+  /** The view after zooming towards its middle, which may be a pixel so near to the border that it cannot be there yet. */
+  zoomedAtCentre(view, factor) {
+    view.set(Math.min(this.most, this.zoom * factor), view.x, view.y);
+  }
+
   /** The view after the picture was pulled by so much. */
   pulled(view, right, down) {
     const [wide, high] = [this.picture.width * this.scale, this.picture.height * this.scale];

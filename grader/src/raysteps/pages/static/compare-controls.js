@@ -70,7 +70,6 @@ function makeControls(label, names, act) {
 
   ui.canvas = make("canvas", { "aria-hidden": "true" });
   ui.names = { left: make("span", { class: "compare-name left" }), right: make("span", { class: "compare-name right" }) };
-  ui.trouble = make("p", { class: "compare-trouble", hidden: true });
   ui.divider = make("div", {
     class: "compare-divider", role: "slider", tabindex: 0, "aria-orientation": "horizontal", "aria-valuemin": 0,
     "aria-valuemax": 100, "aria-label": `Divider between ${names.reference} and ${names.mine}`,
@@ -78,7 +77,7 @@ function makeControls(label, names, act) {
   ui.stage = make("div", {
     class: "compare-stage", tabindex: 0, role: "application", "aria-label": `${label}: ${names.reference} and ${names.mine}`,
     "aria-roledescription": "picture comparison",
-  }, ui.canvas, ui.names.left, ui.names.right, ui.trouble, ui.divider);
+  }, ui.canvas, ui.names.left, ui.names.right, ui.divider);
 
   ui.play = makeButton("Pause", {}, () => act.play());
   ui.rate = make("input", { type: "range", min: 0.5, max: 3, step: 0.5, value: 1, "aria-label": "Changes a second" });
@@ -89,7 +88,7 @@ function makeControls(label, names, act) {
   drawHeatLegend(scale);
   ui.legend = make("div", { class: "compare-below", hidden: true }, make("span", {}, "0 same"), scale, make("span", {}, "1 different"));
 
-  ui.count = make("p", { class: "compare-count" }, "Counting appears when the pictures are seen.");
+  ui.count = make("p", { class: "compare-count" }, "The pictures are read when they are seen.");
   ui.first = makeButton("First wrong pixel", { disabled: true }, () => act.go("first"));
   ui.worst = makeButton("Worst pixel", { disabled: true }, () => act.go("worst"));
   const { readout, cells } = makeReadout(names);

@@ -6,16 +6,10 @@ const compareNarrow = 520;
 /** One comparison at work: what is looked at, and what the reader does with it. */
 class CompareDesk {
   #shared;
-  #inspect;
   #frame = 0;
   #timer = 0;
   #rate = 1;
   #playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  /** @type {Shown[]} */
-  #shown = [];
-  #hover = null;
-  #cursor = null;
-  #mark = null;
 
   /**
    * @param {string} label what is compared
@@ -30,14 +24,10 @@ class CompareDesk {
     this.split = 0.5;
     this.blinkMine = false;
     this.seen = false;
-    /** @type {(place: {x: number, y: number}) => void} */
-    this.onPixel = () => {};
     this.#shared = shared;
-    this.#inspect = inspect;
     const act = this.#actions();
     this.ui = makeControls(label, names, act);
-    this.ui.inspect.hidden = !inspect;
-    this.#tellCommand();
+    this.marks = new CompareMarks(this.ui, names, inspect);
     listenToPointers(this.ui, act);
     this.ui.root.addEventListener("keydown", (event) => {
       if (this.pair && compareKey(event, this.ui, act)) {
@@ -48,10 +38,9 @@ class CompareDesk {
   }
 
   #actions() {
-    const middle = () => [this.#size.width / 2, this.#size.height / 2];
     return {
       view: (id) => this.choose(id),
-      zoom: (factor) => this.#zoomAt(factor, ...middle()),
+      zoom: (factor) => this.#shown[0]?.pane.zoomedAtCentre(this.#shared, factor),
       zoomAt: (factor, left, top) => this.#zoomAt(factor, left, top),
       fit: () => this.#shared.set(1, 0.5, 0.5),
       pull: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, right, down),
@@ -62,10 +51,10 @@ class CompareDesk {
       split: (left) => this.#splitTo(left / this.#size.width),
       splitNow: () => this.split,
       splitTo: (split) => this.#splitTo(split),
-      hover: (left, top) => this.#point(this.#pixelAt(left, top)),
-      leave: () => this.#point(null),
+      hover: (left, top) => this.pair && this.marks.point(this.pair, this.#pixelAt(left, top)),
+      leave: () => this.pair && this.marks.point(this.pair, null),
       pick: (left, top) => this.#keep(this.#pixelAt(left, top)),
-      keep: () => this.#keep(this.#cursor ?? this.#mark),
+      keep: () => this.#keep(this.marks.cursor ?? this.marks.kept),
       step: (right, down) => this.#step(right, down),
       go: (which) => this.#go(which),
       blinks: () => this.view === "blink",
@@ -80,6 +69,12 @@ class CompareDesk {
 
   get #size() {
     return { width: this.ui.stage.clientWidth, height: this.ui.stage.clientHeight };
+  }
+
+  /** What is on the stage, by what is known now: between two frames a view may change more than once. */
+  get #shown() {
+    const size = this.#size;
+    return this.pair?.width && size.width ? shownIn(this.view, this.pair, this.names, size, this.#shared, this) : [];
   }
 
   /** The stage has the shape of the pictures; where it is narrow, two of them stand one above the other. */
@@ -140,22 +135,22 @@ class CompareDesk {
     canvas.height = Math.round(size.height * devicePixelRatio);
     const context = canvas.getContext("2d");
     context.scale(devicePixelRatio, devicePixelRatio);
-    this.#shown = shownIn(this.view, this.pair, this.names, size, this.#shared, this);
+    const all = this.#shown;
     names.left.textContent = names.right.textContent = "";
-    for (const { pane, layer, clip, name, at } of this.#shown) {
+    for (const { pane, layer, clip, name, at } of all) {
       names[at].textContent = name;
       if (layer) {
         paintLayer(context, pane, layer, clip);
       }
     }
-    for (const { pane } of this.view === "slider" ? this.#shown.slice(0, 1) : this.#shown) {
-      this.#mark && paintFrame(context, pane, this.#mark, "mark");
-      this.#cursor && paintFrame(context, pane, this.#cursor, "cursor");
+    for (const { pane } of this.view === "slider" ? all.slice(0, 1) : all) {
+      paintFrame(context, pane, this.marks.kept, "mark");
+      paintFrame(context, pane, this.marks.cursor, "cursor");
     }
-    const { pane } = this.#shown[0];
+    const { pane } = all[0];
     this.ui.zoom.textContent = `${pane.zoom < 10 ? Number(pane.zoom.toFixed(1)) : Math.round(pane.zoom)}×`;
     this.ui.stage.classList.toggle("zoomed", this.#shared.zoom > 1);
-    this.ui.stage.classList.toggle("stacked", this.#shown.length > 1 && this.#shown[1].pane.box.top > 0);
+    this.ui.stage.classList.toggle("stacked", all.length > 1 && all[1].pane.box.top > 0);
   }
 
   #tellView() {
@@ -187,57 +182,27 @@ class CompareDesk {
     return this.#shown.map(({ pane }) => pane.pixelAt(left, top)).find(Boolean) ?? null;
   }
 
-  /** The pixel under the pointer; without one the readout keeps to the cursor or the mark. */
-  #point(pixel) {
-    const same = pixel?.x === this.#hover?.x && pixel?.y === this.#hover?.y;
-    if (!this.pair || same) {
-      return;
-    }
-    this.#hover = pixel;
-    this.#tellPixel(pixel ?? this.#cursor ?? this.#mark);
-  }
-
-  #tellPixel(pixel) {
-    tellPixel(this.ui.cells, this.pair, pixel);
-    if (pixel) {
-      this.onPixel(pixel);
-    }
-  }
-
   #step(right, down) {
-    const from = this.#cursor ?? this.#mark ?? { x: this.pair.width >> 1, y: this.pair.height >> 1 };
-    const limit = (value, most) => Math.min(most - 1, Math.max(0, value));
-    this.#cursor = { x: limit(from.x + right, this.pair.width), y: limit(from.y + down, this.pair.height) };
-    this.#shown[0]?.pane.shows(this.#cursor) || this.#shown[0]?.pane.centred(this.#shared, this.#cursor);
-    this.#tellPixel(this.#cursor);
-    this.ui.say.textContent = pixelInWords(this.pair, this.names, this.#cursor);
+    this.marks.step(this.pair, right, down);
+    const [{ pane }] = this.#shown;
+    if (!pane.shows(this.marks.cursor)) {
+      pane.centred(this.#shared, this.marks.cursor);
+    }
     this.refresh();
   }
 
-  /** Marks a pixel and fills in the command that inspects it. */
   #keep(pixel) {
     if (pixel && this.pair) {
-      this.#mark = pixel;
-      this.#cursor = null;
-      this.#tellPixel(pixel);
-      this.#tellCommand();
+      this.marks.keep(this.pair, pixel);
       this.refresh();
     }
-  }
-
-  #tellCommand() {
-    const { command, copy } = this.ui;
-    const { x, y } = this.#mark ?? { x: "X", y: "Y" };
-    command.textContent = (this.#inspect ?? "").replace("{x}", x).replace("{y}", y);
-    copy.disabled = !this.#mark;
   }
 
   #go(which) {
     const pixel = this.pair[which];
     if (pixel) {
       this.#keep(pixel);
-      this.#shown[0]?.pane.centred(this.#shared, pixel);
-      this.ui.say.textContent = pixelInWords(this.pair, this.names, pixel);
+      this.#shown[0].pane.centred(this.#shared, pixel);
     }
   }
 

@@ -13,6 +13,7 @@ function listenToPointers({ stage, divider }, act) {
   /** @type {Map<number, {left: number, top: number}>} */
   const fingers = new Map();
   let travelled = 0;
+  let dividing = false;
   const place = (event) => {
     const box = stage.getBoundingClientRect();
     return { left: event.clientX - box.left - stage.clientLeft, top: event.clientY - box.top - stage.clientTop };
@@ -23,10 +24,11 @@ function listenToPointers({ stage, divider }, act) {
   };
 
   stage.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0 || divider.contains(event.target)) {
+    if (event.button !== 0) {
       return;
     }
     stage.setPointerCapture(event.pointerId);
+    dividing = !fingers.size && divider.contains(event.target);
     travelled = fingers.size ? Infinity : 0;
     fingers.set(event.pointerId, place(event));
   });
@@ -44,15 +46,15 @@ function listenToPointers({ stage, divider }, act) {
       const after = spread();
       act.zoomAt(after.apart / Math.max(1, wide.apart), after.left, after.top);
       act.pull(after.left - wide.left, after.top - wide.top);
-    } else if (travelled > compareClick && act.zoomed()) {
-      act.pull(now.left - before.left, now.top - before.top);
-    } else if (travelled > compareClick && act.splits()) {
+    } else if (dividing || (travelled > compareClick && act.splits() && !act.zoomed())) {
       act.split(now.left);
+    } else if (travelled > compareClick) {
+      act.pull(now.left - before.left, now.top - before.top);
     }
   });
   const lift = (event) => {
     const known = fingers.delete(event.pointerId);
-    if (known && event.type === "pointerup" && travelled <= compareClick) {
+    if (known && event.type === "pointerup" && travelled <= compareClick && !dividing) {
       act.pick(place(event).left, place(event).top);
     }
   };
@@ -67,15 +69,4 @@ function listenToPointers({ stage, divider }, act) {
       act.zoomAt(factor, place(event).left, place(event).top);
     }
   }, { passive: false });
-
-  divider.addEventListener("pointerdown", (event) => {
-    divider.setPointerCapture(event.pointerId);
-    event.stopPropagation();
-  });
-  divider.addEventListener("pointermove", (event) => {
-    if (divider.hasPointerCapture(event.pointerId)) {
-      act.split(place(event).left);
-      event.stopPropagation();
-    }
-  });
 }

@@ -29,10 +29,10 @@ function flipLayer(pair) {
   return { raster: pair.heatRaster, numbers: (x, y) => [value(x, y)] };
 }
 
-/** Whether two pictures are larger one above the other than side by side. */
+/** Whether two pictures are clearly larger one above the other than side by side. */
 function stacks(pair, { width, height }) {
   const fit = (wide, high) => Math.min(wide / pair.width, high / pair.height);
-  return fit(width, height / 2) > fit(width / 2, height);
+  return fit(width, height / 2) > 1.2 * fit(width / 2, height);
 }
 
 /** Two parts of a box, with a gap between them. */
@@ -59,7 +59,7 @@ function shownIn(view, pair, names, size, shared, state) {
   const show = (role, box, clip, at) => {
     const raster = pair[role];
     const picture = raster ?? { width: pair.width || 4, height: pair.height || 3 };
-    return { pane: new Pane(box, picture, shared), layer: pictureLayer(raster), clip, name: names[role], at };
+    return { pane: new Pane(box, picture, shared), layer: pictureLayer(raster), clip, name: raster ? names[role] : `${names[role]}: no picture`, at };
   };
   const single = (layer, name) => [{ pane: new Pane(whole, pair, shared), layer, clip: whole, name, at: "left" }];
   switch (view) {

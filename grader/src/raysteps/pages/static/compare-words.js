@@ -53,21 +53,22 @@ function tellPair(ui, pair, names) {
   }
   ui.first.disabled = ui.worst.disabled = !pair.wrong;
   tellPixel(ui.cells, pair, null);
-  const missing = ["reference", "mine"].filter((role) => !pair[role]);
-  let trouble = missing.map((role) => `There is no picture of ${names[role]}.`).join(" ");
-  if (!missing.length && !pair.comparable) {
-    trouble = `The sizes differ: ${names.reference} ${sizeWords(pair.reference)}, ${names.mine} ${sizeWords(pair.mine)}.`;
-  }
-  ui.trouble.textContent = trouble;
-  ui.trouble.hidden = !trouble;
   ui.count.classList.toggle("same", pair.comparable && !pair.wrong);
-  if (!pair.comparable) {
-    ui.count.textContent = "The pictures cannot be compared pixel by pixel.";
-    return;
-  }
-  const all = pair.width * pair.height;
-  const share = (100 * pair.wrong) / all;
-  ui.count.textContent = pair.wrong
-    ? `${pair.wrong} of ${all} pixels differ (${share < 0.01 ? "under 0.01" : share.toFixed(2)} %) by more than ${compareTolerance} of 255.`
+  ui.count.classList.toggle("trouble", !pair.comparable);
+  ui.count.textContent = pair.comparable ? countWords(pair) : troubleWords(pair, names);
+}
+
+function countWords({ wrong, width, height }) {
+  const share = (100 * wrong) / (width * height);
+  return wrong
+    ? `${wrong} of ${width * height} pixels differ (${share < 0.01 ? "under 0.01" : share.toFixed(2)} %) by more than ${compareTolerance} of 255.`
     : `No difference: no pixel is more than ${compareTolerance} of 255 away.`;
+}
+
+/** Why there is nothing to compare. */
+function troubleWords(pair, names) {
+  const missing = ["reference", "mine"].filter((role) => !pair[role]);
+  return missing.length
+    ? `There is no picture of: ${missing.map((role) => names[role]).join(", ")}.`
+    : `The sizes differ: ${names.reference} is ${sizeWords(pair.reference)}, ${names.mine} is ${sizeWords(pair.mine)} pixels.`;
 }

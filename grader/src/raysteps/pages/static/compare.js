@@ -73,7 +73,7 @@ class ComparePictures extends HTMLElement {
     const name = (role) => this.#image(role)?.dataset.name ?? this.getAttribute(`${role}-name`) ?? role;
     const names = { reference: name("reference"), mine: name("mine") };
     this.#desk = new CompareDesk(this.getAttribute("label") ?? "Pictures", names, this.#shared, this.getAttribute("inspect"));
-    this.#desk.onPixel = ({ x, y }) => this.#tell(x, y);
+    this.#desk.marks.onPixel = ({ x, y }) => this.#tell(x, y);
     const sized = this.#image("reference") ?? this.#image("mine");
     this.append(this.#desk.ui.root);
     this.#desk.shape(Number(sized?.getAttribute("width") ?? 4), Number(sized?.getAttribute("height") ?? 3));
