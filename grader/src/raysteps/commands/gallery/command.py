@@ -23,13 +23,14 @@ from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
 
+SIZE = "800x600"
 _LEAST, _MOST = 16, 2048  # pixels along a side
 
 
 def _size(word: str) -> str:
     found = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", word)
     if found is None or not all(_LEAST <= int(side) <= _MOST for side in found.groups()):
-        raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MOST}, like 640x480")
+        raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MOST}, like 800x600")
     return word
 
 
@@ -44,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"an NFF file, or the name of a scene of the kit; may be repeated ({', '.join(CHOSEN)})",
     )
     parser.add_argument("--mine", action="store_true", help="show the pictures of your own steps, too")
-    parser.add_argument("--size", type=_size, default="640x480", metavar="WxH", help="of the pictures (640x480)")
+    parser.add_argument("--size", type=_size, default=SIZE, metavar="WxH", help=f"of the pictures ({SIZE})")
 
 
 def _hang(kit: BuiltKit, scene: Shown, size: str, own: MySteps | None, say: Say) -> Hung:

@@ -19,21 +19,21 @@ from raysteps.programs.limits import StepLimits, limits_of
 from raysteps.programs.rendering import Rendered, render
 from raysteps.programs.student_build import Program, StudentBuild
 from raysteps.sandbox.open_air import OpenAir
-from raysteps.submission.intake import take_in
+from raysteps.submission.intake import Submission, take_in
 
 _SECONDS = 120.0
 _LONGEST = 600
 
 
 class MySteps:
-    """The steps in the repository, each built by itself. After step N the steps up to N are the student's; where one of
+    """A student's steps, each built by itself. After step N the steps up to N are the student's; where one of
     these is not there, the reference stands in, and a note says so."""
 
-    def __init__(self, kit: BuiltKit, folder: Path, say: Say) -> None:
+    def __init__(self, kit: BuiltKit, submission: Submission, folder: Path, say: Say) -> None:
         self._kit = kit
         self._sandbox = OpenAir()
         self._build = StudentBuild(kit, self._sandbox, folder)
-        work = Work(kit, take_in(kit.project.steps, kit.steps), Settings(), self._sandbox, folder, folder)
+        work = Work(kit, submission, Settings(), self._sandbox, folder, folder)
         self._limits: dict[str, StepLimits] = {}
         self._binaries: dict[str, Path] = {}
         self._notes: dict[str, str] = {}
@@ -108,4 +108,4 @@ class MySteps:
 def my_steps(kit: BuiltKit, say: Say) -> Iterator[MySteps]:
     """Built into a folder that is deleted in the end."""
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        yield MySteps(kit, Path(folder), say)
+        yield MySteps(kit, take_in(kit.project.steps, kit.steps), Path(folder), say)

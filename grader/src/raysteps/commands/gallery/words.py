@@ -9,8 +9,8 @@ from raysteps.kit.manifest import Step
 _LONGEST = 240
 _NEW = {
     "01-camera-rays": (
-        "One ray leaves the eye through the middle of each pixel. Nothing is in its way yet: the colour is the direction "
-        "of the ray itself."
+        "One ray leaves the eye through the middle of each pixel. Nothing is in its way yet: the colour is the "
+        "direction of the ray itself."
     ),
     "02-intersection": (
         "A ray meets spheres and triangles, and the nearest one wins. The colour tells which way the surface faces, "
@@ -29,16 +29,16 @@ _NEW = {
         "them, and themselves in it."
     ),
     "06-octree": (
-        "The picture does not change by a single byte, and that is the point: space is divided into boxes within boxes, "
-        "and a ray asks only the surfaces in boxes that it enters."
+        "The picture does not change by a single byte, and that is the point: space is divided into boxes within "
+        "boxes, and a ray asks only the surfaces in boxes that it enters."
     ),
     "07-tone-mapping": (
         "Light has no upper end, a byte has one. c / (c + 1) brings back what was cut off to plain white: shapes, hues "
         "and highlights."
     ),
     "08-refraction": (
-        "Glass lets light through and bends it, so the world in a glass ball stands on its head. Where the angle is too "
-        "flat, all of the light is mirrored instead."
+        "Glass lets light through and bends it, so the world in a glass ball stands on its head. Where the angle is "
+        "too flat, all of the light is mirrored instead."
     ),
     "09-bvh": (
         "The same picture again, and still less work: boxes that fit the things, cut where chance says that rays have "

@@ -25,6 +25,7 @@ class Gallery {
     this.onClick("#next", () => this.walk.move(1));
     document.addEventListener("keydown", (event) => this.key(event));
     this.find("walk").hidden = false;
+    this.find("strip").classList.add("live");
     this.show();
   }
 
