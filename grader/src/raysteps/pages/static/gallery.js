@@ -19,7 +19,10 @@ class Gallery {
     this.walk.read(location.hash);
     this.onClick("[data-scene]", (button) => { this.walk.scene = Number(button.dataset.scene); });
     this.onClick("[data-mode]", (button) => { this.walk.mode = button.dataset.mode; });
-    this.onClick("[data-go]", (button) => this.walk.go(Number(button.dataset.go)));
+    this.onClick("[data-go]", (button) => {
+      this.walk.go(Number(button.dataset.go));
+      this.find("wall").scrollIntoView({ block: "nearest" });
+    });
     this.onClick("[data-side]", (button) => this.walk.pick(button.dataset.side, Number(button.dataset.of)));
     this.onClick("#previous", () => this.walk.move(-1));
     this.onClick("#next", () => this.walk.move(1));
