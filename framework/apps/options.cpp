@@ -21,6 +21,11 @@ const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [op
                           (none before step 6, octree from there on, bvh for step 9)
   --list-accel            print which of these this program has
   --stats FILE.json       write counters: rays by kind, tests, seconds
+  --map tests|boxes|depth|time
+                          instead of the picture what each pixel cost, as a colour over a legend:
+                          surface tests, box tests, how deep its rays went, or nanoseconds
+  --map-scale N           the cost of the last colour, so that two maps can be compared
+                          (a round number above all but the dearest pixels)
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
   --spd                   count rays by the rules of the Standard Procedural Databases and
@@ -104,6 +109,18 @@ View parse_view(const std::string& text) {
     return text == "normals" ? View::normals : View::color;
 }
 
+CostKind parse_map(const std::string& text) {
+    static const std::map<std::string, CostKind> kinds{{"tests", CostKind::tests},
+                                                       {"boxes", CostKind::boxes},
+                                                       {"depth", CostKind::depth},
+                                                       {"time", CostKind::time}};
+    const auto found = kinds.find(text);
+    if (found == kinds.end()) {
+        complain("--map", "tests, boxes, depth or time", text);
+    }
+    return found->second;
+}
+
 using Setter = std::function<void(RaytraceOptions&, const std::string&)>;
 
 const std::map<std::string, Setter>& options_with_value() {
@@ -116,6 +133,11 @@ const std::map<std::string, Setter>& options_with_value() {
         {"--view", [](auto& o, const auto& text) { o.view = parse_view(text); }},
         {"--size", [](auto& o, const auto& text) { o.size = parse_size(text); }},
         {"--crop", [](auto& o, const auto& text) { o.crop = parse_crop(text); }},
+        {"--map", [](auto& o, const auto& text) { o.map = parse_map(text); }},
+        {"--map-scale",
+         [](auto& o, const auto& text) {
+             o.map_scale = static_cast<std::uint64_t>(number_between("--map-scale", text, 1, 1'000'000'000));
+         }},
         {"--accel", [](auto& o, const auto& text) { o.acceleration = parse_acceleration(text); }},
     };
     return setters;
@@ -127,6 +149,9 @@ void check(const RaytraceOptions& options) {
     }
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
+    }
+    if (options.map_scale && !options.map) {
+        throw UsageError("--map-scale: expected --map beside it, which says what is drawn");
     }
 }
 

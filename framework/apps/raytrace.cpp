@@ -12,6 +12,7 @@
 #include "io/read_error.hpp"
 #include "io/write_file.hpp"
 #include "render/spd.hpp"
+#include "render/work_map.hpp"
 
 namespace {
 
@@ -42,12 +43,14 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
                                  acceleration_of(options),
                                  default_threads(),
                                  options.crop,
-                                 !options.quiet && stderr_is_terminal()};
+                                 !options.quiet && stderr_is_terminal(),
+                                 options.map.has_value()};
     const Rendering rendering = render(scene, render_options);
     if (!options.stats.empty()) {
         write_file(options.stats, stats_json(rendering, scene.surfaces().size()));
     }
-    write_ppm(rendering.image, options.output);
+    write_ppm(options.map ? work_map(rendering.costs, *options.map, options.map_scale) : rendering.image,
+              options.output);
 }
 
 void run(const RaytraceOptions& options) {

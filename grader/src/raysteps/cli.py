@@ -14,6 +14,7 @@ from raysteps.commands import report_page
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.course import command as course
 from raysteps.commands.demo import demo
+from raysteps.commands.gallery import command as gallery
 from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
@@ -85,6 +86,8 @@ def _parser() -> argparse.ArgumentParser:
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
     add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
 
+    gallery.add_arguments(commands.add_parser("gallery", help="a page that walks through the steps in pictures"))
+
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
 
     add = commands.add_parser("test", help="test the kit itself")
@@ -125,6 +128,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return exports.run(project, arguments, console)
         case "demo":
             return demo(project, arguments.out, console)
+        case "gallery":
+            return gallery.run(project, arguments, console)
         case "bench":
             return bench.run(project, arguments, console)
         case "test":
