@@ -1,0 +1,193 @@
+#include "view/viewer.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "io/ppm.hpp"
+#include "render/acceleration_choice.hpp"
+#include "view/content.hpp"
+#include "view/pixel_asker.hpp"
+#include "view/window.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr double k_frame_seconds = 1.0 / 30.0;  // while something is going on
+constexpr double k_idle_seconds = 0.2;
+constexpr std::chrono::milliseconds k_patience{1000};  // with a step that does not end, when the window closes
+
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+}
+
+/// A name in the current folder that is free: three-spheres-1.ppm
+std::filesystem::path free_name(const std::string& scene) {
+    const std::string stem = std::filesystem::path(scene).stem().string();
+    for (int number = 1;; ++number) {
+        std::filesystem::path name = stem + "-" + std::to_string(number) + ".ppm";
+        if (!std::filesystem::exists(name)) {
+            return name;
+        }
+    }
+}
+
+/// The upper part of an image.
+Image upper_part(const Image& image, int height) {
+    Image part(image.width(), height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            part.at(x, y) = image.at(x, y);
+        }
+    }
+    return part;
+}
+
+class Viewer {
+public:
+    Viewer(Scene& scene, const ViewerOptions& options)
+        : options_(options),
+          structures_(scene),
+          progressive_(scene, structures_, options.threads),
+          asker_(scene, structures_, options.scene),
+          controls_({scene.camera, options.step, options.acceleration, std::nullopt, 0.0F}),
+          window_(name(), scene.camera.width, content_height(scene.camera), !options.screenshot.empty(), events()) {}
+
+    void run() {
+        progressive_.start(controls_.shot());
+        while (!window_.is_closing() && !done_) {
+            controls_.set_layout(window_.layout());
+            window_.wait(is_idle() ? k_idle_seconds : k_frame_seconds);
+            obey(controls_.take_events());
+            refresh();
+            print_answer();
+        }
+        leave();
+    }
+
+private:
+    [[nodiscard]] std::string name() const { return std::filesystem::path(options_.scene).filename().string(); }
+
+    WindowEvents events() {
+        return {[this](char character) { controls_.key(character); },
+                [this](const Point& place, Button button, bool shift) { controls_.press(place, button, shift); },
+                [this](const Point& place) { controls_.move(place); },
+                [this](const Point& place) { controls_.release(place); },
+                [this](float notches) { controls_.wheel(notches); }};
+    }
+
+    [[nodiscard]] bool is_idle() const {
+        const Progressed progressed = progressive_.progressed();
+        return progressed.finished && progressed.version == shown_ && asker_.is_idle();
+    }
+
+    void obey(const Controls::Events& events) {
+        if (events.new_shot) {
+            progressive_.start(controls_.shot());
+        }
+        redraw_ = redraw_ || events.new_look;
+        if (events.click) {
+            asker_.ask(controls_.shot(), *events.click, controls_.camera_moved());
+        }
+        if (events.save) {
+            save();
+        }
+        done_ = done_ || events.quit;
+    }
+
+    /// Shows what is new.
+    void refresh() {
+        const Progressed progressed = progressive_.progressed();
+        const bool damaged = window_.take_damage();
+        if (progressed.version == shown_ && !redraw_ && !damaged) {
+            return;
+        }
+        shown_ = progressed.version;
+        redraw_ = false;
+        const std::string status = status_of(progressed);
+        progressive_.copy_to(frame_);
+        const Image image = content(frame_, controls_.settings(), status);
+        window_.set_title(name() + ", " + status);
+        if (progressed.finished && !completed_) {
+            completed_ = true;
+            complete(image);
+        } else {
+            window_.show(image);
+        }
+        if (!progressed.problem.empty() && problem_ != progressed.problem) {
+            problem_ = progressed.problem;
+            std::fprintf(stderr, "view: this picture cannot be made: %s\n", problem_.c_str());
+        }
+    }
+
+    [[nodiscard]] std::string status_of(const Progressed& progressed) const {
+        const Shot shot = controls_.shot();
+        const std::string made = progressed.problem.empty()
+                                     ? std::to_string(std::lround(std::floor(100.0 * progressed.share))) + "%"
+                                     : "failed, see the terminal";
+        return "step " + std::to_string(shot.step.step) + "  " + std::string(acceleration_name(shot.acceleration)) +
+               "  " + made;
+    }
+
+    /// Once, when the first picture is complete.
+    void complete(const Image& image) {
+        if (options_.click) {
+            asker_.ask(controls_.shot(), *options_.click, false);
+        }
+        if (options_.screenshot.empty()) {
+            window_.show(image);
+            return;
+        }
+        write_ppm(upper_part(window_.show_and_read(image), controls_.settings().camera.height), options_.screenshot);
+        while (!asker_.idle_within(k_patience)) {
+        }
+        print_answer();
+        done_ = true;
+    }
+
+    void save() {
+        try {
+            const std::filesystem::path path = free_name(options_.scene);
+            const Image image = content(frame_, controls_.settings(), "");
+            const bool map = controls_.settings().map.has_value();
+            write_ppm(map ? image : upper_part(image, controls_.settings().camera.height), path);
+            say("saved " + path.string() + "\n");
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "view: %s\n", error.what());
+        }
+    }
+
+    void print_answer() {
+        if (const std::optional<std::string> text = asker_.answer()) {
+            say(*text);
+        }
+    }
+
+    void leave() {
+        if (!progressive_.stop(k_patience) || !asker_.idle_within(k_patience)) {
+            std::fputs("view: a step did not come to an end, and was left\n", stderr);
+            std::_Exit(0);  // a thread that hangs cannot be joined
+        }
+    }
+
+    ViewerOptions options_;
+    Structures structures_;
+    Progressive progressive_;
+    PixelAsker asker_;
+    Controls controls_;
+    Window window_;
+    Frame frame_;
+    std::uint64_t shown_ = 0;
+    std::string problem_;
+    bool redraw_ = false;
+    bool completed_ = false;
+    bool done_ = false;
+};
+
+}  // namespace
+
+void run_viewer(Scene& scene, const ViewerOptions& options) { Viewer(scene, options).run(); }
+
+}  // namespace raysteps
