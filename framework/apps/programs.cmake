@@ -18,6 +18,19 @@ raysteps_add_raytrace(raytrace-mine ${numbers})
 raysteps_add_raytrace(raytrace-reference)
 raysteps_link_wide(raytrace-reference)
 
+# inspect, the life of one pixel.
+add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp)
+target_link_libraries(inspect-app PRIVATE raysteps-flags raysteps-strict)
+
+function(raysteps_add_inspect name)
+    add_executable(${name} $<TARGET_OBJECTS:inspect-app> $<TARGET_OBJECTS:raysteps-inspect-recorded>)
+    target_link_libraries(${name} PRIVATE raysteps-inspect raysteps-render raysteps-io raysteps-core)
+    raysteps_link_steps(${name} ${ARGN})
+endfunction()
+
+raysteps_add_inspect(inspect-mine ${numbers})
+raysteps_add_inspect(inspect-reference)
+
 # view, a window on a scene.
 if(TARGET glfw AND TARGET OpenGL::GL)
     file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")

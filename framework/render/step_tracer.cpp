@@ -45,11 +45,13 @@ void StepTracer::count(bool hit) {
     ++next_depth_;
 }
 
+bool StepTracer::reaches(const HitRecord& hit, const Light& light) { return is_lit(*this, hit, light); }
+
 const std::vector<Light>& StepTracer::lights_that_reach(const HitRecord& hit) {
     const RayKind before = std::exchange(next_, RayKind::shadow);
     lit_.clear();
     for (const Light& light : scene_.lights) {
-        if (is_lit(*this, hit, light)) {
+        if (reaches(hit, light)) {
             lit_.push_back(light);
         }
     }

@@ -16,7 +16,7 @@ struct StepOptions {
 };
 
 /// Calls the step functions and counts their rays by kind. Each thread has its own.
-class StepTracer final : public Tracer {
+class StepTracer : public Tracer {
 public:
     StepTracer(const Scene& scene, const Accelerator& accelerator, const StepOptions& options)
         : scene_(scene), accelerator_(accelerator), options_(options) {}
@@ -33,6 +33,12 @@ public:
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return options_.max_ray_depth; }
     [[nodiscard]] Color background() const override { return scene_.background; }
+
+protected:
+    [[nodiscard]] const StepOptions& options() const { return options_; }
+
+    /// Step 04's answer. Whoever wants to know which rays ask for which light overrides it.
+    [[nodiscard]] virtual bool reaches(const HitRecord& hit, const Light& light);
 
 private:
     enum class RayKind { eye, shadow, reflect, refract };

@@ -1,4 +1,4 @@
-"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- apps."""
+"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- inspect <- apps."""
 
 import re
 from pathlib import Path
@@ -8,13 +8,14 @@ import pytest
 from raysteps.kit.project import Project
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
-_LAYERS = ("core", "io", "render", "wide", "apps", "testing")
+_LAYERS = ("core", "io", "render", "inspect", "wide", "apps", "testing")
 _ALLOWED = {
     "core": {"core"},
     "io": {"core", "io"},
     "render": {"core", "io", "steps", "render"},
+    "inspect": {"core", "io", "steps", "render", "inspect"},
     "wide": {"core", "steps", "render", "wide"},
-    "apps": {"core", "io", "steps", "render", "apps"},
+    "apps": {"core", "io", "steps", "render", "inspect", "apps"},
     "testing": {"core", "testing"},
 }
 
@@ -40,7 +41,7 @@ def test_framework(project: Project, layer: str) -> None:
     for path in files:
         allowed = set(_ALLOWED[layer])
         if path.name.endswith("_test.cpp"):
-            allowed |= {"testing", "io", "render"} if layer in ("render", "wide", "apps") else {"testing"}
+            allowed |= {"testing", "io", "render"} if layer in ("render", "inspect", "wide", "apps") else {"testing"}
         for include in _includes(path):
             found = _layer(include)
             assert ".." not in include, f"{path}: {include}"

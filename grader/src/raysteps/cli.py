@@ -12,6 +12,7 @@ from rich.console import Console
 from raysteps.classroom import command as classroom
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
 from raysteps.commands.demo import demo
+from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
@@ -48,6 +49,8 @@ def _parser() -> argparse.ArgumentParser:
 
     add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
     add.add_argument("args", nargs=argparse.REMAINDER)
+
+    inspect.add_arguments(commands.add_parser("inspect", help="follow one pixel: its rays, tests and light"))
 
     add = commands.add_parser("check", help="check your own steps")
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
@@ -95,6 +98,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
     match arguments.command:
         case "check":
             return check(project, arguments.steps, console)
+        case "inspect":
+            return inspect.run(project, arguments, console)
         case "replay":
             return replay(project, arguments.case, arguments.submission, console)
         case "grade":

@@ -1,0 +1,114 @@
+"""Differences between two rays and all that follow from them."""
+
+from collections.abc import Iterator
+
+from raysteps.commands.inspect.blame import blame_bounce, start_problem
+from raysteps.commands.inspect.pair import Difference, Pair, not_unit
+from raysteps.commands.inspect.parting_hit import hit_differences
+from raysteps.commands.inspect.parting_lights import light_differences
+from raysteps.commands.inspect.values import (
+    CLOSE,
+    Record,
+    coarser,
+    dot,
+    length,
+    minus,
+    point,
+    same_color,
+    same_direction,
+    same_point,
+)
+
+
+def _bounces(ray: Record, *roles: str) -> list[Record]:
+    return [bounce for bounce in ray["bounces"] if bounce["role"] in roles]
+
+
+def _bounced(pair: Pair, mine: Record, reference: Record, kind: str) -> Iterator[Difference]:
+    """One ray that goes on from the hit, in both records."""
+    glass = kind == "refract"
+    name = f"the {'refracted' if glass else 'reflected'} ray, depth {reference['depth']}"
+    apart = length(minus(mine["origin"], reference["origin"]))
+    child = Pair(mine, reference, (*pair.place, kind), name, coarser(pair.close, apart), pair.step, pair.accel)
+    whole, part, own = ("transmitted_ray", "refract", "refracted") if glass else ("reflected_ray", "mirror", "mirrored")
+    if mine["role"] != reference["role"]:
+        told = {"refract": "passes into or out of the glass", "internal": "is mirrored inside it"}
+        words = f"yours {told[mine['role']]}, the reference's {told[reference['role']]}"
+        function = blame_bounce(mine, pair.mine["hit"][own], pair.reference["hit"][own], whole, part)
+        yield child.at("ray", words, function)
+        return
+    if not same_direction(mine["direction"], reference["direction"], 10 * pair.close):
+        words = (
+            f"yours goes towards {point(mine['direction'])}, the reference's towards {point(reference['direction'])}"
+        )
+        function = blame_bounce(mine, pair.mine["hit"][own], pair.reference["hit"][own], whole, part)
+        yield child.at("ray", words, function, not_unit(mine["direction"]))
+    side = 1 if dot(reference["direction"], pair.reference["hit"]["normal"]) > 0 else -1
+    problem = start_problem(mine, pair.mine["hit"], side)
+    if problem and "itself" not in problem:
+        yield child.at("ray", f"yours begins at {point(mine['origin'])}", whole, problem)
+    below = next(along(child), None)
+    if below is None:
+        return
+    if problem and below.place == (*child.place, "hit"):
+        yield below._replace(function=whole, why=problem)
+        return
+    yield below
+
+
+def _kind_of_bounces(pair: Pair, kind: str, *roles: str) -> Iterator[Difference]:
+    mine, reference = _bounces(pair.mine, *roles), _bounces(pair.reference, *roles)
+    for own, theirs in zip(mine, reference, strict=False):
+        yield from _bounced(pair, own, theirs, kind)
+    if len(mine) == len(reference) or same_color(pair.mine["color"], pair.reference["color"], pair.close):
+        return
+    function = "transmitted_light" if kind == "refract" else "trace"
+    word = "refracted" if kind == "refract" else "reflected"
+    depth = (mine + reference)[min(len(mine), len(reference))]["depth"]
+    if len(mine) < len(reference):
+        yield pair.at("color", f"yours sends no {word} ray, the reference does (depth {depth})", function)
+    else:
+        yield pair.at(kind, f"yours sends a {word} ray (depth {depth}), the reference sends none", "trace")
+
+
+def along(pair: Pair) -> Iterator[Difference]:
+    """From the search of one ray to its colour, in the order of computing."""
+    mine, reference = pair.mine, pair.reference
+    if mine["depth"] != reference["depth"]:
+        yield pair.at("ray", f"yours has depth {mine['depth']}, the reference's {reference['depth']}", "trace")
+    if pair.step > 1:
+        yield from hit_differences(pair)
+    if (mine["local"] is None) != (reference["local"] is None):
+        asks = "yours does not ask for the light of the hit" if mine["local"] is None else "yours asks for light"
+        yield pair.at("color", f"{asks}, the reference does{'' if mine['local'] is None else ' not'}", "trace")
+        return
+    if mine["local"] is not None:
+        yield from light_differences(pair)
+    yield from _kind_of_bounces(pair, "refract", "refract", "internal")
+    if not same_color(mine["transmitted"], reference["transmitted"], pair.close) and mine["transmitted"] is not None:
+        words = f"what shines through is {point(mine['transmitted'])}"
+        yield pair.at("transmitted", f"{words}, the reference's {_told(reference['transmitted'])}", "transmitted_light")
+    yield from _kind_of_bounces(pair, "reflect", "reflect")
+    if not same_color(mine["color"], reference["color"], pair.close):
+        words = f"the colour of the ray is {_told(mine['color'])}, the reference's {_told(reference['color'])}"
+        yield pair.at("color", words, "trace" if pair.step >= 5 else "")
+
+
+def _told(color: list[float] | None) -> str:
+    return "unknown" if color is None else point(color)
+
+
+def ray_differences(mine: Record, reference: Record) -> Iterator[Difference]:
+    """From the eye ray on."""
+    pair = Pair(mine["ray"], reference["ray"], ("eye",), "the eye ray", CLOSE, reference["step"], reference["accel"])
+    own, theirs = mine["ray"], reference["ray"]
+    if not same_direction(own["direction"], theirs["direction"]):
+        words = f"yours goes towards {point(own['direction'])}, the reference's towards {point(theirs['direction'])}"
+        yield pair.at("ray", words, "primary_ray", not_unit(own["direction"]))
+    if not same_point(own["origin"], theirs["origin"], CLOSE, 0.0):
+        yield pair.at(
+            "ray",
+            f"yours begins at {point(own['origin'])}, the reference's at {point(theirs['origin'])}",
+            "primary_ray",
+        )
+    yield from along(pair)
