@@ -32,7 +32,7 @@ raysteps_add_inspect(inspect-mine ${numbers})
 raysteps_add_inspect(inspect-reference)
 
 # view, a window on a scene.
-if(TARGET glfw AND TARGET OpenGL::GL)
+if(RAYSTEPS_WINDOW)
     file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")
     add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources})
     target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)

@@ -69,6 +69,7 @@ struct Window::Inside {
     int height = 1;
     bool pixel_for_pixel = false;
     bool damaged = true;
+    Point pointer;
 
     ~Inside() {
         if (handle != nullptr) {
@@ -84,16 +85,14 @@ struct Window::Inside {
         return {std::max(1, size.width), std::max(1, size.height)};
     }
 
-    /// Where the pointer is, in pixels of the framebuffer: on some screens a window counts in larger units.
-    [[nodiscard]] Point pointer() const {
-        double x = 0.0;
-        double y = 0.0;
+    /// Kept from the events, as by the time of a click the pointer itself may be elsewhere. In pixels of the
+    /// framebuffer: on some screens a window counts in larger units.
+    void move_pointer(double x, double y) {
         Extent units;
-        glfwGetCursorPos(handle, &x, &y);
         glfwGetWindowSize(handle, &units.width, &units.height);
         const Extent size = pixels();
-        return {static_cast<float>(x * size.width / std::max(1, units.width)),
-                static_cast<float>(y * size.height / std::max(1, units.height))};
+        pointer = {static_cast<float>(x * size.width / std::max(1, units.width)),
+                   static_cast<float>(y * size.height / std::max(1, units.height))};
     }
 
     void listen() {
@@ -115,14 +114,15 @@ struct Window::Inside {
         glfwSetMouseButtonCallback(handle, [](GLFWwindow* window, int button, int action, int modifiers) {
             const Inside& inside = of(window);
             if (action == GLFW_PRESS) {
-                inside.events.press(inside.pointer(), button == GLFW_MOUSE_BUTTON_LEFT ? Button::left : Button::other,
+                inside.events.press(inside.pointer, button == GLFW_MOUSE_BUTTON_LEFT ? Button::left : Button::other,
                                     (modifiers & GLFW_MOD_SHIFT) != 0);
             } else {
-                inside.events.release(inside.pointer());
+                inside.events.release(inside.pointer);
             }
         });
-        glfwSetCursorPosCallback(handle, [](GLFWwindow* window, double, double) {
-            of(window).events.move(of(window).pointer());
+        glfwSetCursorPosCallback(handle, [](GLFWwindow* window, double x, double y) {
+            of(window).move_pointer(x, y);
+            of(window).events.move(of(window).pointer);
         });
         glfwSetScrollCallback(handle, [](GLFWwindow* window, double, double notches) {
             of(window).events.wheel(static_cast<float>(notches));
