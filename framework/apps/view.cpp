@@ -1,4 +1,5 @@
 // view: a window on a scene, with the steps that the program was linked with.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -13,6 +14,15 @@ namespace {
 using namespace raysteps;
 
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, no window, or a file that cannot be written
+constexpr int k_largest_shown = 4096;  // pixels a side: up to 1.5 GB
+
+void check_size(const Camera& camera) {
+    if (std::max(camera.width, camera.height) > k_largest_shown) {
+        throw UsageError("--size: expected at most " + std::to_string(k_largest_shown) +
+                         " pixels a side in a window, found " + std::to_string(camera.width) + "x" +
+                         std::to_string(camera.height) + "; `./raysteps render` makes larger pictures");
+    }
+}
 
 void check_click(const ViewOptions& options, const Camera& camera) {
     if (options.click && (options.click->x >= camera.width || options.click->y >= camera.height)) {
@@ -32,6 +42,7 @@ void run(const ViewOptions& options) {
         scene.camera.width = picture.size->width;
         scene.camera.height = picture.size->height;
     }
+    check_size(scene.camera);
     check_click(options, scene.camera);
     run_viewer(scene, {picture.scene,
                        {picture.step, picture.view, picture.depth},

@@ -72,9 +72,14 @@ Progressed Progressive::progressed() const {
     return progressed_;
 }
 
-void Progressive::copy_to(Frame& frame) const {
+void Progressive::copy_colors(Frame& frame) const {
     const std::lock_guard lock(mutex_);
-    frame = frame_;
+    frame.colors = frame_.colors;
+}
+
+void Progressive::copy_costs(Frame& frame) const {
+    const std::lock_guard lock(mutex_);
+    frame.costs = frame_.costs;
 }
 
 bool Progressive::stop(std::chrono::milliseconds patience) {

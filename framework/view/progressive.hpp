@@ -43,8 +43,9 @@ public:
 
     [[nodiscard]] Progressed progressed() const;
 
-    /// Copies what there is. Until the first pixels come that is the picture before.
-    void copy_to(Frame& frame) const;
+    /// Copies what there is: colours, or costs. Until the first pixels come that is the picture before.
+    void copy_colors(Frame& frame) const;
+    void copy_costs(Frame& frame) const;
 
     /// Ends the work. False: it did not end in time, as a step may hang, and the program can only be left at once.
     [[nodiscard]] bool stop(std::chrono::milliseconds patience);

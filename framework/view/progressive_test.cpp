@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "render/renderer.hpp"
+#include "render/work_map.hpp"
 #include "testing/small_scene.hpp"
 #include "testing/testing.hpp"
 #include "view/content.hpp"
@@ -74,10 +75,26 @@ TEST_CASE("The finished picture is raytrace's, for any number of threads", "[vie
             const Progressed progressed = finish(progressive);
             CHECK(progressed.share == 1.0);
             Frame frame;
-            progressive.copy_to(frame);
+            progressive.copy_colors(frame);
             CHECK(exposed(frame.colors, step, 0.0F) == raytraced(scene, step));
         }
     }
+}
+
+TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
+    const Scene scene = small_scene();
+    Structures structures(scene);
+    Progressive progressive(scene, structures, 2);
+    progressive.start(shot_of(scene, 8));
+    static_cast<void>(finish(progressive));
+    Frame frame;
+    progressive.copy_costs(frame);
+    RenderOptions options;
+    options.step.step = 8;
+    options.measure_cost = true;
+    const CostGrid costs = render(scene, options).costs;
+    CHECK(work_map(frame.costs, CostKind::tests, std::nullopt) == work_map(costs, CostKind::tests, std::nullopt));
+    CHECK(work_map(frame.costs, CostKind::depth, std::nullopt) == work_map(costs, CostKind::depth, std::nullopt));
 }
 
 TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
@@ -90,7 +107,7 @@ TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
     progressive.start(shot_of(scene, 4));
     static_cast<void>(finish(progressive));
     Frame frame;
-    progressive.copy_to(frame);
+    progressive.copy_colors(frame);
     CHECK(exposed(frame.colors, 4, 0.0F) == raytraced(scene, 4));
 }
 

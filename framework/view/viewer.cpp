@@ -1,5 +1,6 @@
 #include "view/viewer.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -68,6 +69,8 @@ public:
     }
 
 private:
+    using Clock = std::chrono::steady_clock;
+
     [[nodiscard]] std::string name() const { return std::filesystem::path(options_.scene).filename().string(); }
 
     WindowEvents events() {
@@ -80,7 +83,7 @@ private:
 
     [[nodiscard]] bool is_idle() const {
         const Progressed progressed = progressive_.progressed();
-        return progressed.finished && progressed.version == shown_ && asker_.is_idle();
+        return progressed.finished && progressed.version == shown_ && !redraw_ && asker_.is_idle();
     }
 
     void obey(const Controls::Events& events) {
@@ -100,14 +103,15 @@ private:
     /// Shows what is new.
     void refresh() {
         const Progressed progressed = progressive_.progressed();
-        const bool damaged = window_.take_damage();
-        if (progressed.version == shown_ && !redraw_ && !damaged) {
+        redraw_ = window_.take_damage() || redraw_;
+        const Clock::time_point begun = Clock::now();
+        if ((progressed.version == shown_ && !redraw_) || begun < earliest_) {
             return;
         }
         shown_ = progressed.version;
         redraw_ = false;
         const std::string status = status_of(progressed);
-        progressive_.copy_to(frame_);
+        copy_what_is_shown();
         const Image image = content(frame_, controls_.settings(), status);
         window_.set_title(name() + ", " + status);
         if (progressed.finished && !completed_) {
@@ -119,6 +123,16 @@ private:
         if (!progressed.problem.empty() && problem_ != progressed.problem) {
             problem_ = progressed.problem;
             std::fprintf(stderr, "view: this picture cannot be made: %s\n", problem_.c_str());
+        }
+        const Clock::time_point ended = Clock::now();
+        earliest_ = ended + (ended - begun);
+    }
+
+    void copy_what_is_shown() {
+        if (controls_.settings().map) {
+            progressive_.copy_costs(frame_);
+        } else {
+            progressive_.copy_colors(frame_);
         }
     }
 
@@ -134,7 +148,7 @@ private:
     /// Once, when the first picture is complete.
     void complete(const Image& image) {
         if (options_.click) {
-            asker_.ask(controls_.shot(), *options_.click, false);
+            asker_.ask(controls_.shot(), *options_.click, controls_.camera_moved());
         }
         if (options_.screenshot.empty()) {
             window_.show(image);
@@ -150,6 +164,7 @@ private:
     void save() {
         try {
             const std::filesystem::path path = free_name(options_.scene);
+            copy_what_is_shown();
             const Image image = content(frame_, controls_.settings(), "");
             const bool map = controls_.settings().map.has_value();
             write_ppm(map ? image : upper_part(image, controls_.settings().camera.height), path);
@@ -179,9 +194,10 @@ private:
     Controls controls_;
     Window window_;
     Frame frame_;
-    std::uint64_t shown_ = 0;
+    std::uint64_t shown_ = 0;     ///< version of the picture
+    Clock::time_point earliest_;  ///< of the next look at a large picture, so that hands find time between two
     std::string problem_;
-    bool redraw_ = false;
+    bool redraw_ = true;
     bool completed_ = false;
     bool done_ = false;
 };
