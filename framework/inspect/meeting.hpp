@@ -39,6 +39,8 @@ enum class MissReason {
     not_listed,   ///< no box around the point lists it, though it overlaps such a box
     no_overlap,   ///< as before, and overlaps says no to the box
     no_box,       ///< no box around the point
+    no_bounds,    ///< bounds_of all surfaces leaves the point out
+    no_part,      ///< none of the parts that split makes of a box around the point holds it
 };
 
 /// What a search through all surfaces finds, where that is not what the structure found.

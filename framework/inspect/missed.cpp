@@ -1,8 +1,12 @@
 #include "inspect/missed.hpp"
 
+#include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+
+#include "steps/06-octree/octree.hpp"
 
 namespace raysteps {
 namespace {
@@ -30,6 +34,28 @@ bool contains(const Box& box, const glm::vec3& point) {
     return glm::all(glm::lessThanEqual(box.min - slack, point)) && glm::all(glm::lessThanEqual(point, box.max + slack));
 }
 
+/// Whether the functions that a tree is built with lose the point: bounds_of, or split again and again.
+bool loses_space(const SurfaceList& surfaces, const glm::vec3& point, Missed& missed) {
+    constexpr int k_levels = 4;
+    Box box = bounds_of(surfaces);
+    missed.box = box;
+    missed.reason = MissReason::no_bounds;
+    if (!contains(box, point)) {
+        return true;
+    }
+    missed.reason = MissReason::no_part;
+    for (int level = 0; level < k_levels; ++level) {
+        const std::array<Box, 8> parts = split(box);
+        const auto part = std::find_if(parts.begin(), parts.end(), [&](const Box& one) { return contains(one, point); });
+        if (part == parts.end()) {
+            missed.box = box;
+            return true;
+        }
+        box = *part;
+    }
+    return false;
+}
+
 /// What the boxes around the lost point have to say, the worst fault first.
 class Inquiry {
 public:
@@ -52,6 +78,8 @@ public:
             around_ = place.box;  // the last one is the smallest, as boxes come before those within them
         }
     }
+
+    [[nodiscard]] const glm::vec3& point() const { return point_; }
 
     void conclude(Missed& missed) const {
         if (!any_) {
@@ -111,6 +139,11 @@ std::optional<Missed> find_missed(const RayNode& node, float limit, const Surfac
         Inquiry inquiry(*nearest.surface, node.ray.origin + nearest.hit.distance * node.ray.direction, recorder);
         accelerator.visit_boxes(nearest.surface, [&](const BoxPlace& place) { inquiry.look_at(place); });
         inquiry.conclude(missed);
+        const bool by_building = missed.reason == MissReason::no_box || missed.reason == MissReason::not_listed;
+        Missed deeper = missed;
+        if (by_building && loses_space(surfaces, inquiry.point(), deeper)) {
+            return deeper;
+        }
     }
     return missed;
 }

@@ -36,6 +36,10 @@ std::string name_of(MissReason reason) {
             return "no-overlap";
         case MissReason::no_box:
             return "no-box";
+        case MissReason::no_bounds:
+            return "no-bounds";
+        case MissReason::no_part:
+            return "no-part";
     }
     return "";
 }

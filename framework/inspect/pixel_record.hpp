@@ -55,6 +55,7 @@ struct RayNode {
     Ray ray;
     std::optional<float> limit;  ///< only hits nearer than this were asked for
     SearchCounts counts;
+    std::optional<bool> any;      ///< the answer, where the ray asked no more than whether anything is hit
     std::vector<BoxEvent> boxes;
     std::vector<SurfaceEvent> tests;
     std::optional<Meeting> hit;    ///< of any hit: the surface that ended the search
@@ -72,6 +73,7 @@ struct LightRecord {
     std::size_t light = 0;
     bool lit = true;
     std::list<RayNode> rays;  ///< shadow rays; none before step 04
+    std::optional<Ray> shadow_ray;  ///< step 04's own answer, which is_lit need not have used
     glm::vec3 to_light{0.0F};
     glm::vec3 mirrored{0.0F};  ///< the light's direction of travel, mirrored
     float l_n = 0.0F;

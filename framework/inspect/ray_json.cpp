@@ -77,6 +77,13 @@ void write_rays(JsonWriter& json, const std::list<RayNode>& rays) {
 
 void write_light(JsonWriter& json, const LightRecord& light) {
     json.line_break().begin_object().key("light").whole(light.light).key("lit").flag(light.lit);
+    json.key("shadow_ray");
+    if (light.shadow_ray) {
+        json.begin_object().key("origin").vector(light.shadow_ray->origin);
+        json.key("direction").vector(light.shadow_ray->direction).end_object();
+    } else {
+        json.null();
+    }
     json.key("to_light").vector(light.to_light).key("mirrored").vector(light.mirrored).key("l_n").number(light.l_n);
     json.key("r_v").number(light.r_v).key("diffuse").vector(light.diffuse).key("specular").vector(light.specular);
     json.key("rays");
@@ -111,6 +118,8 @@ void write_ray(JsonWriter& json, const RayNode& node) {
     json.key("depth").whole(static_cast<std::uint64_t>(node.depth > 0 ? node.depth : 0));
     json.key("origin").vector(node.ray.origin).key("direction").vector(node.ray.direction).key("limit");
     write_number(json, node.limit);
+    json.key("any");
+    node.any ? json.flag(*node.any) : json.null();
     json.line_break();
     write_search(json, node);
     json.key("hit");

@@ -8,6 +8,7 @@
 #include "inspect/missed.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
+#include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"
 #include "steps/08-refraction/refraction.hpp"
 
@@ -161,6 +162,7 @@ bool RecordingTracer::any_hit(const Ray& ray, float distance) {
         return blocked;
     }
     node->counts = counts;
+    node->any = blocked;
     const Surface* const surface = blocked ? recorder_.blocker(distance) : nullptr;
     if (surface != nullptr) {
         const Unheard unheard;
@@ -226,6 +228,9 @@ void RecordingTracer::describe_light(const HitRecord& hit, CastRay& cast, int de
         LightRecord& record = node.lights[i];
         record.light = options().step < 4 ? i : record.light;
         const Light& light = scene_.lights[record.light];
+        if (options().step >= 4) {
+            record.shadow_ray = shadow_ray(hit, light);
+        }
         record.to_light = glm::normalize(light.position - hit.position);
         record.mirrored = mirror(-record.to_light, hit.normal);
         record.l_n = glm::dot(record.to_light, hit.normal);

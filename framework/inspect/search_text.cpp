@@ -54,6 +54,10 @@ std::string reason_words(const Missed& missed) {
             return "overlaps says that it does not touch the box around the hit: " + box;
         case MissReason::no_box:
             return "no box lies around the hit";
+        case MissReason::no_bounds:
+            return "bounds_of all surfaces leaves the hit out: " + box;
+        case MissReason::no_part:
+            return "split makes parts that leave out the hit of this box: " + box;
     }
     return "";
 }

@@ -3,6 +3,8 @@
 from raysteps.commands.inspect.values import CLOSE, Record, Vector, as_float, brief, dot, length, minus, same_direction
 
 _FARTHEST_START = 0.011  # what the contracts allow is 0.01
+_LEAST_START = 2e-4  # the contracts name 0.001
+_SAME_START = 1e-4
 _OWN = {"sphere": "Sphere", "triangle": "Triangle", "smooth-triangle": "Triangle"}
 _SEARCH = {
     "none": ("closest_hit", "closest_hit"),
@@ -10,6 +12,7 @@ _SEARCH = {
     "octree": ("closest_hit_in", "any_hit_in"),
     "bvh": ("closest_hit_in_bvh", "any_hit_in_bvh"),
 }
+_SPACE = {"no-bounds": "bounds_of", "no-part": "split"}
 _BUILD = {"none": "closest_hit", "boxes": "split", "octree": "build_octree", "bvh": "build_bvh"}
 
 
@@ -25,6 +28,8 @@ def lost_by(missed: Record, accel: str, *, shadow: bool) -> str:
         return "Box::clip"
     if reason == "no-overlap":
         return f"{_OWN[missed['kind']]}::overlaps" if missed["kind"] in _OWN else _BUILD[accel]
+    if reason in _SPACE:
+        return _SPACE[reason]
     if reason in ("not-listed", "no-box"):
         return _BUILD[accel]
     return _SEARCH[accel][shadow]
@@ -71,8 +76,8 @@ def start_problem(ray: Record, hit: Record, side: int) -> str:
         return f"it begins {length(away):.3g} away from the hit, and 0.01 is the most that the contract allows"
     if height * side < -1e-6:
         return "it begins on the wrong side of the surface"
-    if height * side < 1e-5:
-        return "it begins on the surface itself, so that rounding decides what it meets"
+    if height * side < _LEAST_START:
+        return "it begins on the surface itself, or hardly off it, so that rounding decides what it meets"
     return ""
 
 
@@ -86,12 +91,17 @@ def blame_shadow(mine: Record, reference: Record, hit: Record, accel: str, *, li
     problem = start_problem(mine, hit, 1)
     if problem:
         return "shadow_ray", problem
+    apart = length(minus(mine["origin"], reference["origin"]))
+    if apart > _SAME_START and mine["missed"] is None:
+        return "shadow_ray", f"it begins {apart:.2g} away from the reference's, and that decides whether it gets past"
     if lit:  # the reference's is blocked
         if mine["hit"] is not None:
             return "is_lit", "your ray met something, too"
         if mine["missed"] is not None or _nearer(reference["hit"], mine["limit"]):
             return blame_hit(mine, reference, accel) or "is_lit", ""
         return "is_lit", "your ray asked for nearer hits only"
+    if mine["hit"] is None and mine["any"]:
+        return _SEARCH[accel][1], "the search says that something is near, though no surface that it tested is"
     if mine["hit"] is None:
         return "is_lit", "your ray met nothing, either"
     if not _nearer(mine["hit"], reference["limit"]):

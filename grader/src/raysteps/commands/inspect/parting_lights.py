@@ -42,7 +42,9 @@ def _shadow(pair: Pair, mine: Record, reference: Record) -> Iterator[Difference]
     if not same_direction(own["direction"], theirs["direction"], 10 * pair.close + min(room, 0.1)):
         words = f"{name}: yours goes towards {point(own['direction'])}"
         words += f", the reference's towards {point(theirs['direction'])}"
-        yield pair.at(item, words, "shadow_ray", not_unit(own["direction"]))
+        strayed = not same_direction(own["direction"], mine["shadow_ray"]["direction"], 10 * pair.close)
+        why = "your shadow_ray gives another direction" if strayed else not_unit(own["direction"])
+        yield pair.at(item, words, "is_lit" if strayed else "shadow_ray", why)
     if mine["lit"] == reference["lit"]:
         return
     function, why = blame_shadow(own, theirs, pair.mine["hit"], pair.accel, lit=mine["lit"])

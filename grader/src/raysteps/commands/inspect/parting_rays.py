@@ -75,7 +75,8 @@ def along(pair: Pair) -> Iterator[Difference]:
     """From the search of one ray to its colour, in the order of computing."""
     mine, reference = pair.mine, pair.reference
     if mine["depth"] != reference["depth"]:
-        yield pair.at("ray", f"yours has depth {mine['depth']}, the reference's {reference['depth']}", "trace")
+        function = "trace" if mine["role"] == "reflect" else "transmitted_light"
+        yield pair.at("ray", f"yours has depth {mine['depth']}, the reference's {reference['depth']}", function)
     if pair.step > 1:
         yield from hit_differences(pair)
     if (mine["local"] is None) != (reference["local"] is None):
