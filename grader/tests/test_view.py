@@ -84,6 +84,13 @@ def _until(what: Callable[[], str]) -> str:
     raise AssertionError("nothing happened")
 
 
+def _parts(pattern: str, text: str) -> tuple[str, ...]:
+    """The groups of a pattern that the text begins with."""
+    found = re.match(pattern, text)
+    assert found is not None, text
+    return found.groups()
+
+
 def test_a_camera_that_was_dragged_can_be_put_into_a_scene(
     project: Project, tree: BuildTree, screen: dict[str, str], tmp_path: Path
 ) -> None:
@@ -97,7 +104,7 @@ def test_a_camera_that_was_dragged_can_be_put_into_a_scene(
     scene = (project.root / _SCENE).read_text(encoding="utf-8")
     (tmp_path / "scene.nff").write_text(scene, encoding="utf-8")
     said = tmp_path / "said.txt"
-    command = [tree.program("view-reference"), "scene.nff", "--size", "320x240"]
+    command = [str(tree.program("view-reference")), "scene.nff", "--size", "320x240"]
     with said.open("w") as out, subprocess.Popen(command, cwd=tmp_path, env=screen, stdout=out) as window:
         try:
             _until(lambda: hand("search", "--name", "scene.nff.*100%"))
@@ -108,18 +115,18 @@ def test_a_camera_that_was_dragged_can_be_put_into_a_scene(
             assert window.wait(_SECONDS) == 0
         finally:
             window.kill()
-    camera, text = re.fullmatch(r"(?s)# .*?\n(v\n.*?resolution 320 240\n)(.*)", said.read_text()).groups()  # type: ignore[union-attr]
+    camera, text = _parts(r"(?s)# .*?\n(v\n.*?resolution 320 240\n)(.*)$", said.read_text())
     moved, times = re.subn(r"(?m)^v\n(?:(?:from|at|up|angle|hither|resolution) .*\n)+", camera, scene)
     assert times == 1
     assert moved != scene
     (tmp_path / "scene.nff").write_text(moved, encoding="utf-8")
-    x, y = re.search(r"pixel \((\d+), (\d+)\)", text).groups()  # type: ignore[union-attr]
+    x, y = _parts(r"pixel \((\d+), (\d+)\)", text)
     assert text == _run([tree.program("inspect-reference"), "scene.nff", x, y], tmp_path)
 
 
 def test_without_a_screen_there_is_a_message(project: Project, tree: BuildTree) -> None:
     env = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    command = [tree.program("view-reference"), _SCENE]
+    command = [str(tree.program("view-reference")), _SCENE]
     done = subprocess.run(command, cwd=project.root, env=env, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "no window can be opened" in done.stderr
