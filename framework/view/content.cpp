@@ -43,6 +43,16 @@ Image content(const Frame& frame, const Settings& settings, const std::string& s
                    strip_for(frame.colors.width(), settings, status));
 }
 
+Image without_strip(const Image& content, const Camera& camera) {
+    Image picture(camera.width, camera.height);
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            picture.at(x, y) = content.at(x, y);
+        }
+    }
+    return picture;
+}
+
 int content_height(const Camera& camera) { return camera.height + legend_height(camera.width); }
 
 }  // namespace raysteps

@@ -13,6 +13,9 @@ namespace raysteps {
 /// The picture over its strip, or a work map over its legend. status: a line such as "step 8 octree 45%".
 [[nodiscard]] Image content(const Frame& frame, const Settings& settings, const std::string& status);
 
+/// The picture alone.
+[[nodiscard]] Image without_strip(const Image& content, const Camera& camera);
+
 /// Height of picture and strip.
 [[nodiscard]] int content_height(const Camera& camera);
 

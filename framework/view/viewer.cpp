@@ -35,17 +35,6 @@ std::filesystem::path free_name(const std::string& scene) {
     }
 }
 
-/// The upper part of an image.
-Image upper_part(const Image& image, int height) {
-    Image part(image.width(), height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < image.width(); ++x) {
-            part.at(x, y) = image.at(x, y);
-        }
-    }
-    return part;
-}
-
 class Viewer {
 public:
     Viewer(Scene& scene, const ViewerOptions& options)
@@ -154,7 +143,7 @@ private:
             window_.show(image);
             return;
         }
-        write_ppm(upper_part(window_.show_and_read(image), controls_.settings().camera.height), options_.screenshot);
+        write_ppm(without_strip(window_.show_and_read(image), controls_.settings().camera), options_.screenshot);
         while (!asker_.idle_within(k_patience)) {
         }
         print_answer();
@@ -167,7 +156,7 @@ private:
             copy_what_is_shown();
             const Image image = content(frame_, controls_.settings(), "");
             const bool map = controls_.settings().map.has_value();
-            write_ppm(map ? image : upper_part(image, controls_.settings().camera.height), path);
+            write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
             say("saved " + path.string() + "\n");
         } catch (const std::exception& error) {
             std::fprintf(stderr, "view: %s\n", error.what());
