@@ -1,4 +1,4 @@
-"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- inspect <- apps."""
+"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- inspect <- view <- apps."""
 
 import re
 from pathlib import Path
