@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 #include "io/ppm.hpp"
 #include "render/acceleration_choice.hpp"
@@ -109,12 +110,19 @@ private:
         } else {
             window_.show(image);
         }
-        if (!progressed.problem.empty() && problem_ != progressed.problem) {
-            problem_ = progressed.problem;
-            std::fprintf(stderr, "view: this picture cannot be made: %s\n", problem_.c_str());
-        }
+        report(progressed.problem);
         const Clock::time_point ended = Clock::now();
         earliest_ = ended + (ended - begun);
+    }
+
+    void report(const std::string& problem) {
+        if (!problem.empty() && !options_.screenshot.empty()) {
+            throw std::runtime_error("this picture cannot be made: " + problem);
+        }
+        if (!problem.empty() && problem != problem_) {
+            std::fprintf(stderr, "view: this picture cannot be made: %s\n", problem.c_str());
+        }
+        problem_ = problem;
     }
 
     void copy_what_is_shown() {
