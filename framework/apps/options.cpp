@@ -5,6 +5,8 @@
 #include <map>
 #include <string_view>
 
+#include "render/acceleration_choice.hpp"
+
 namespace raysteps {
 
 const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [options]
@@ -87,19 +89,12 @@ Rect parse_crop(const std::string& text) {
     return {(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
 }
 
-const std::map<std::string, Acceleration>& accelerations() {
-    static const std::map<std::string, Acceleration> names{
-        {"none", Acceleration::none}, {"boxes", Acceleration::boxes}, {"octree", Acceleration::octree},
-        {"bvh", Acceleration::bvh},   {"wide", Acceleration::wide},   {"wide-octree", Acceleration::wide_octree}};
-    return names;
-}
-
 Acceleration parse_acceleration(const std::string& text) {
-    const auto found = accelerations().find(text);
-    if (found == accelerations().end()) {
+    const std::optional<Acceleration> kind = acceleration_named(text);
+    if (!kind) {
         complain("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
     }
-    return found->second;
+    return *kind;
 }
 
 View parse_view(const std::string& text) {
@@ -159,8 +154,8 @@ void check(const RaytraceOptions& options) {
 
 std::string list_accelerations() {
     std::string list;
-    for (const auto& [name, kind] : accelerations()) {
-        list += has_accelerator(kind) ? name + "\n" : "";
+    for (const Acceleration kind : available_accelerations()) {
+        list += std::string(acceleration_name(kind)) + "\n";
     }
     return list;
 }

@@ -1,4 +1,5 @@
 // raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -11,6 +12,7 @@
 #include "io/ppm.hpp"
 #include "io/read_error.hpp"
 #include "io/write_file.hpp"
+#include "render/acceleration_choice.hpp"
 #include "render/spd.hpp"
 #include "render/work_map.hpp"
 
@@ -21,8 +23,8 @@ using namespace raysteps;
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
-    const Acceleration from_step_6 = options.step < 9 ? Acceleration::octree : Acceleration::bvh;
-    return options.acceleration.value_or(options.step < 6 && !options.spd ? Acceleration::none : from_step_6);
+    const int step = options.spd ? std::max(options.step, 6) : options.step;  // SPD scenes are large
+    return options.acceleration.value_or(usual_acceleration(step));
 }
 
 void check_crop(const Rect& crop, const Camera& camera) {

@@ -16,9 +16,6 @@ constexpr Rgb8 k_ink{230, 230, 230};
 constexpr int k_gap = 3;  // all lengths in dots of the font
 constexpr int k_bar_height = 8;
 
-/// Pixels per dot: larger letters under larger pictures.
-int dot_of(int width) { return std::max(1, width / 400); }
-
 std::string name_of(CostKind kind) {
     switch (kind) {
         case CostKind::tests:
@@ -113,10 +110,12 @@ WorkScale work_scale(const CostGrid& costs, CostKind kind, std::optional<std::ui
     return {scale, *std::max_element(values.begin(), values.end()) > scale};
 }
 
-int legend_height(int width) { return (2 * k_letter_height + k_bar_height + 4 * k_gap) * dot_of(width); }
+int legend_dot(int width) { return std::max(1, width / 400); }
+
+int legend_height(int width) { return (2 * k_letter_height + k_bar_height + 4 * k_gap) * legend_dot(width); }
 
 Image work_legend(int width, CostKind kind, const WorkScale& scale) {
-    const int dot = dot_of(width);
+    const int dot = legend_dot(width);
     const int gap = k_gap * dot;
     Image strip(width, legend_height(width));
     fill(strip, 0, 0, strip.width(), strip.height(), k_paper);

@@ -15,6 +15,9 @@ struct WorkScale {
 /// The scale on which all but the dearest 0.5 % of the pixels lie, up to a round number; or the one that is given.
 [[nodiscard]] WorkScale work_scale(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most);
 
+/// Pixels per dot of the legend's letters: larger ones under larger pictures.
+[[nodiscard]] int legend_dot(int width);
+
 /// Height of the strip with the legend below a picture of that width.
 [[nodiscard]] int legend_height(int width);
 

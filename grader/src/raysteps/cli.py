@@ -19,6 +19,7 @@ from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
+from raysteps.commands.view import view
 from raysteps.commands.watch import command as watch
 from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
@@ -58,6 +59,9 @@ def _parser() -> argparse.ArgumentParser:
     add.add_argument("args", nargs=argparse.REMAINDER)
 
     inspect.add_arguments(commands.add_parser("inspect", help="follow one pixel: its rays, tests and light"))
+
+    add = commands.add_parser("view", help="a window on a scene: move the camera, click pixels; --impl mine|reference")
+    add.add_argument("args", nargs=argparse.REMAINDER)
 
     add = commands.add_parser("check", help="check your own steps")
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
@@ -154,6 +158,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if words[0] == "render":
             return render(here(), words[1:])
+        if words[0] == "view":
+            return view(here(), words[1:])
         return _run(parser.parse_args(words), console)
     except RaystepsError as error:
         print(f"raysteps: {error}", file=sys.stderr)
