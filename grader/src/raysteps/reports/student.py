@@ -73,7 +73,7 @@ def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequ
             "isolation": clean(document["isolation"]["name"], 200),
         },
     }
-    styles, scripts = (*COMPARE_STYLES, "student"), (*COMPARE_SCRIPTS, "student")
+    styles, scripts = (*COMPARE_STYLES, "parts", "student"), (*COMPARE_SCRIPTS, "student")
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 
