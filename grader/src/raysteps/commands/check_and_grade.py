@@ -21,7 +21,8 @@ from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
-from raysteps.reports.student import REPORT, replay_beside, try_student_page
+from raysteps.reports.commands import replay_command
+from raysteps.reports.student import REPORT, try_student_page
 from raysteps.results.model import Results
 from raysteps.sandbox.choice import find_sandbox
 from raysteps.sandbox.open_air import OpenAir
@@ -92,7 +93,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
     out = project.build / "check"
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status))
-    print_details(console, checked.results, checked.kit.steps, out, replay_beside)
+    print_details(console, checked.results, checked.kit.steps, out, replay_command)
     console.print()
     print_table(console, checked.results)
     print_files(console, out / "results.json", checked.page)
@@ -113,10 +114,6 @@ class Wish:
 
 def grade(project: Project, wish: Wish, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
-
-    def again(case: str) -> str:
-        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
-
     sandbox = find_sandbox(require=wish.require_sandbox)
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
@@ -127,7 +124,10 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         clear(out, kit.steps, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
-        page = try_student_page(out, kit.steps, say, again)
+        page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
+
+    def again(case: str) -> str:
+        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
 
     if wish.details:
         print_details(console, results, kit.steps, out, again)
