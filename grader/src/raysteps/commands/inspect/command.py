@@ -118,7 +118,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if reference is None:
         sys.stdout.write(inspected.text)
         _write_html(arguments, console, inspected.record)
-        return 0
+        return 1 if inspected.record["endless"] else 0
     return _compare(project, arguments, inspected.record, inspect(reference, wish), console)
 
 
