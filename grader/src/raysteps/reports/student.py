@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.files import write_if_changed
-from raysteps.common.text import clean, in_seconds, number
+from raysteps.common.text import clean, number
 from raysteps.kit.manifest import Step
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
 from raysteps.pages.page import render_page
@@ -71,10 +71,9 @@ def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequ
             "kit": clean(document["kit"], 200),
             "seed": document["seed"],
             "isolation": clean(document["isolation"]["name"], 200),
-            "seconds": in_seconds(document["timing"]["seconds"]),
         },
     }
-    styles, scripts = (*COMPARE_STYLES, "student"), (*COMPARE_SCRIPTS, "student")
+    styles, scripts = (*COMPARE_STYLES, "parts", "student"), (*COMPARE_SCRIPTS, "student")
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 

@@ -45,7 +45,7 @@ class CompareDesk {
       fit: () => this.#shared.set(1, 0.5, 0.5),
       pull: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, right, down),
       push: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, -right * 40, -down * 40),
-      canZoom: (factor) => (factor < 1 ? this.#shared.zoom > 1 : true),
+      canZoom: (factor) => this.#shown.some(({ pane }) => (factor < 1 ? pane.zoom > 1 : pane.zoom < pane.most)),
       zoomed: () => this.#shared.zoom > 1,
       splits: () => this.view === "slider",
       split: (left) => this.#splitTo(left / this.#size.width),
@@ -84,14 +84,20 @@ class CompareDesk {
     stage.style.aspectRatio = `${width} / ${height * twice}`;
   }
 
+  /** When the stage has another size. */
+  resized() {
+    if (this.pair?.width) {
+      this.shape(this.pair.width, this.pair.height);
+    }
+    this.refresh();
+  }
+
   /** Takes the pictures when they were read. */
   take(pair) {
     this.pair = pair;
     tellPair(this.ui, pair, this.names);
-    if (!pair.comparable) {
-      this.view = "side";
-    }
-    this.choose(this.view);
+    const impossible = this.ui.views.some(({ dataset, disabled }) => disabled && dataset.view === this.view);
+    this.choose(!pair.comparable ? "side" : impossible ? "slider" : this.view);
   }
 
   /** Nothing is drawn, and no memory of a canvas is held, while nobody sees it. */
@@ -109,12 +115,9 @@ class CompareDesk {
     const button = this.ui.views.find(({ dataset }) => dataset.view === view);
     if (button && !button.disabled) {
       this.view = view;
-      if (this.pair?.width) {
-        this.shape(this.pair.width, this.pair.height);
-      }
       this.#tellView();
       this.#tick();
-      this.refresh();
+      this.resized();
     }
   }
 

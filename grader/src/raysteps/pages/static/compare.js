@@ -8,7 +8,7 @@ const compareWatch = new IntersectionObserver((entries) => {
   }
 }, { rootMargin: "150px" });
 const compareResize = new ResizeObserver((entries) => {
-  entries.forEach(({ target }) => target.closest("compare-pictures")?.refresh());
+  entries.forEach(({ target }) => target.closest("compare-pictures")?.resized());
 });
 
 /** `<compare-pictures>`: two pictures, and the ways to find where they differ. Nothing is read before it is seen. */
@@ -64,6 +64,10 @@ class ComparePictures extends HTMLElement {
   }
 
   refresh = () => this.#desk?.refresh();
+
+  resized() {
+    this.#desk?.resized();
+  }
 
   #image(role) {
     return this.querySelector(`:scope > img[data-role="${role}"]`);
