@@ -3,11 +3,11 @@
 import random
 from typing import Any
 
-from raysteps.classroom.report import complaint, read_schema
+from raysteps.common.schemas import complaint, read_schema
 
 Document = dict[str, Any]
 
-STEPS = [
+STEPS: list[Document] = [
     {"id": "01-camera-rays", "title": "Camera rays", "points": 10, "bonus": False},
     {"id": "02-intersection", "title": "Intersection", "points": 20, "bonus": False},
     {"id": "03-phong-shading", "title": "Phong shading", "points": 15, "bonus": False},
@@ -138,7 +138,7 @@ def many(amount: int, seed: int = 1) -> Document:
         skill = luck.random()
         steps, mistakes = {}, {}
         for index, step in enumerate(STEPS):
-            most = float(step["points"])  # type: ignore[arg-type]
+            most = float(step["points"])
             ease = skill * 1.9 - index * 0.11 + luck.random() * 0.4
             if ease < 0.15:
                 steps[str(step["id"])] = result(0, most, "not-started")

@@ -14,7 +14,7 @@ from raysteps.reports.class_attention import groups, marks
 from raysteps.reports.class_mistakes import common_mistakes
 from raysteps.reports.class_report import class_page
 from raysteps.reports.class_rows import aliases, table_rows
-from raysteps.reports.class_statistics import share_bars, step_figures, times, total_bars
+from raysteps.reports.class_statistics import share_bars, span, step_figures, times, total_bars
 from raysteps.reports.drawing import divided, histogram
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
@@ -69,6 +69,14 @@ def test_the_slowest_come_first() -> None:
     assert known is not None
     assert (known.total, known.mean, list(known.slowest)) == (12, 6, [(1, 9.0), (0, 3.0)])
     assert times(document([missing("cid", "not-graded")])) is None
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.25, "0.2 s"), (99.4, "99.4 s"), (133, "2 min 13 s"), (3599.7, "1 h 0 min"), (11_100, "3 h 5 min")],
+)
+def test_times_are_told_as_people_say_them(seconds: float, words: str) -> None:
+    assert span(seconds) == words
 
 
 def test_common_mistakes_know_who_made_them() -> None:

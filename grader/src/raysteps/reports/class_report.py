@@ -10,7 +10,7 @@ from raysteps.pages.page import render_page
 from raysteps.reports.class_attention import groups, marks
 from raysteps.reports.class_mistakes import CommonMistake, common_mistakes
 from raysteps.reports.class_rows import STATUSES, Row, table_rows
-from raysteps.reports.class_statistics import StepFigures, graded, step_figures, times, total_bars
+from raysteps.reports.class_statistics import StepFigures, graded, span, step_figures, times, total_bars
 from raysteps.reports.drawing import divided, histogram
 
 FILE = "class.html"
@@ -56,6 +56,7 @@ def _facts(document: Document) -> dict[str, object]:
         "finals": finals,
         "totals": histogram(total_bars(finals, regular + bonus), 640, 200),
         "times": times(document),
+        "span": span,
         "isolations": sorted({one["isolation"] for one in document["submissions"] if one["isolation"]}),
     }
 

@@ -55,6 +55,15 @@ class Times:
     slowest: Sequence[tuple[int, float]]  # which submission, and its seconds
 
 
+def span(seconds: float) -> str:
+    """`44.3 s`, `2 min 13 s`, `3 h 5 min`."""
+    whole = round(seconds)
+    if whole < 100:
+        return f"{seconds:.1f} s"
+    hours, minutes = whole // 3600, whole % 3600 // 60
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {whole % 60} s"
+
+
 def graded(document: Document) -> list[Document]:
     """Those whose points count: not those from which nothing could be taken."""
     return [one for one in document["submissions"] if one["status"] == "graded"]

@@ -17,6 +17,7 @@ function startClassPage() {
       filter.choose(filter.mistake === mistake ? null : mistake);
       if (filter.mistake !== null) {
         document.getElementById("table").scrollIntoView();
+        document.querySelector(".table-box").focus({ preventScroll: true });
       }
     });
   }
