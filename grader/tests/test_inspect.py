@@ -161,6 +161,10 @@ def _frame(record: Record) -> None:
     record["frame"]["up"] = [0, 0, 1]
 
 
+def _never_asked(record: Record) -> None:
+    record["rays"]["eye"] = 0
+
+
 def _normal(record: Record) -> None:
     record["ray"]["hit"]["normal"] = [2 * value for value in record["ray"]["hit"]["normal"]]
 
@@ -192,6 +196,7 @@ def _tone(record: Record) -> None:
     ("change", "place", "function", "words"),
     [
         (_frame, ("frame",), "view_frame", "the camera's axis `up`"),
+        (_never_asked, ("eye", "hit"), "trace", "the eye ray: yours never asks what it meets"),
         (_normal, ("eye", "normal"), "Sphere::intersect", "the normal is"),
         (_shadow, ("eye", "light2"), "is_lit", "shadow ray to light 2: yours is"),
         (_sum, ("eye", "direct"), "shade", "the sum over the lights is (0, 0, 0)"),

@@ -44,7 +44,7 @@ def _scene(project: Project, name: str) -> str:
 
 
 def _picture(program: Path, scene: str, step: Step, target: Path) -> Pixels:
-    words = [program, scene, *_SIZE, "--step", str(step.index), "-o", target, "--quiet"]
+    words: list[str | Path] = [program, scene, *_SIZE, "--step", str(step.index), "-o", target, "--quiet"]
     outcome = run(words, seconds=60)
     assert outcome.code == 0, outcome.stderr
     return read_ppm(target)

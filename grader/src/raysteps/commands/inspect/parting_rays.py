@@ -114,17 +114,9 @@ def along(pair: Pair) -> Iterator[Difference]:
 
 def ray_differences(mine: Record, reference: Record) -> Iterator[Difference]:
     """From the eye ray on."""
-    pair = Pair(
-        mine["ray"],
-        reference["ray"],
-        (EYE,),
-        "the eye ray",
-        CLOSE,
-        reference["step"],
-        reference["accel"],
-        reference["lights"],
-    )
     own, theirs = mine["ray"], reference["ray"]
+    step, accel, lights = (reference[name] for name in ("step", "accel", "lights"))
+    pair = Pair(own, theirs, (EYE,), "the eye ray", CLOSE, step, accel, lights)
     if not same_direction(own["direction"], theirs["direction"]):
         words = f"yours goes towards {point(own['direction'])}, the reference's towards {point(theirs['direction'])}"
         yield pair.at("ray", words, "primary_ray", not_unit(own["direction"]))
@@ -134,4 +126,6 @@ def ray_differences(mine: Record, reference: Record) -> Iterator[Difference]:
             f"yours begins at {point(own['origin'])}, the reference's at {point(theirs['origin'])}",
             "primary_ray",
         )
+    if reference["rays"]["eye"] > mine["rays"]["eye"]:
+        yield pair.at("hit", "yours never asks what it meets", "trace" if step >= 5 else "")
     yield from along(pair)
