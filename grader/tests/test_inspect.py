@@ -1,5 +1,6 @@
 """What `inspect` accepts, how it ends, and when two records are the same."""
 
+import argparse
 import copy
 import io
 import json
@@ -11,7 +12,8 @@ import pytest
 from rich.console import Console
 
 from raysteps.cli import main
-from raysteps.commands.inspect.command import compare
+from raysteps.commands.inspect.command import add_arguments, compare
+from raysteps.commands.inspect.command import run as start
 from raysteps.commands.inspect.parting import find_parting
 from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
 from raysteps.commands.inspect.values import Record
@@ -19,6 +21,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.process import run
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.kit.building import release_tree
+from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.programs.pictures import read_ppm
 
@@ -227,3 +230,19 @@ def test_two_that_agree_are_told_so(project: Project, record: Record) -> None:
     console = Console(width=160, record=True, file=io.StringIO())
     assert compare(project, Inspected(record=record), Inspected(record=record), console) == 0
     assert "No difference" in console.export_text()
+
+
+def test_steps_that_are_not_started_are_told_so_before_anything_is_built(
+    project: Project, unsolved: dict[str, str], tmp_path: Path
+) -> None:
+    steps = read_steps(project)
+    for step in steps:
+        (tmp_path / "steps" / step.path).parent.mkdir(parents=True)
+        (tmp_path / "steps" / step.path).write_text(unsolved[step.id], encoding="utf-8")
+        manifest = (project.steps / step.id / "step.toml").read_text(encoding="utf-8")
+        (tmp_path / "steps" / step.id / "step.toml").write_text(manifest, encoding="utf-8")
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    scene = str(project.scenes / "lessons" / "three-spheres.nff")
+    with pytest.raises(UsageError, match="your steps are not started"):
+        start(Project(tmp_path), parser.parse_args([scene, "1", "2"]), Console(file=io.StringIO()))

@@ -112,7 +112,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     _write_json(arguments, inspected, console)
     if reference is None:
         sys.stdout.write(inspected.text)
-        return 0
+        return 1 if inspected.record is not None and inspected.record["endless"] else 0
     return compare(project, inspected, inspect(reference, wish), console)
 
 

@@ -14,7 +14,7 @@ from raysteps.kit.building import release_tree, what_failed
 from raysteps.kit.built_kit import Say
 from raysteps.kit.project import Project
 
-_SECONDS = 60
+_SECONDS = 30
 _MOST_BYTES = 64 << 20
 _USAGE = 2
 
