@@ -2,7 +2,7 @@
 #include "render/renderer.hpp"
 
 #include "render/tiles.hpp"
-#include "testing/small_scene.hpp"
+#include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -19,7 +19,7 @@ RenderOptions options_of_step(int step) {
 }  // namespace
 
 TEST_CASE("The picture is the same for any number of threads", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (int step = 1; step <= 8; ++step) {
         INFO("step " << step);
         RenderOptions options = options_of_step(step);
@@ -30,7 +30,7 @@ TEST_CASE("The picture is the same for any number of threads", "[render]") {
 }
 
 TEST_CASE("Every step changes the picture", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (const int step : {2, 3, 4, 5, 7, 8}) {
         INFO("step " << step);
         CHECK_FALSE(render(scene, options_of_step(step)).image == render(scene, options_of_step(step - 1)).image);
@@ -40,7 +40,7 @@ TEST_CASE("Every step changes the picture", "[render]") {
 }
 
 TEST_CASE("A crop is the same pixels as in the whole picture", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     RenderOptions options = options_of_step(8);
     const Image whole = render(scene, options).image;
     options.crop = Rect{7, 11, 20, 9};
@@ -72,7 +72,7 @@ TEST_CASE("Tiles cover each pixel once", "[render]") {
 }
 
 TEST_CASE("Brute force tests every surface once for each ray, but ends a shadow ray at the first hit", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (const int step : {2, 4, 5, 8}) {
         INFO("step " << step);
         const Stats stats = render(scene, options_of_step(step)).stats;
@@ -91,13 +91,13 @@ TEST_CASE("Brute force tests every surface once for each ray, but ends a shadow 
 }
 
 TEST_CASE("Step 04 casts one shadow ray from each hit to each light", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     const Stats stats = render(scene, options_of_step(4)).stats;
     CHECK(stats.shadow == stats.eye_hit * scene.lights.size());
 }
 
 TEST_CASE("A depth of 1 follows no bounce", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     RenderOptions options = options_of_step(8);
     options.step.max_ray_depth = 1;
     const Stats stats = render(scene, options).stats;

@@ -6,7 +6,7 @@
 #include "render/renderer.hpp"
 #include "render/tiny_font.hpp"
 #include "render/work_colors.hpp"
-#include "testing/small_scene.hpp"
+#include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -53,7 +53,7 @@ double lightness(const Rgb8& color) { return 0.2126 * color.r + 0.7152 * color.g
 }  // namespace
 
 TEST_CASE("The pixels' costs add up to the statistics, and measuring changes no picture", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (const Acceleration acceleration : {Acceleration::none, Acceleration::boxes, Acceleration::octree}) {
         RenderOptions options = measured(8, acceleration);
         const Rendering with = render(scene, options);
@@ -69,7 +69,7 @@ TEST_CASE("The pixels' costs add up to the statistics, and measuring changes no 
 }
 
 TEST_CASE("The depth of a pixel is that of its deepest ray", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     CHECK(deepest(render(scene, measured(1, Acceleration::none)).costs) == 0);
     CHECK(deepest(render(scene, measured(4, Acceleration::none)).costs) == 1);
     CHECK(deepest(render(scene, measured(5, Acceleration::none)).costs) > 1);
@@ -83,7 +83,7 @@ TEST_CASE("The depth of a pixel is that of its deepest ray", "[render]") {
 }
 
 TEST_CASE("A work map has the same bytes for any number of threads", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     RenderOptions options = measured(8, Acceleration::octree);
     const CostGrid alone = render(scene, options).costs;
     options.threads = 3;

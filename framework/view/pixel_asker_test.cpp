@@ -6,7 +6,7 @@
 #include "inspect/inspect_pixel.hpp"
 #include "inspect/inspect_text.hpp"
 #include "io/nff_writer.hpp"
-#include "testing/small_scene.hpp"
+#include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -43,15 +43,15 @@ std::string inspected(const Scene& scene, const Pixel& pixel) {
 
 TEST_CASE("A click tells what inspect tells, for the camera of the moment", "[view]") {
     const Pixel pixel{17, 20};
-    Scene scene = small_scene();
+    Scene scene = balls_on_floor();
     Structures structures(scene);
     PixelAsker asker(scene, structures, "small.nff");
     CHECK(asker.is_idle());
     asker.ask(shot_of(scene.camera), pixel, false);
     const std::string text = next_answer(asker);
-    CHECK(text == inspected(small_scene(), pixel));
+    CHECK(text == inspected(balls_on_floor(), pixel));
 
-    Scene elsewhere = small_scene();
+    Scene elsewhere = balls_on_floor();
     elsewhere.camera.from = {3.0F, 2.0F, 4.0F};
     asker.ask(shot_of(elsewhere.camera), pixel, true);
     const std::string moved = next_answer(asker);
@@ -60,7 +60,7 @@ TEST_CASE("A click tells what inspect tells, for the camera of the moment", "[vi
 }
 
 TEST_CASE("Of the pixels that are clicked meanwhile the last one is told", "[view]") {
-    Scene scene = small_scene();
+    Scene scene = balls_on_floor();
     Structures structures(scene);
     PixelAsker asker(scene, structures, "small.nff");
     const Shot shot = shot_of(scene.camera);
@@ -69,7 +69,7 @@ TEST_CASE("Of the pixels that are clicked meanwhile the last one is told", "[vie
     }
     const std::string first = next_answer(asker);
     const std::string last = next_answer(asker);
-    CHECK(first == inspected(small_scene(), {0, 20}));
-    CHECK(last == inspected(small_scene(), {9, 20}));
+    CHECK(first == inspected(balls_on_floor(), {0, 20}));
+    CHECK(last == inspected(balls_on_floor(), {9, 20}));
     CHECK(asker.is_idle());
 }

@@ -6,7 +6,7 @@
 
 #include "render/renderer.hpp"
 #include "render/work_map.hpp"
-#include "testing/small_scene.hpp"
+#include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 #include "view/content.hpp"
 #include "view/passes.hpp"
@@ -65,7 +65,7 @@ TEST_CASE("Every pixel is traced in exactly one pass", "[view]") {
 }
 
 TEST_CASE("The finished picture is raytrace's, for any number of threads", "[view]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     Structures structures(scene);
     for (const int threads : {1, 3}) {
         Progressive progressive(scene, structures, threads);
@@ -82,7 +82,7 @@ TEST_CASE("The finished picture is raytrace's, for any number of threads", "[vie
 }
 
 TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     Structures structures(scene);
     Progressive progressive(scene, structures, 2);
     progressive.start(shot_of(scene, 8));
@@ -98,7 +98,7 @@ TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
 }
 
 TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     Structures structures(scene);
     Progressive progressive(scene, structures, 2);
     for (int i = 0; i < 20; ++i) {

@@ -9,7 +9,7 @@
 namespace raysteps::testing {
 
 /// A floor, a mirror ball and a glass ball, lit by two lights.
-inline Scene small_scene() {
+inline Scene balls_on_floor() {
     Scene scene;
     scene.camera.from = {0.0F, 1.0F, 6.0F};
     scene.camera.width = 50;
