@@ -1,0 +1,26 @@
+"""Commands that a report gives its reader to copy."""
+
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+from raysteps.kit.manifest import Step
+
+
+def check_command(step_id: str) -> str:
+    """Checks one's own step."""
+    return f"./raysteps check {step_id[:2]}"
+
+
+def replay_command(case: str) -> str:
+    """Asks a case again; its file lies beside the report."""
+    return f"./raysteps replay {shlex.quote(case)}"
+
+
+def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
+    """Looks into a pixel of a picture, `{x}` and `{y}`; none where the kit does not know how the picture was made."""
+    case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None
+    if case is None or "{" in case.scene:
+        return None
+    words = [shlex.quote(word) for word in case.args]
+    return " ".join(["./raysteps inspect", shlex.quote(case.scene), "{x} {y}", *words, "--against reference"])
