@@ -72,5 +72,6 @@ def figures() -> list[Figure]:
     makers |= {f"{name}.png": partial(_shot, name) for name in renders.SHOTS}
     found = [Figure(file.rpartition(".")[0], f"{FOLDER}/{file}", make) for file, make in makers.items()]
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
+    found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
     found.append(Figure("steps", "docs/pictures/steps.png", renders.contact_sheet))
     return sorted(found, key=lambda figure: figure.name)

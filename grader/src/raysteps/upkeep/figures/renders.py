@@ -63,13 +63,23 @@ def contact_sheet(kit: BuiltKit) -> Pixels:
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(size=15)
     for place, step in enumerate(steps):
         view = ("--view", "normals") if step.index == 2 else ()
-        args = ("--step", str(step.index), *size, *view)
+        args = ("--step", str(step.index), "--accel", "bvh", *size, *view)
         x = _GAP + (place % 4) * (_TILE + _GAP)
         y = _GAP + (place // 4) * (_TILE + _GAP + _LETTERS)
         picture = reference_picture(kit, glass if step.index == 8 else flake, args)
         sheet.paste(Image.fromarray(picture), (x, y))
         pen.text((x + 4, y + _TILE + 2), f"{step.number} {step.title}", _INK, font)
     return np.asarray(sheet)
+
+
+def work_maps(kit: BuiltKit) -> Pixels:
+    """What each pixel costs: every surface, the octree on its own scale, and on the scale of every surface."""
+    scene = kit.project.scenes / "lessons" / "many-spheres.nff"
+    size = ("--map", "tests", "--size", "320x320")
+    ways = (("--accel", "none"), (), ("--map-scale", "2000"))
+    maps = [reference_picture(kit, scene, (*size, *way)) for way in ways]
+    gap = np.full((maps[0].shape[0], 8, 3), 255, np.uint8)
+    return np.concatenate([maps[0], gap, maps[1], gap, maps[2]], axis=1)
 
 
 def sphereflake(kit: BuiltKit) -> Pixels:
