@@ -85,7 +85,7 @@ def quadtree() -> Drawing:
             (f"{len(_BALLS)} balls, {len(leaves)} leaves", ""),
             ("numbers: boxes in the order", "t-red"),
             ("in which the ray enters them", "t-red"),
-            (f"red: the {len(tested)} balls it tests", "t-red"),
+            (f"coloured: the {len(tested)} balls it tests", "t-red"),
             ("grey: never asked", "t-muted"),
             ("the hit ends the search", "t-blue"),
         )
