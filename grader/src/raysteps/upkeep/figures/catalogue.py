@@ -71,6 +71,7 @@ def figures() -> list[Figure]:
         makers |= {f"{name}.svg": partial(make, name) for name in names}
     makers |= {f"{name}.png": partial(_shot, name) for name in renders.SHOTS}
     found = [Figure(file.rpartition(".")[0], f"{FOLDER}/{file}", make) for file, make in makers.items()]
+    found.append(Figure("01-before", f"{FOLDER}/01-before.png", renders.untouched))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
     found.append(Figure("steps", "docs/pictures/steps.png", renders.contact_sheet))

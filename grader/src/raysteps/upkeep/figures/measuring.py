@@ -17,7 +17,7 @@ from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.scenes import generated
 from raysteps.programs.pictures import Pixels
 from raysteps.upkeep.figures import variants
-from raysteps.upkeep.figures.variants import Variant
+from raysteps.upkeep.figures.variants import Variant, with_knobs
 
 Measured = dict[str, Any]
 
@@ -75,7 +75,7 @@ def growth(kit: BuiltKit) -> Measured:
 
 def depths(kit: BuiltKit) -> Measured:
     """Tests per ray and entries per surface of an octree that ends at each depth, without any other limit."""
-    variant = Variant(kit, kit.steps[5], _DEPTH_KNOB)
+    variant = Variant(kit, kit.steps[5], with_knobs(kit, kit.steps[5], _DEPTH_KNOB))
     args = ("--step", "6", "--accel", "octree")
     gears = "scenes/generated/gears.nff"
     result: Measured = {"surfaces": [], "boxes": [], "precise": [], "bounds": []}
@@ -96,7 +96,7 @@ def _share(pixels: Pixels, right: Pixels) -> float:
 
 def thresholds(kit: BuiltKit) -> Measured:
     """The share of wrong pixels for each threshold of the shadow ray."""
-    variant = Variant(kit, kit.steps[3], _THRESHOLD_KNOB)
+    variant = Variant(kit, kit.steps[3], with_knobs(kit, kit.steps[3], _THRESHOLD_KNOB))
     args = ("--step", "4", "--size", "96x72")
     result: Measured = {}
     for name in _ACNE_SCENES:

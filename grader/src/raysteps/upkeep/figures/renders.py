@@ -10,8 +10,10 @@ from PIL import Image, ImageDraw, ImageFont
 from raysteps.common.files import write_bytes
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.scenes import generated
+from raysteps.kit.stubs import stub_for
 from raysteps.programs.pictures import Pixels
 from raysteps.programs.rendering import reference_picture
+from raysteps.upkeep.figures.variants import Variant
 
 _MOST_APART = 2.0  # of 255, on average: another compiler moves a few pixels
 _SMALL = ("--size", "240x180")
@@ -51,6 +53,15 @@ SHOTS = {
     "08-after": _lesson("glass", "--step", "8"),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
+
+
+def untouched(kit: BuiltKit) -> Pixels:
+    """What the stub of step 01 shows."""
+    step = kit.steps[0]
+    shot = SHOTS["01-after"]
+    return (
+        Variant(kit, step, stub_for(kit.project, step)).draw(f"scenes/{shot.scene}.nff", (*shot.args, *_SMALL)).pixels
+    )
 
 
 def contact_sheet(kit: BuiltKit) -> Pixels:

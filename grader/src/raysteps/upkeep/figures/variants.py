@@ -1,4 +1,4 @@
-"""A reference step with a constant that is read at the start, so that one program can draw a whole curve."""
+"""A step from another source: a constant of the reference is read at the start, and one program draws a whole curve."""
 
 import json
 import tempfile
@@ -42,28 +42,33 @@ class Drawn:
     stats: dict[str, Any]
 
 
-class Variant:
-    """The reference of one step with changes in it, compiled as a student's step is, and linked with the kit."""
+def with_knobs(kit: BuiltKit, step: Step, changes: Mapping[str, str]) -> str:
+    """The reference's source, with knob(0) and knob(1) in place of constants."""
+    source = reference_source(kit.project, step)
+    for old, new in changes.items():
+        if source.count(old) != 1:
+            raise GraderFault(f"figures: '{old}' must occur exactly once in solutions/{step.path.as_posix()}")
+        source = source.replace(old, new)
+    return _READER + source
 
-    def __init__(self, kit: BuiltKit, step: Step, changes: Mapping[str, str]) -> None:
+
+class Variant:
+    """One step from another source, compiled as a student's step is, and linked with the kit."""
+
+    def __init__(self, kit: BuiltKit, step: Step, source: str) -> None:
         self._kit, self._air = kit, OpenAir()
         self._limits = limits_of(step, {})
         self._folder = tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True)
-        source = reference_source(kit.project, step)
-        for old, new in changes.items():
-            if source.count(old) != 1:
-                raise GraderFault(f"figures: '{old}' must occur exactly once in solutions/{step.path.as_posix()}")
-            source = source.replace(old, new)
         build = StudentBuild(kit, self._air, Path(self._folder.name))
-        compiled = build.compile(step, (_READER + source).encode(), self._limits)
+        compiled = build.compile(step, source.encode(), self._limits)
         if compiled.binary is None:
-            raise GraderFault(f"figures: {step.id} with a knob: {shorten(compiled.ran.outcome.stderr, 1000)}")
+            raise GraderFault(f"figures: {step.id} does not build: {shorten(compiled.ran.outcome.stderr, 1000)}")
         program, _ = build.program("raytrace", step, [compiled.binary], self._limits)
         if program is None:
-            raise GraderFault(f"figures: {step.id} with a knob cannot be linked")
+            raise GraderFault(f"figures: {step.id} cannot be linked")
         self._program: Program = program
 
-    def draw(self, scene: str, args: Sequence[str], knobs: Sequence[float]) -> Drawn:
+    def draw(self, scene: str, args: Sequence[str], knobs: Sequence[float] = ()) -> Drawn:
         """One picture; `knobs` are the two numbers that the source asks for with knob(0) and knob(1)."""
         words: list[Word] = [*self._program.words, Input(self._kit.project.root / scene, "scene.nff"), *args, "--quiet"]
         words += ["-o", Output("picture"), "--stats", Output("stats")]
