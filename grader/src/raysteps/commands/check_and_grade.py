@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-import shlex
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, usable_folder
+from raysteps.common.systems import own_command, typed
 from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
 from raysteps.judge.case_files import FOLDER as CASES
@@ -71,7 +71,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
-    print_details(console, results, kit.steps, out, lambda case: f"./raysteps replay {case}")
+    print_details(console, results, kit.steps, out, lambda case: f"{own_command()} replay {case}")
     console.print()
     print_table(console, results)
     print_files(console, out / "results.json")
@@ -104,7 +104,8 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         results = grade_one(kit, submission, settings, sandbox, out, say)
 
     def again(case: str) -> str:
-        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+        words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
+        return f"{own_command()} {typed(words)}"
 
     if wish.details:
         print_details(console, results, kit.steps, out, again)

@@ -24,7 +24,7 @@ def install(packages: Sequence[str]) -> bool:
         return False
     missing = [package for package in packages if not _installed(package)]
     if missing:
-        admin = [] if os.geteuid() == 0 else ["sudo", "-n"]
+        admin = [] if not hasattr(os, "geteuid") or os.geteuid() == 0 else ["sudo", "-n"]
         get = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
         try:
             for words in (["update"], ["install", "-y", *missing]):

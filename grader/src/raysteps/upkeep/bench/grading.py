@@ -1,7 +1,6 @@
 """The command `bench grading`: what a submission costs in a class, against the plain way, measured in turns."""
 
 import os
-import resource
 import shutil
 import sys
 import tempfile
@@ -20,6 +19,7 @@ from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 from raysteps.upkeep.bench.documents import keep
+from raysteps.upkeep.bench.processor import children_seconds
 
 _SECONDS = 3600
 _CLASS_SIZE = 8
@@ -37,15 +37,10 @@ class Cost:
     cpu_seconds: float
 
 
-def _processor_seconds() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
-    start, used = time.monotonic(), _processor_seconds()
+    start, used = time.monotonic(), children_seconds()
     work()
-    seconds, processor = time.monotonic() - start, _processor_seconds() - used
+    seconds, processor = time.monotonic() - start, children_seconds() - used
     return Cost(way, number, submissions, round(seconds / submissions, 2), round(processor / submissions, 2))
 
 
