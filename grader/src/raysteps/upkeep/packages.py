@@ -8,6 +8,7 @@ from collections.abc import Sequence
 _SECONDS = 1200
 
 CLANG = ("clang",)
+MINGW = ("g++-mingw-w64-x86-64-posix", "wine64", "wine")
 PAGES = ("chromium",)
 WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb")
 

@@ -15,6 +15,7 @@ from rich.table import Table
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
+from raysteps.common.systems import refuse_on_windows
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
@@ -104,6 +105,7 @@ def _mean(values: list[float]) -> float:
 
 def grading(project: Project, rounds: int, console: Console) -> int:
     """Measures both ways in turns, prints one table and writes build/bench/grading.json."""
+    refuse_on_windows("bench grading")
     steps = read_steps(project)
     with console.status("building the kit, which both runs of a class share"):
         build_kit(project)
