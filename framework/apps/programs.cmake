@@ -18,6 +18,37 @@ raysteps_add_raytrace(raytrace-mine ${numbers})
 raysteps_add_raytrace(raytrace-reference)
 raysteps_link_wide(raytrace-reference)
 
+# inspect, the life of one pixel.
+add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp)
+target_link_libraries(inspect-app PRIVATE raysteps-flags raysteps-strict)
+
+function(raysteps_add_inspect name)
+    add_executable(${name} $<TARGET_OBJECTS:inspect-app> $<TARGET_OBJECTS:raysteps-inspect-recorded>)
+    target_link_libraries(${name} PRIVATE raysteps-inspect raysteps-render raysteps-io raysteps-core)
+    raysteps_link_steps(${name} ${ARGN})
+endfunction()
+
+raysteps_add_inspect(inspect-mine ${numbers})
+raysteps_add_inspect(inspect-reference)
+
+# view, a window on a scene.
+if(RAYSTEPS_WINDOW)
+    file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")
+    add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources})
+    target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)
+    target_compile_definitions(view-app PRIVATE GL_SILENCE_DEPRECATION)  # a Mac calls all of OpenGL deprecated
+
+    function(raysteps_add_view name)
+        add_executable(${name} $<TARGET_OBJECTS:view-app> $<TARGET_OBJECTS:raysteps-inspect-recorded>)
+        target_link_libraries(${name} PRIVATE raysteps-view raysteps-inspect raysteps-render raysteps-io raysteps-core
+                                              glfw OpenGL::GL)
+        raysteps_link_steps(${name} ${ARGN})
+    endfunction()
+
+    raysteps_add_view(view-mine ${numbers})
+    raysteps_add_view(view-reference)
+endif()
+
 # worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
 add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
             apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp

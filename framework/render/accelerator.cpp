@@ -12,6 +12,12 @@
 namespace raysteps {
 namespace {
 
+using Place = SurfaceList::const_iterator;
+
+bool holds(Place first, Place last, const Surface* wanted) {
+    return wanted != nullptr && std::find(first, last, wanted) != last;
+}
+
 bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
     return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface* surface) {
         const std::optional<HitRecord> hit = surface->hit(ray);
@@ -48,7 +54,18 @@ public:
     }
     [[nodiscard]] StructureSize size() const override { return size_below(root_); }
 
+    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override {
+        visit_below(root_, 0, wanted, visit);
+    }
+
 private:
+    static void visit_below(const Node& node, int level, const Surface* wanted, const BoxVisitor& visit) {
+        visit({node.box, level, node.surfaces.size(), holds(node.surfaces.begin(), node.surfaces.end(), wanted)});
+        for (const Node& child : node.children) {
+            visit_below(child, level + 1, wanted, visit);
+        }
+    }
+
     static StructureSize size_below(const Node& node) {
         StructureSize sum{1, node.surfaces.size(), sizeof(Node) + node.surfaces.size() * sizeof(const Surface*)};
         for (const Node& child : node.children) {
@@ -78,6 +95,22 @@ public:
     [[nodiscard]] StructureSize size() const override {
         return {bvh_.nodes.size(), bvh_.surfaces.size(),
                 bvh_.nodes.size() * sizeof(BvhNode) + bvh_.surfaces.size() * sizeof(const Surface*)};
+    }
+
+    /// Node by node and not from the root on, as a student's tree may point anywhere, even in a circle.
+    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override {
+        std::vector<int> levels(bvh_.nodes.size(), 0);
+        for (std::size_t i = 0; i < bvh_.nodes.size(); ++i) {
+            const BvhNode& node = bvh_.nodes[i];
+            const std::size_t child = node.first;
+            if (!node.is_leaf() && child > i && child + 1 < levels.size()) {
+                levels[child] = levels[child + 1] = levels[i] + 1;
+            }
+            const std::size_t first = node.is_leaf() ? std::min(child, bvh_.surfaces.size()) : 0;
+            const std::size_t count = std::min<std::size_t>(node.count, bvh_.surfaces.size() - first);
+            const Place begin = bvh_.surfaces.begin() + static_cast<std::ptrdiff_t>(first);
+            visit({node.box, levels[i], count, holds(begin, begin + static_cast<std::ptrdiff_t>(count), wanted)});
+        }
     }
 
 private:

@@ -1,6 +1,7 @@
 #pragma once
 // The structures that the renderer can look for hits with. All give the same hits.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,16 @@ struct StructureSize {
     std::uint64_t bytes = 0;       ///< of boxes and lists, without the surfaces themselves
 };
 
+/// A box of a structure, as it is shown to whoever looks at the structure itself.
+struct BoxPlace {
+    const Box& box;             ///< the very one that rays are tested against
+    int level = 0;              ///< 0: the root
+    std::uint64_t listed = 0;   ///< surfaces in its own list
+    bool lists_wanted = false;  ///< whether the surface that was asked for is one of them
+};
+
+using BoxVisitor = std::function<void(const BoxPlace& place)>;
+
 class Accelerator {
 public:
     virtual ~Accelerator() = default;
@@ -40,6 +51,9 @@ public:
     }
 
     [[nodiscard]] virtual StructureSize size() const { return {}; }
+
+    /// Shows every box, each before those within it. `wanted` may be null.
+    virtual void visit_boxes(const Surface* /*wanted*/, const BoxVisitor& /*visit*/) const {}
 
 protected:
     Accelerator() = default;

@@ -22,6 +22,14 @@ std::vector<std::uint64_t> members_of(const Box& box, const SurfaceList& surface
     return members;
 }
 
+std::uint64_t count_members(const std::vector<std::uint64_t>& members) {
+    std::uint64_t count = 0;
+    for (const std::uint64_t word : members) {
+        count += static_cast<std::uint64_t>(std::popcount(word));
+    }
+    return count;
+}
+
 /// The surfaces whose bits are set, in the order of the scene.
 void append_members(const std::vector<std::uint64_t>& members, const SurfaceList& surfaces, SurfaceList& out) {
     for (std::size_t word = 0; word < members.size(); ++word) {
@@ -111,12 +119,26 @@ StructureSize PaperBoxes::size() const {
         sum.boxes += 1 + middle.small.size();
         for (const Small& small : middle.small) {
             sum.bytes += small.members.size() * sizeof(std::uint64_t);
-            for (const std::uint64_t word : small.members) {
-                sum.references += static_cast<std::uint64_t>(std::popcount(word));
-            }
+            sum.references += count_members(small.members);
         }
     }
     return sum;
+}
+
+void PaperBoxes::visit_boxes(const Surface* wanted, const BoxVisitor& visit) const {
+    if (surfaces_.empty()) {
+        return;
+    }
+    const auto place = std::find(surfaces_.begin(), surfaces_.end(), wanted);
+    const auto bit = static_cast<std::size_t>(place - surfaces_.begin());
+    visit({main_, 0, 0, false});
+    for (const Middle& middle : middle_) {
+        visit({middle.box, 1, 0, false});
+        for (const Small& small : middle.small) {
+            const bool member = place != surfaces_.end() && ((small.members[bit / 64] >> (bit % 64)) & 1U) != 0U;
+            visit({small.box, 2, count_members(small.members), member});
+        }
+    }
 }
 
 }  // namespace raysteps

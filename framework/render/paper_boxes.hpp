@@ -16,6 +16,7 @@ public:
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
     [[nodiscard]] StructureSize size() const override;
+    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override;
 
 private:
     /// A small box and its intersect list: bit i of word w stands for surface 64 w + i.

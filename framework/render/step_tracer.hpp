@@ -16,7 +16,7 @@ struct StepOptions {
 };
 
 /// Calls the step functions and counts their rays by kind. Each thread has its own.
-class StepTracer final : public Tracer {
+class StepTracer : public Tracer {
 public:
     StepTracer(const Scene& scene, const Accelerator& accelerator, const StepOptions& options)
         : scene_(scene), accelerator_(accelerator), options_(options) {}
@@ -24,12 +24,21 @@ public:
     /// The colour of a primary ray, before tone mapping.
     [[nodiscard]] Color primary_color(const Ray& ray);
 
+    /// How deep the last primary ray and what came of it went: 0 nothing was asked, 1 the ray itself, 2 a bounce.
+    [[nodiscard]] int deepest_ray() const { return deepest_; }
+
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) override;
     [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return options_.max_ray_depth; }
     [[nodiscard]] Color background() const override { return scene_.background; }
+
+protected:
+    [[nodiscard]] const StepOptions& options() const { return options_; }
+
+    /// Step 04's answer. Whoever wants to know which rays ask for which light overrides it.
+    [[nodiscard]] virtual bool reaches(const HitRecord& hit, const Light& light);
 
 private:
     enum class RayKind { eye, shadow, reflect, refract };
@@ -44,6 +53,8 @@ private:
     std::vector<Light> lit_;       ///< by the hit that is shaded; kept, so that no hit needs memory of its own
     RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
     bool through_glass_ = false;   ///< whether step 08 is at work, so that a ray given to trace is refracted
+    int next_depth_ = 1;           ///< of the next ray that is no shadow ray; each one is followed by a deeper one
+    int deepest_ = 0;
 };
 
 }  // namespace raysteps

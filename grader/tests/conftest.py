@@ -11,6 +11,8 @@ from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project, here
 from raysteps.kit.stubs import stub_for, without_markers
 
+pytest_plugins = ["browser"]
+
 Sources = dict[str, str]
 MakeSubmission = Callable[[str, Sources], Path]
 

@@ -67,6 +67,7 @@ def test_all_forms_are_graded(tmp_path: Path, handed_in: Path) -> None:
     assert _points(out) == {"s1": 1, "s2": 2, "s3": 3, "s4": 4, "zed": 9}
     for name in _points(out):
         document = json.loads((out / "submissions" / name / "results.json").read_text())
+        assert (out / "submissions" / name / "report.html").is_file()
         validate(document)
         assert document["submission"] == name
     assert sorted(_files(out))[:2] == [
@@ -150,7 +151,8 @@ def test_grading_again_keeps_the_earlier_results(tmp_path: Path, handed_in: Path
     ]
     assert document["gone"] == ["s4"]
     assert [run["results"]["graded"] for run in document["runs"]] == [4, 2]
-    assert not (out / "submissions" / "s1" / "results.json").exists()
+    for result in ("results.json", "report.html"):
+        assert not (out / "submissions" / "s1" / result).exists()
     with closing(sqlite3.connect(out / "class.sqlite")) as connection:
         rows = connection.execute("SELECT run, points FROM results WHERE submission = 2 ORDER BY run").fetchall()
     assert rows == [(1, 2), (2, 8)]

@@ -10,11 +10,17 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.classroom import command as classroom
+from raysteps.commands import report_page
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
+from raysteps.commands.course import command as course
 from raysteps.commands.demo import demo
+from raysteps.commands.gallery import command as gallery
+from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
+from raysteps.commands.view import view
+from raysteps.commands.watch import command as watch
 from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
@@ -46,7 +52,15 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
+    watch.add_arguments(commands.add_parser("watch", help="build, test and draw a step again with every save"))
+    course.add_arguments(commands.add_parser)
+
     add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
+    add.add_argument("args", nargs=argparse.REMAINDER)
+
+    inspect.add_arguments(commands.add_parser("inspect", help="follow one pixel: its rays, tests and light"))
+
+    add = commands.add_parser("view", help="a window on a scene: move the camera, click pixels; --impl mine|reference")
     add.add_argument("args", nargs=argparse.REMAINDER)
 
     add = commands.add_parser("check", help="check your own steps")
@@ -68,12 +82,15 @@ def _parser() -> argparse.ArgumentParser:
     add.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
     add.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
 
+    report_page.add_arguments(commands.add_parser("report", help="make report.html of results that are there already"))
     classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
     leaderboard.add_arguments(commands.add_parser("leaderboard", help="rank submissions by counted work"))
     exports.add_arguments(commands.add_parser("export", help="for Gradescope, Classroom 50, Canvas and others"))
 
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
     add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
+
+    gallery.add_arguments(commands.add_parser("gallery", help="a page that walks through the steps in pictures"))
 
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
 
@@ -93,12 +110,20 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
 def _run(arguments: argparse.Namespace, console: Console) -> int:
     project = here()
     match arguments.command:
+        case "watch":
+            return watch.run(project, arguments, console)
         case "check":
             return check(project, arguments.steps, console)
+        case "inspect":
+            return inspect.run(project, arguments, console)
+        case name if name in course.COMMANDS:
+            return course.run(project, arguments, console)
         case "replay":
             return replay(project, arguments.case, arguments.submission, console)
         case "grade":
             return exit_code(grade(project, _wish(project, arguments), console))
+        case "report":
+            return report_page.run(project, arguments, console)
         case "grade-class":
             return classroom.run(project, arguments, console)
         case "leaderboard":
@@ -107,6 +132,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return exports.run(project, arguments, console)
         case "demo":
             return demo(project, arguments.out, console)
+        case "gallery":
+            return gallery.run(project, arguments, console)
         case "bench":
             return bench.run(project, arguments, console)
         case "test":
@@ -131,6 +158,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if words[0] == "render":
             return render(here(), words[1:])
+        if words[0] == "view":
+            return view(here(), words[1:])
         return _run(parser.parse_args(words), console)
     except RaystepsError as error:
         print(f"raysteps: {error}", file=sys.stderr)

@@ -1,7 +1,10 @@
-"""The files that are made from the database: of each submission results.json, pictures and cases; and two tables."""
+"""The files that are made from the database: of each submission results.json, its page, pictures and cases; of the
+class two tables and a page."""
 
 import json
+import sys
 from collections.abc import Container, Iterable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +13,10 @@ from raysteps.classroom.spreadsheet import Cell, csv_bytes
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.feedback import withhold
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import here
+from raysteps.reports import class_report
+from raysteps.reports.student import REPORT, try_student_page
 
 SUBMISSIONS = "submissions"
 _TABLES = ("results.csv", "class.json")
@@ -35,6 +42,15 @@ def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> se
     return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
 
 
+def _warn(words: str) -> None:
+    print(f"raysteps: {words}", file=sys.stderr)
+
+
+@cache
+def _steps() -> list[Step]:
+    return read_steps(here())
+
+
 def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     """The result that counts. Of a fault there is only fault.txt."""
     row = database.current(name)
@@ -46,15 +62,17 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     shown = set(files) - _withheld_cases(document, files)
     _forget_files(folder, shown)
     forget_unfinished(folder)
-    for path in sorted(shown):
-        write_if_changed(folder / path, files[path])
+    changed = [write_if_changed(folder / path, files[path]) for path in sorted(shown)]
     if document is not None:
         text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
-        write_if_changed(folder / "results.json", text.encode())
+        changed.append(write_if_changed(folder / "results.json", text.encode()))
+        if any(changed) or not (folder / REPORT).is_file():
+            try_student_page(folder, _steps(), lambda words: _warn(f"{name}: {words}"))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
-        (folder / "results.json").unlink(missing_ok=True)
+        for result in ("results.json", REPORT):
+            (folder / result).unlink(missing_ok=True)
 
 
 _HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")
@@ -90,7 +108,7 @@ def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
 
 def withdraw_tables(out: Path) -> None:
     """Before the first result changes: tables of earlier results beside new ones would be taken for theirs."""
-    for name in _TABLES:
+    for name in (*_TABLES, class_report.FILE):
         (out / name).unlink(missing_ok=True)
 
 
@@ -103,3 +121,4 @@ def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], do
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))
     write_json(out / facts, document)
+    class_report.try_class_report(document, out, _warn)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.commands.course.remembered import remember
 from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
@@ -16,9 +17,12 @@ from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.case_files import place_of
+from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
+from raysteps.reports.commands import replay_command
+from raysteps.reports.student import REPORT, try_student_page
 from raysteps.results.model import Results
 from raysteps.sandbox.choice import find_sandbox
 from raysteps.sandbox.open_air import OpenAir
@@ -40,7 +44,8 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
     stay for `replay` until their step is graded again."""
     usable_folder(out)
     try:
-        (out / "results.json").unlink(missing_ok=True)
+        for name in ("results.json", REPORT):
+            (out / name).unlink(missing_ok=True)
         for step in steps:
             folder = out / "pictures" / step.id
             if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
@@ -60,22 +65,39 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
-def check(project: Project, names: list[str], console: Console) -> int:
-    """Checks the steps in the repository and explains what is wrong. Your own code needs no sandbox."""
-    chosen = choose(read_steps(project), names)
+@dataclass(frozen=True)
+class Checked:
+    """What came of checking one's own steps; there is no page where it could not be made."""
+
+    kit: BuiltKit
+    results: Results
+    page: Path | None
+
+
+def check_steps(project: Project, chosen: list[Step], say: Say) -> Checked:
+    """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
     out = project.build / "check"
-    with console.status("starting") as status, one_at_a_time(project.build / "check.lock"):
-        say = progress(console, status)
+    with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say)
         clear(out, kit.steps, chosen)
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
-    print_details(console, results, kit.steps, out, lambda case: f"{own_command()} replay {case}")
+        remember(project, results, submission.sources)
+        return Checked(kit, results, try_student_page(out, kit.steps, say))
+
+
+def check(project: Project, names: list[str], console: Console) -> int:
+    """Checks the steps in the repository and explains what is wrong."""
+    chosen = choose(read_steps(project), names)
+    out = project.build / "check"
+    with console.status("starting") as status:
+        checked = check_steps(project, chosen, progress(console, status))
+    print_details(console, checked.results, checked.kit.steps, out, replay_command)
     console.print()
-    print_table(console, results)
-    print_files(console, out / "results.json")
-    return exit_code(results)
+    print_table(console, checked.results)
+    print_files(console, out / "results.json", checked.page)
+    return exit_code(checked.results)
 
 
 @dataclass(frozen=True)
@@ -102,6 +124,7 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         clear(out, kit.steps, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, sandbox, out, say)
+        page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
     def again(case: str) -> str:
         words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
@@ -112,5 +135,5 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         console.print()
     print_table(console, results)
     print_isolation(console, results)
-    print_files(console, out / "results.json")
+    print_files(console, out / "results.json", page)
     return results

@@ -6,7 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from raysteps.common.errors import StudentBuildError, UsageError
+from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
@@ -41,16 +41,27 @@ def _say(text: str) -> None:
     print(f"raysteps: {text}; the first time takes a minute or two", file=sys.stderr, flush=True)
 
 
-def build_mine(tree: BuildTree) -> Path:
-    """Builds raytrace-mine; the compiler speaks only when that fails."""
-    if not tree.program("raytrace-mine").exists():
+def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
+    """Builds a program from the student's steps; the compiler speaks only when that fails."""
+    if not tree.program(target).exists():
         _say("building")
     with tree.locked():
-        outcome = tree.build(["raytrace-mine"])
+        outcome = tree.build([target])
     if outcome.code != 0:
         error = _first_error(outcome.stdout + outcome.stderr)
         raise StudentBuildError(f"{what_failed(outcome)}\nYour steps do not build: {error}")
-    return tree.program("raytrace-mine")
+    return tree.program(target)
+
+
+def build_reference(tree: BuildTree, target: str) -> Path:
+    """Builds a program from the reference's steps."""
+    if not tree.program(target).exists():
+        _say("building")
+    with tree.locked():
+        outcome = tree.build([target])
+    if outcome.code != 0:
+        raise GraderFault(f"{target} does not build:\n{what_failed(outcome)}")
+    return tree.program(target)
 
 
 def run_raytrace(program: Path, args: list[str]) -> None:

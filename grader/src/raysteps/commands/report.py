@@ -160,6 +160,8 @@ def print_isolation(console: Console, results: Results) -> None:
             console.print(f"[red]inconsistent[/red]  {result.id}: {escape(line)}")
 
 
-def print_files(console: Console, path: Path) -> None:
+def print_files(console: Console, path: Path, page: Path | None) -> None:
     """Where the results are."""
+    if page is not None:
+        console.print(f"Report: {escape(short_path(page))}, for a browser", soft_wrap=True)
     console.print(f"Results: {escape(short_path(path))}, pictures beside it", soft_wrap=True)

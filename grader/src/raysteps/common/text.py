@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 
+_UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
@@ -14,6 +15,12 @@ def printable(text: str) -> str:
 def shorten(text: str, limit: int = 2000) -> str:
     """At most that many characters."""
     return text if len(text) <= limit else text[: limit - 4] + " ..."
+
+
+def clean(text: str, limit: int = 4000) -> str:
+    """Without control characters, signs that turn the writing direction, and halves of surrogates."""
+    whole = text.encode("utf-8", "replace").decode("utf-8")
+    return shorten(_UNSEEN.sub("", printable(whole)), limit)
 
 
 def listed(words: Sequence[str]) -> str:

@@ -7,10 +7,11 @@ from datetime import UTC, datetime
 from typing import Any
 
 from raysteps.common.errors import UsageError
+from raysteps.common.text import clean
 from raysteps.exports.items import step_text
 from raysteps.exports.points import apportion
 from raysteps.exports.summary import title
-from raysteps.exports.wording import clean, harmless_log, one_line
+from raysteps.exports.wording import harmless_log, one_line
 from raysteps.kit.manifest import Step
 
 _FIELDS = {

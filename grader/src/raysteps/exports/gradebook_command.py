@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count
+from raysteps.common.text import clean, count
 from raysteps.exports.class_results import Graded, read_class, results_of
 from raysteps.exports.csv_cells import read_sheet
 from raysteps.exports.feedback import moodle_cell
@@ -18,7 +18,6 @@ from raysteps.exports.formats import write_out
 from raysteps.exports.gradebook import fill
 from raysteps.exports.gradebook_forms import MOODLE_COLUMNS, canvas, moodle
 from raysteps.exports.hosted import by_id
-from raysteps.exports.wording import clean
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 

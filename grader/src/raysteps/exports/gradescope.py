@@ -5,10 +5,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, get_args
 
+from raysteps.common.text import clean
 from raysteps.exports.items import Item
 from raysteps.exports.points import Entry, entries_of
 from raysteps.exports.summary import summary, title
-from raysteps.exports.wording import clean, one_line
+from raysteps.exports.wording import one_line
 from raysteps.kit.manifest import Step
 from raysteps.results.effort import NoEffort, effort_of
 

@@ -9,9 +9,8 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
-from raysteps.common.text import number, shorten
+from raysteps.common.text import clean, number, shorten
 from raysteps.exports.reading import read_results
-from raysteps.exports.wording import clean
 from raysteps.kit.manifest import Step, choose
 from raysteps.kit.project import Project
 from raysteps.results.model import Results, StepResult

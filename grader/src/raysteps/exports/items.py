@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from raysteps.common.text import count
-from raysteps.exports.wording import clean, one_line
+from raysteps.common.text import clean, count
+from raysteps.exports.wording import one_line
 from raysteps.kit.manifest import Step
 
 Kind = Literal["test", "picture", "hidden", "together", "step"]

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from raysteps.common.text import clean
 from raysteps.exports.items import Item, items_of, step_text
-from raysteps.exports.wording import clean
 from raysteps.kit.manifest import Step
 
 

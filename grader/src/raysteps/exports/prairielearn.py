@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.text import count
+from raysteps.common.text import clean, count
 from raysteps.exports.data_uris import Album
 from raysteps.exports.formats import encoded
 from raysteps.exports.points import entries_of
 from raysteps.exports.summary import summary, title
-from raysteps.exports.wording import clean, one_line
+from raysteps.exports.wording import one_line
 from raysteps.kit.manifest import Step
 
 MAX_BYTES = 1_000_000

@@ -11,6 +11,7 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError
 from raysteps.common.process import run
+from raysteps.common.text import clean
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import remove, validate, write
 from raysteps.exports.github import output_line, to_classroom50, to_legacy
@@ -18,7 +19,7 @@ from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_g
 from raysteps.exports.hosted import NotGraded, Options, by_id, grade_here
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.exports.summary import summary
-from raysteps.exports.wording import clean, harmless_log
+from raysteps.exports.wording import harmless_log
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 

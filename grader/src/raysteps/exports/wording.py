@@ -3,16 +3,9 @@
 import html
 import re
 
-from raysteps.common.text import printable, shorten
+from raysteps.common.text import clean, shorten
 
-_UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
 _COMMAND = re.compile(r"^(\s*)::", re.MULTILINE)
-
-
-def clean(text: str, limit: int = 4000) -> str:
-    """Without control characters, signs that turn the writing direction, and halves of surrogates."""
-    whole = text.encode("utf-8", "replace").decode("utf-8")
-    return shorten(_UNSEEN.sub("", printable(whole)), limit)
 
 
 def one_line(text: str, limit: int = 200) -> str:

@@ -1,0 +1,58 @@
+// inspect: the life of one pixel, with the steps that the program was linked with.
+#include <cstdio>
+
+#include "apps/inspect_options.hpp"
+#include "inspect/inspect_json.hpp"
+#include "inspect/inspect_pixel.hpp"
+#include "inspect/inspect_text.hpp"
+#include "io/arguments.hpp"
+#include "io/nff_reader.hpp"
+#include "io/write_file.hpp"
+#include "render/acceleration_choice.hpp"
+
+namespace {
+
+using namespace raysteps;
+
+constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
+
+void run(const InspectOptions& options) {
+    Scene scene = read_nff(path_of(options.picture.scene));
+    if (options.picture.size) {
+        scene.camera.width = options.picture.size->width;
+        scene.camera.height = options.picture.size->height;
+    }
+    check_pixel(options, scene.camera);
+    const Acceleration acceleration = options.picture.acceleration.value_or(usual_acceleration(options.picture.step));
+    const auto accelerator = make_accelerator(acceleration, scene.surfaces());
+    const StepOptions step{options.picture.step, options.picture.view, options.picture.depth};
+    PixelRecord record = inspect_pixel(scene, *accelerator, acceleration, step, options.x, options.y);
+    record.scene = options.picture.scene;
+    if (!options.json.empty()) {
+        write_file(path_of(options.json), inspect_json(record));
+    }
+    if (!options.picture.quiet) {
+        std::fputs(inspect_text(record).c_str(), stdout);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const InspectOptions options = parse_inspect_options(utf8_arguments(argc, argv));
+        if (options.picture.help) {
+            std::fputs(k_inspect_usage, stdout);
+            return 0;
+        }
+        run(options);
+        return 0;
+    } catch (const ReadError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    } catch (const UsageError& error) {
+        std::fprintf(stderr, "inspect: %s\nAll options: ./raysteps inspect --help\n", error.what());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "inspect: %s\n", error.what());
+    }
+    return k_exit_usage;
+}

@@ -1,0 +1,101 @@
+#include "inspect/inspect_pixel.hpp"
+
+#include <vector>
+
+#include "inspect/recording_tracer.hpp"
+#include "render/encode.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+#include "steps/07-tone-mapping/tone_mapping.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr std::size_t k_most_near = 2000;  // surfaces that are described
+
+/// Surfaces in the order in which somebody who draws the pixel needs them, each once.
+class NearList {
+public:
+    NearList(const SurfaceList& surfaces, std::vector<SurfaceInfo>& list)
+        : surfaces_(surfaces), list_(list), taken_(surfaces.size(), false) {}
+
+    void add(std::size_t order) {
+        if (order < taken_.size() && !taken_[order] && list_.size() < k_most_near) {
+            taken_[order] = true;
+            list_.push_back(describe(*surfaces_[order]));
+        }
+    }
+
+    void add_hits(const RayNode& node) {
+        if (node.hit && node.hit->surface) {
+            add(*node.hit->surface);
+        }
+        if (node.missed) {
+            add(node.missed->surface);
+        }
+    }
+
+    void add_tests(const RayNode& node) {
+        for (const SurfaceEvent& event : node.tests) {
+            add(event.surface);
+        }
+    }
+
+private:
+    const SurfaceList& surfaces_;
+    std::vector<SurfaceInfo>& list_;
+    std::vector<bool> taken_;
+};
+
+template <typename Visit>
+void for_each_ray(const RayNode& node, const Visit& visit) {
+    visit(node);
+    for (const LightRecord& light : node.lights) {
+        for (const RayNode& ray : light.rays) {
+            for_each_ray(ray, visit);
+        }
+    }
+    for (const RayNode& bounce : node.bounces) {
+        for_each_ray(bounce, visit);
+    }
+}
+
+void list_near(const Scene& scene, PixelRecord& record) {
+    NearList near(scene.surfaces(), record.near);
+    for_each_ray(record.eye, [&](const RayNode& node) { near.add_hits(node); });
+    for_each_ray(record.eye, [&](const RayNode& node) { near.add_tests(node); });
+    for (std::size_t i = 0; i < scene.surfaces().size() && record.near.size() < k_most_near; ++i) {
+        near.add(i);
+    }
+}
+
+}  // namespace
+
+PixelRecord inspect_pixel(const Scene& scene, const Accelerator& accelerator, Acceleration acceleration,
+                          const StepOptions& options, int x, int y) {
+    PixelRecord record;
+    record.options = options;
+    record.acceleration = acceleration;
+    record.camera = scene.camera;
+    record.frame = view_frame(scene.camera);
+    record.background = scene.background;
+    record.lights = scene.lights;
+    record.structure = accelerator.size();
+    record.surfaces = scene.surfaces().size();
+    record.x = x;
+    record.y = y;
+
+    thread_stats() = Stats{};
+    RecordingTracer tracer(scene, accelerator, record);
+    record.color = tracer.follow(primary_ray(scene.camera, record.frame, x, y));
+    record.stats = thread_stats();
+    if (record.color) {
+        record.bytes = encode(*record.color, options.step);
+        if (options.step >= 7) {
+            record.mapped = tone_map(*record.color);
+        }
+    }
+    list_near(scene, record);
+    return record;
+}
+
+}  // namespace raysteps

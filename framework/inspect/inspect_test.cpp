@@ -1,0 +1,132 @@
+// The record tells the truth about a pixel, and leaves the pixel as it is.
+#include "inspect/inspect_json.hpp"
+#include "inspect/inspect_text.hpp"
+#include "inspect/test_scenes.hpp"
+#include "render/renderer.hpp"
+#include "steps/02-intersection/intersection.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+SearchCounts sum_of(const RayNode& node) {
+    SearchCounts sum = node.counts;
+    for (const LightRecord& light : node.lights) {
+        for (const RayNode& ray : light.rays) {
+            sum += sum_of(ray);
+        }
+    }
+    for (const RayNode& bounce : node.bounces) {
+        sum += sum_of(bounce);
+    }
+    return sum;
+}
+
+/// A structure that forgets one surface.
+class Forgetful final : public Accelerator {
+public:
+    Forgetful(SurfaceList surfaces, std::size_t forgotten) : surfaces_(std::move(surfaces)) {
+        surfaces_.erase(surfaces_.begin() + static_cast<std::ptrdiff_t>(forgotten));
+    }
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return raysteps::closest_hit(surfaces_, ray);
+    }
+
+private:
+    SurfaceList surfaces_;
+};
+
+}  // namespace
+
+TEST_CASE("A pixel that is inspected has the bytes and the counts of one that is rendered", "[inspect]") {
+    const Scene scene = small_scene();
+    for (int step = 1; step <= 9; ++step) {
+        for (const Acceleration kind :
+             {Acceleration::none, Acceleration::boxes, Acceleration::octree, Acceleration::bvh}) {
+            RenderOptions options{options_of(step), kind, 1, {}, false};
+            const auto accelerator = make_accelerator(kind, scene.surfaces());
+            const Image image = render(scene, options).image;
+            for (int at = 0; at < 24 * 18; at += 5) {
+                const int x = at % 24;
+                const int y = at / 24;
+                INFO("step " << step << ", structure " << static_cast<int>(kind) << ", pixel " << x << " " << y);
+                const PixelRecord record = inspect_pixel(scene, *accelerator, kind, options.step, x, y);
+                REQUIRE(record.bytes == image.at(x, y));
+                REQUIRE(record.counts.surface_tests == record.stats.surface_tests);
+                REQUIRE(record.counts.box_tests == record.stats.box_tests);
+                const SearchCounts sum = sum_of(record.eye);
+                REQUIRE(sum.surface_tests == record.stats.surface_tests);
+                REQUIRE(sum.box_tests == record.stats.box_tests);
+                REQUIRE_FALSE(record.eye.missed.has_value());
+            }
+        }
+    }
+}
+
+TEST_CASE("A surface that the structure loses is found and named", "[inspect]") {
+    const Scene scene = one_mirror();
+    const Forgetful structure(scene.surfaces(), 0);
+    const PixelRecord record = inspect_pixel(scene, structure, Acceleration::octree, options_of(5), 4, 4);
+    REQUIRE(record.eye.missed.has_value());
+    CHECK(record.eye.missed->surface == 0);
+    CHECK(record.eye.missed->distance == Approx(4.0F));
+    CHECK(record.eye.missed->reason == MissReason::not_tested);
+    CHECK(inspect_text(record).find("LOST") != std::string::npos);
+    CHECK(record.counts.surface_tests == record.stats.surface_tests);
+}
+
+TEST_CASE("Boxes have their levels and their lists, and duplicates are told apart", "[inspect]") {
+    const Scene scene = one_mirror();
+    const PixelRecord record = inspected(scene, Acceleration::boxes, options_of(2), 4, 4);
+    const RayNode& eye = record.eye;
+    REQUIRE(eye.boxes.size() == eye.counts.box_tests);
+    CHECK(eye.boxes[0].level == 0);
+    CHECK(eye.boxes[1].level == 1);
+    std::uint64_t listed = 0;
+    for (const BoxEvent& event : eye.boxes) {
+        listed += event.part ? event.listed.value_or(0) : 0;
+    }
+    CHECK(eye.counts.candidates == listed);
+    CHECK(eye.counts.unique_surfaces == eye.counts.surface_tests);
+    CHECK(eye.counts.candidates > eye.counts.unique_surfaces);  // the ball is in many boxes
+}
+
+TEST_CASE("Many rays and tests are counted, and only some kept", "[inspect]") {
+    Scene scene;
+    scene.camera.from = {0.0F, 0.0F, 0.0F};
+    scene.camera.at = {0.0F, 0.0F, -1.0F};
+    scene.camera.width = scene.camera.height = 1;
+    scene.lights = {{{1.0F, 1.0F, 0.0F}, k_white}};
+    const auto wall = [&](float z) {
+        scene.add(std::make_unique<Triangle>(glm::vec3(-90.0F, -90.0F, z), glm::vec3(90.0F, -90.0F, z),
+                                             glm::vec3(0.0F, 90.0F, z), k_mirror));
+    };
+    wall(-2.0F);
+    wall(2.0F);
+    for (int i = 0; i < 9000; ++i) {
+        scene.add(std::make_unique<Sphere>(glm::vec3(50.0F, 0.0F, 50.0F), 0.1F, k_matte));
+    }
+    const PixelRecord record = inspected(scene, Acceleration::none, options_of(5, 200), 0, 0);
+    CHECK(record.stats.reflect == 199);
+    CHECK(record.counts.surface_tests == record.stats.surface_tests);
+    CHECK(record.left_out.rays > 0);
+    CHECK(record.left_out.tests > 1'000'000);
+    CHECK(record.eye.color == record.color);
+    CHECK(inspect_json(record).size() < 8'000'000);
+    CHECK(inspect_text(record).find("left out") != std::string::npos);
+}
+
+TEST_CASE("The text tells the whole life", "[inspect]") {
+    const Scene scene = small_scene();
+    PixelRecord record = inspected(scene, Acceleration::octree, options_of(8), 7, 9);
+    record.scene = "small.nff";
+    const std::string text = inspect_text(record);
+    for (const char* words : {"pixel (7, 9) of 24x18, small.nff, step 8", "eye ray", "surface 2 (sphere)", "light 2",
+                              "reflected ray, depth 2", "tone mapping", "bytes"}) {
+        INFO(words);
+        CHECK(text.find(words) != std::string::npos);
+    }
+}

@@ -1,0 +1,13 @@
+#pragma once
+// What things are called in text and JSON.
+#include <string>
+
+#include "inspect/pixel_record.hpp"
+
+namespace raysteps {
+
+[[nodiscard]] std::string name_of(RayRole role);
+[[nodiscard]] std::string name_of(MissReason reason);
+[[nodiscard]] std::string name_of(Acceleration acceleration);
+
+}  // namespace raysteps

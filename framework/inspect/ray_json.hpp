@@ -1,0 +1,11 @@
+#pragma once
+// One ray and all that follow from it, as JSON.
+#include "inspect/json_writer.hpp"
+#include "inspect/pixel_record.hpp"
+
+namespace raysteps {
+
+void write_counts(JsonWriter& json, const SearchCounts& counts);
+void write_ray(JsonWriter& json, const RayNode& node);
+
+}  // namespace raysteps

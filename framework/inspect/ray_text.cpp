@@ -1,0 +1,121 @@
+#include "inspect/ray_text.hpp"
+
+#include "inspect/search_text.hpp"
+
+namespace raysteps {
+namespace {
+
+std::string title_of(const RayNode& node) {
+    switch (node.role) {
+        case RayRole::eye:
+            return "eye ray";
+        case RayRole::shadow:
+            return "shadow ray";
+        case RayRole::reflect:
+            return "reflected ray";
+        case RayRole::refract:
+            return "refracted ray";
+        case RayRole::internal:
+            return "ray mirrored inside the glass (total internal reflection)";
+    }
+    return "";
+}
+
+std::string name_of_surface(const Meeting& meeting) {
+    if (!meeting.surface) {
+        return "something that is none of the surfaces tested";
+    }
+    return "surface " + std::to_string(*meeting.surface) + " (" + meeting.kind + ")";
+}
+
+std::string fill_words(const Fill& fill) {
+    std::string text = "colour " + brief(fill.color) + "  kd " + brief(fill.kd) + "  ks " + brief(fill.ks);
+    text += "  shine " + brief(fill.shine);
+    if (fill.transmittance > 0.0F) {
+        text += "  transmittance " + brief(fill.transmittance) + "  index " + brief(fill.index_of_refraction);
+    }
+    return text;
+}
+
+void write_hit(TextLines& out, const Meeting& meeting, int level) {
+    const HitRecord& hit = meeting.hit;
+    out.line(level, "hit", name_of_surface(meeting) + " at distance " + brief(hit.distance) + ", from " +
+                               (hit.from_outside ? "outside" : "inside"));
+    out.line(level + 1, "position " + brief(hit.position) + "  normal " + brief(hit.normal));
+    out.line(level + 1, fill_words(hit.fill));
+}
+
+std::string verdict(const LightRecord& light) {
+    if (light.rays.empty()) {
+        return light.lit ? "counts" : "does not count";
+    }
+    const RayNode& ray = light.rays.back();
+    if (light.lit) {
+        return "visible";
+    }
+    return ray.hit ? "blocked by " + name_of_surface(*ray.hit) + " at distance " + brief(ray.hit->hit.distance)
+                   : "blocked";
+}
+
+void write_light(TextLines& out, const PixelRecord& record, const LightRecord& light, int level) {
+    const Light& source = record.lights[light.light];
+    out.line(level, "light " + std::to_string(light.light + 1),
+             "at " + brief(source.position) + ", colour " + brief(source.color) + ": " + verdict(light));
+    for (const RayNode& ray : light.rays) {
+        out.line(level + 1, "shadow ray from " + brief(ray.ray.origin) + " towards " + brief(ray.ray.direction));
+        out.line(level + 1, search_words(ray.counts, record.surfaces));
+        if (ray.missed) {
+            write_missed(out, *ray.missed, level + 1);
+        }
+    }
+    out.line(level + 1, "l.n " + brief(light.l_n) + "  r.v " + brief(light.r_v) + "  diffuse " + brief(light.diffuse) +
+                            "  specular " + brief(light.specular) + (light.lit ? "" : "  (not added)"));
+}
+
+std::string color_words(const std::optional<Color>& color) { return color ? brief(*color) : "not kept"; }
+
+void write_sum(TextLines& out, const RayNode& node, int level) {
+    if (node.direct) {
+        out.line(level, "direct", brief(*node.direct) + "  the sum over the lights");
+    }
+    const Fill& fill = node.hit->hit.fill;
+    for (const RayNode& bounce : node.bounces) {
+        if (bounce.role == RayRole::reflect) {
+            out.line(level, "reflected", color_words(bounce.color) + " x ks " + brief(fill.ks));
+        }
+    }
+    if (node.transmitted && fill.transmittance > 0.0F) {
+        out.line(level, "transmitted",
+                 brief(*node.transmitted) + "  with the transmittance " + brief(fill.transmittance) + " in it");
+    }
+}
+
+}  // namespace
+
+void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, int level) {
+    out.line(level, title_of(node) + (node.role == RayRole::eye ? "" : ", depth " + std::to_string(node.depth)) +
+                        ": from " + brief(node.ray.origin) + " towards " + brief(node.ray.direction));
+    if (record.options.step > 1) {
+        write_boxes(out, node, level + 1);
+        write_tests(out, record, node, level + 1);
+        if (node.missed) {
+            write_missed(out, *node.missed, level + 1);
+        }
+        if (!node.hit) {
+            out.line(level + 1, "hit", "nothing");
+        }
+    }
+    if (node.hit) {
+        write_hit(out, *node.hit, level + 1);
+        for (const LightRecord& light : node.lights) {
+            write_light(out, record, light, level + 1);
+        }
+        for (const RayNode& bounce : node.bounces) {
+            write_ray(out, record, bounce, level + 1);
+        }
+        write_sum(out, node, level + 1);
+    }
+    out.line(level + 1, "colour", color_words(node.color));
+}
+
+}  // namespace raysteps

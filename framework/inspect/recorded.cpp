@@ -1,0 +1,27 @@
+// The two questions that are counted, for programs that also want to know what was asked. Linked as an object, it
+// stands in for core/counted.cpp, so that raytrace pays nothing for it.
+#include "core/stats.hpp"
+#include "core/surface.hpp"
+#include "inspect/recorder.hpp"
+
+namespace raysteps {
+
+std::optional<HitRecord> Surface::hit(const Ray& ray) const {
+    ++thread_stats().surface_tests;
+    std::optional<HitRecord> hit = intersect(ray);
+    if (Recorder* recorder = listening_recorder()) {
+        recorder->surface(*this, hit);
+    }
+    return hit;
+}
+
+std::optional<Interval> Box::hit(const Ray& ray) const {
+    ++thread_stats().box_tests;
+    const std::optional<Interval> part = clip(ray);
+    if (Recorder* recorder = listening_recorder()) {
+        recorder->box(*this, part);
+    }
+    return part;
+}
+
+}  // namespace raysteps

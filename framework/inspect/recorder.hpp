@@ -1,0 +1,86 @@
+#pragma once
+// Hears of every box and surface that this thread asks, while it listens.
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "inspect/pixel_record.hpp"
+
+namespace raysteps {
+
+/// How much of a pixel is kept. What goes beyond is counted all the same.
+inline constexpr std::uint64_t k_most_rays = 1024;
+inline constexpr std::uint64_t k_most_events_per_ray = 5000;  ///< of boxes, of surfaces missed and of surfaces hit
+inline constexpr std::uint64_t k_most_events = 20000;         ///< of the whole pixel, of each of the three
+inline constexpr int k_most_levels = 32;                      ///< rays that follow from one another
+
+class Recorder {
+public:
+    Recorder(const Accelerator& accelerator, std::size_t surfaces);
+
+    /// What is asked from here on belongs to this ray; null: it is only counted.
+    void begin(RayNode* node);
+
+    /// Stops listening; gives the counts of the ray.
+    SearchCounts end();
+
+    void box(const Box& box, const std::optional<Interval>& part);
+    void surface(const Surface& surface, const std::optional<HitRecord>& hit);
+
+    /// The surface whose answer this hit is, among those that the last ray asked.
+    [[nodiscard]] const Surface* giver_of(const Ray& ray, const HitRecord& hit) const;
+
+    /// The last surface that was hit nearer than `distance`: the one that ended the search for any hit.
+    [[nodiscard]] const Surface* blocker(float distance) const;
+
+    /// Whether the last ray asked this surface, or this box and with which answer.
+    [[nodiscard]] bool asked(const Surface& surface) const;
+    [[nodiscard]] const std::unordered_map<const Box*, bool>& asked_boxes() const { return asked_boxes_; }
+
+    [[nodiscard]] const SearchCounts& total() const { return total_; }
+    [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
+    void leave_out_ray() { ++left_out_.rays; }
+
+private:
+    struct Known {
+        const Box* box = nullptr;
+        int level = 0;
+        std::uint64_t listed = 0;
+    };
+
+    [[nodiscard]] const Known* find_known(const Box& box) const;
+
+    std::vector<Known> known_;             // the structure's boxes, sorted by address
+    std::vector<std::uint32_t> last_ray_;  // by surface: the last ray that asked it, from 1
+    std::uint32_t ray_ = 0;
+    RayNode* node_ = nullptr;
+    SearchCounts counts_;
+    SearchCounts total_;
+    LeftOut left_out_;
+    std::uint64_t kept_boxes_ = 0;
+    std::uint64_t kept_hits_ = 0;
+    std::uint64_t kept_misses_ = 0;
+    std::uint64_t hits_of_ray_ = 0;
+    std::uint64_t misses_of_ray_ = 0;
+    std::vector<std::pair<const Surface*, float>> hits_;  // of the last ray
+    std::unordered_map<const Box*, bool> asked_boxes_;    // of the last ray
+};
+
+/// Where Surface::hit and Box::hit tell what they were asked; null: nobody listens.
+[[nodiscard]] Recorder* listening_recorder();
+
+/// Asks without being heard or counted.
+class Unheard {
+public:
+    Unheard();
+    ~Unheard();
+    Unheard(const Unheard&) = delete;
+    Unheard& operator=(const Unheard&) = delete;
+
+private:
+    Recorder* before_;
+    Stats stats_;
+};
+
+}  // namespace raysteps

@@ -1,0 +1,11 @@
+#pragma once
+// What a ray was tested against, as text.
+#include "inspect/text_lines.hpp"
+
+namespace raysteps {
+
+void write_boxes(TextLines& out, const RayNode& node, int level);
+void write_tests(TextLines& out, const PixelRecord& record, const RayNode& node, int level);
+void write_missed(TextLines& out, const Missed& missed, int level);
+
+}  // namespace raysteps

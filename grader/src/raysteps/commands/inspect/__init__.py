@@ -1,0 +1,1 @@
+"""The command `inspect`: the life of one pixel, and where it parts from the reference."""

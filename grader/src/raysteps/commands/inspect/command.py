@@ -1,0 +1,146 @@
+"""The command `inspect`."""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.commands.inspect.html import write_page
+from raysteps.commands.inspect.pair import Difference
+from raysteps.commands.inspect.parting import find_parting
+from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
+from raysteps.commands.inspect.side_by_side import print_trees
+from raysteps.commands.inspect.values import Record
+from raysteps.commands.inspect.verdict import print_verdict
+from raysteps.common.errors import UsageError
+from raysteps.common.text import listed
+from raysteps.exports.formats import encoded, write_out
+from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import unfinished_functions
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which pixel of which picture, and whose steps."""
+    parser.add_argument("scene", metavar="SCENE", help="such as scenes/lessons/three-spheres.nff")
+    parser.add_argument("x", metavar="X", help="pixels from the left, from 0")
+    parser.add_argument("y", metavar="Y", help="pixels from the top, from 0")
+    parser.add_argument("--step", default="8", metavar="N", help="with what the course has after step N, 1 to 9 (8)")
+    parser.add_argument("--size", metavar="WxH", help="pixels of the picture (the scene's own)")
+    parser.add_argument("--depth", metavar="D", help="longest chain of rays, the eye ray included (5)")
+    parser.add_argument("--view", choices=["color", "normals"], help="what step 2 shows (color)")
+    parser.add_argument(
+        "--accel",
+        choices=["none", "boxes", "octree", "bvh"],
+        help="none before step 6, octree from there on, bvh for step 9",
+    )
+    parser.add_argument("--impl", choices=["mine", "reference"], default="mine", help="whose steps (mine)")
+    parser.add_argument(
+        "--against", choices=["reference"], help="both trees side by side, and where they part; exit code 1 if they do"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the record there, too")
+    parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")
+
+
+def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
+    for name, text in (("X", arguments.x), ("Y", arguments.y)):
+        if not re.fullmatch(r"[0-9]{1,5}", text):
+            raise UsageError(f"{name}: expected a pixel, a whole number from 0 on, found '{text}'")
+    (step,) = choose(read_steps(project), [arguments.step])
+    options = [
+        word
+        for name in ("size", "depth", "view", "accel")
+        if getattr(arguments, name) is not None
+        for word in (f"--{name}", getattr(arguments, name))
+    ]
+    return Wish(arguments.scene, arguments.x, arguments.y, step.index, tuple(options))
+
+
+def _unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
+    """Steps up to this one that hold functions nobody has written yet."""
+    left = []
+    for step in read_steps(project):
+        path = project.steps / step.path
+        if step.index <= upto and step.bonus <= (upto == step.index) and path.is_file():
+            functions = unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step)
+            left += [(step, functions)] if functions else []
+    return left
+
+
+def _say_unfinished(project: Project, wish: Wish) -> None:
+    left = _unfinished(project, wish.step)
+    if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
+        file = f"steps/{left[0][0].path.as_posix()}"
+        raise UsageError(
+            f"your steps are not started: expected a camera in {file}, found the stub. "
+            "Write it first, or look at the reference: --impl reference"
+        )
+    for step, functions in left:
+        print(f"raysteps: step {step.number}: {listed(functions)} not written yet", file=sys.stderr)
+
+
+def _tell_problem(inspected: Inspected, program: Path, wish: Wish) -> None:
+    good = last_good_step(program, wish)
+    up_to = f" With --step {good} it comes to its end." if 0 < good < wish.step else ""
+    print(f"raysteps: {program.name} {inspected.problem}{up_to}", file=sys.stderr)
+
+
+def _write_json(arguments: argparse.Namespace, inspected: Inspected, console: Console) -> None:
+    if arguments.json is not None and inspected.record is not None:
+        write_out(arguments.json, encoded(inspected.record))
+        console.print(f"Record: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when the pixel could be followed and, where two are compared, they agree."""
+    wish = _wish(project, arguments)
+    if arguments.against and arguments.impl == "reference":
+        raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
+    if not Path(arguments.scene).is_file():
+        raise UsageError(f"{arguments.scene}: expected a scene, found no file of that name")
+    if arguments.impl == "mine":
+        _say_unfinished(project, wish)
+
+    def say(text: str) -> None:
+        print(f"raysteps: {text}", file=sys.stderr, flush=True)
+
+    program = build_inspect(project, arguments.impl, say)
+    reference = build_inspect(project, "reference", say) if arguments.against else None
+    inspected = inspect(program, wish)
+    if inspected.problem:
+        _tell_problem(inspected, program, wish)
+        return 1
+    _write_json(arguments, inspected, console)
+    if reference is not None:
+        return compare(project, inspected, inspect(reference, wish), console, arguments.html)
+    assert inspected.record is not None
+    sys.stdout.write(inspected.text)
+    _write_html(arguments.html, console, inspected.record)
+    return 1 if inspected.record["endless"] else 0
+
+
+def _write_html(
+    path: Path | None,
+    console: Console,
+    record: Record,
+    reference: Record | None = None,
+    parting: Difference | None = None,
+) -> None:
+    if path is not None:
+        write_page(record, reference, parting, path)
+        console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
+
+
+def compare(project: Project, mine: Inspected, reference: Inspected, console: Console, html: Path | None = None) -> int:
+    """Both trees, and the first place where they part."""
+    assert mine.record is not None
+    if reference.record is None:
+        raise UsageError(f"the reference's program {reference.problem}")
+    parting = find_parting(mine.record, reference.record)
+    print_trees(console, mine.record, reference.record, parting)
+    print_verdict(console, read_steps(project), mine.record, reference.record, parting)
+    _write_html(html, console, mine.record, reference.record, parting)
+    return 0 if parting is None else 1

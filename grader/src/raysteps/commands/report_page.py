@@ -1,0 +1,45 @@
+"""The command `report`: the page of results that are there already, of a submission or a class."""
+
+import argparse
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.classroom.page import class_source, remake_class_page
+from raysteps.commands.report import short_path
+from raysteps.common.errors import UsageError
+from raysteps.exports.reading import read_results
+from raysteps.kit.manifest import read_steps
+from raysteps.kit.project import Project
+from raysteps.reports.student import write_student_page
+
+RESULTS = "results.json"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where the results are."""
+    parser.add_argument(
+        "place",
+        type=Path,
+        metavar="PLACE",
+        help="a results.json, or the folder that it lies in; or the folder of a class",
+    )
+
+
+def _student_page(project: Project, place: Path) -> Path:
+    path = place / RESULTS if place.is_dir() else place
+    document = read_results(path)
+    try:
+        return write_student_page(document, path.parent, read_steps(project))
+    except OSError as error:
+        raise UsageError(f"{path.parent}: the report cannot be written there: {error.strerror or error}") from error
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Writes report.html beside the results of a submission, class.html beside those of a class."""
+    place: Path = arguments.place
+    source = class_source(place)
+    page = remake_class_page(source) if source is not None else _student_page(project, place)
+    console.print(f"Report: {escape(short_path(page.resolve()))}", soft_wrap=True, highlight=False)
+    return 0

@@ -1,0 +1,130 @@
+"""A real headless Chromium for the tests of pages; whatever a page asks the network for fails its test."""
+
+import os
+import re
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import pytest
+
+if TYPE_CHECKING:  # the tests of everything else need not wait for these
+    from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Error, Page, Request
+
+Scheme = Literal["light", "dark"]
+OpenPage: TypeAlias = "Callable[..., Page]"
+
+_NAMES = ("chromium", "chromium-browser", "google-chrome")
+_LOCAL = ("file:", "data:", "blob:", "about:")
+_ARGUMENTS = [
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+]
+_WATCH_POLICY = """addEventListener('securitypolicyviolation',
+    event => console.error('policy: ' + event.violatedDirective + ' ' + event.blockedURI));"""
+
+
+@pytest.fixture(scope="session")
+def browser() -> "Iterator[Browser]":
+    """One for all tests of a process."""
+    program = next(filter(None, map(shutil.which, _NAMES)), None)
+    if program is None:
+        pytest.skip("no Chromium here; install the package chromium to test the pages")
+    from playwright.sync_api import sync_playwright
+
+    as_root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=program, args=[*_ARGUMENTS, *as_root])
+        yield chromium
+        chromium.close()
+
+
+class Watched:
+    """Pages and what they did that they should not."""
+
+    def __init__(self, browser: "Browser") -> None:
+        self._browser = browser
+        self._contexts: list[BrowserContext] = []
+        self.troubles: list[str] = []
+        self.allowed: list[str] = []  # beginnings of addresses, such as of a server that a test started
+        self.expected = ""  # a pattern of the trouble that a test makes on purpose
+
+    def open(
+        self,
+        where: Path | str,
+        width: int = 1440,
+        scheme: Scheme = "light",
+        height: int = 900,
+        *,
+        calm: bool = False,
+        touch: bool = False,
+        before: str = "",
+    ) -> "Page":
+        """Opens a file, or an address that the test allowed. `calm` is a reader who wants no motion, `touch` one with
+        fingers; `before` is a script that runs before those of the page."""
+        context = self._browser.new_context(
+            viewport={"width": width, "height": height},
+            color_scheme=scheme,
+            reduced_motion="reduce" if calm else "no-preference",
+            has_touch=touch,
+            permissions=["clipboard-read", "clipboard-write"],
+        )
+        self._contexts.append(context)
+        context.add_init_script(_WATCH_POLICY + before)
+        page = context.new_page()
+        page.set_default_timeout(10_000)
+        page.on("request", self._request)
+        page.on("console", self._console)
+        page.on("pageerror", self._error)
+        page.goto(where if isinstance(where, str) else where.resolve().as_uri())
+        return page
+
+    def _request(self, request: "Request") -> None:
+        if not request.url.startswith((*_LOCAL, *self.allowed)):
+            self.troubles.append(f"asked for {request.url}")
+
+    def _console(self, message: "ConsoleMessage") -> None:
+        if message.type in ("error", "warning") and "GL Driver Message" not in message.text:  # the driver, not the page
+            self.troubles.append(f"console: {message.text}")
+
+    def _error(self, error: "Error") -> None:
+        self.troubles.append(f"error: {error}")
+
+    def close(self) -> None:
+        for context in self._contexts:
+            context.close()
+
+
+@pytest.fixture
+def watched(browser: "Browser") -> Iterator[Watched]:
+    """For tests that expect trouble, or allow a server: fails the test for any other trouble, and for a lack of it."""
+    pages = Watched(browser)
+    yield pages
+    pages.close()
+    wanted = [trouble for trouble in pages.troubles if pages.expected and re.search(pages.expected, trouble)]
+    assert [trouble for trouble in pages.troubles if trouble not in wanted] == []
+    assert bool(wanted) == bool(pages.expected)
+
+
+@pytest.fixture
+def open_page(watched: Watched) -> OpenPage:
+    """`open_page(path, width=, scheme=, height=, calm=)` opens a file in a page of its own."""
+    return watched.open
+
+
+def assert_accessible(page: "Page") -> None:
+    """What axe-core finds in the page as it is now."""
+    from axe_playwright_python.sync_playwright import Axe
+
+    results = Axe().run(page)
+    assert results.violations_count == 0, results.generate_report()
+
+
+def assert_no_sideways_scrolling(page: "Page") -> None:
+    """A page may be long; it may not be wider than the screen."""
+    wide = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    assert wide <= 0, f"the page is {wide} pixels too wide"

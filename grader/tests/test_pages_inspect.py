@@ -1,0 +1,115 @@
+"""The page of a pixel's inside, in a real browser."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import OpenPage, assert_accessible
+from inspect_records import ball_record
+
+from raysteps.commands.inspect.html import write_page
+from raysteps.commands.inspect.parting import find_parting
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+_COUNT_COLORS = """() => {
+    const canvas = document.querySelector('canvas');
+    return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+        const flat = document.createElement('canvas');
+        flat.width = canvas.width; flat.height = canvas.height;
+        document.querySelector('pixel-inside').view.paint();
+        const pen = flat.getContext('2d', { willReadFrequently: true });
+        pen.drawImage(canvas, 0, 0);
+        const bytes = pen.getImageData(0, 0, flat.width, flat.height).data;
+        const amounts = { orange: 0, white: 0, drawn: 0 };
+        for (let i = 0; i < bytes.length; i += 4) {
+            const [r, g, b, a] = bytes.slice(i, i + 4);
+            amounts.drawn += a > 0;
+            amounts.white += r > 240 && g > 240 && b > 240;
+            amounts.orange += r > 240 && g > 140 && g < 175 && b < 70;
+        }
+        done(amounts);
+    })));
+}"""
+
+
+@pytest.fixture
+def page(tmp_path: Path, open_page: OpenPage) -> "Page":
+    write_page(ball_record(), None, None, tmp_path / "inside.html")
+    return open_page(tmp_path / "inside.html")
+
+
+def test_rays_and_the_box_of_the_moment_are_drawn(page: "Page") -> None:
+    page.locator("[data-part=boxes]").fill("1")
+    amounts = page.evaluate(_COUNT_COLORS)
+    assert amounts["drawn"] > 5000
+    assert amounts["white"] > 100, "the chosen eye ray"
+    assert amounts["orange"] > 100, "the box of the moment"
+    page.locator("[data-part=boxes]").fill("0")
+    assert page.evaluate(_COUNT_COLORS)["orange"] < amounts["orange"] / 4
+
+
+def test_the_scrubber_and_the_tree_follow_each_other(page: "Page") -> None:
+    output = page.locator("[data-part=box]")
+    assert output.inner_text() == "Box 2 of 2, level 1: missed."
+    page.locator("[data-part=boxes]").focus()
+    page.keyboard.press("ArrowLeft")
+    assert output.inner_text() == "Box 1 of 2, level 0: entered."
+    page.get_by_text("2 boxes in their order").click()
+    assert page.locator("li[aria-current]").get_attribute("data-box") == "1"
+    page.locator("li[data-box='2']").click()
+    assert output.inner_text() == "Box 2 of 2, level 1: missed."
+
+
+def test_a_ray_is_chosen_in_the_tree(page: "Page") -> None:
+    page.get_by_role("button", name="Show the reflected ray, depth 2 on the stage").click()
+    assert page.locator("[data-part=ray]").inner_text() == "reflected ray, depth 2"
+    assert page.locator("[data-part=box]").inner_text() == "No boxes were asked for this ray."
+
+
+def test_the_view_turns_by_keys_and_by_dragging(page: "Page") -> None:
+    where = "() => document.querySelector('pixel-inside').view.orbit.from"
+    start = page.evaluate(where)
+    page.locator("canvas").focus()
+    page.keyboard.press("ArrowLeft")
+    turned = page.evaluate(where)
+    assert turned != start
+    canvas = page.locator("canvas").bounding_box()
+    assert canvas is not None
+    page.mouse.move(canvas["x"] + 100, canvas["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(canvas["x"] + 160, canvas["y"] + 120)
+    page.mouse.up()
+    dragged = page.evaluate(where)
+    assert dragged != turned
+    page.get_by_role("button", name="From the eye").click()
+    assert page.evaluate(where) == pytest.approx([0, 0, 5])
+
+
+def test_what_a_scene_is_called_stays_text(page: "Page") -> None:
+    assert page.locator(".facts dd").first.inner_text() == "scenes/ball & <sky>.nff"
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(360, "dark"), (1440, "light")])
+def test_two_trees_beside_each_other(tmp_path: Path, open_page: OpenPage, width: int, scheme: str) -> None:
+    mine, reference = ball_record(lit=False), ball_record()
+    parting = find_parting(mine, reference)
+    assert parting is not None
+    write_page(mine, reference, parting, tmp_path / "both.html")
+    page = open_page(tmp_path / "both.html", width=width, scheme=scheme)
+    assert "First difference" in page.locator(".parting-note").inner_text()
+    marked = page.locator(".ray.parts")
+    assert [marked.nth(i).get_attribute("data-ray") for i in range(2)] == ["eye-light1", "eye-light1"]
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    page.locator("button[data-space=reference]").click()
+    assert page.evaluate("document.querySelector('pixel-inside').name") == "reference"
+    assert_accessible(page)
+
+
+def test_without_webgl_the_tree_is_still_there(page: "Page") -> None:
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.reload()
+    assert "shows no WebGL" in page.get_by_role("status").inner_text()
+    assert not page.locator("canvas").is_visible()
+    assert page.get_by_text("meets surface 0 (sphere) at distance 4").is_visible()

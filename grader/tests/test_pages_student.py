@@ -1,0 +1,184 @@
+"""report.html: what it says, what it keeps to itself, and that it is safe to open."""
+
+import copy
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling
+from page_results import NASTY, document_of, idle_step, passed_step, wrong_step
+
+from raysteps import cli
+from raysteps.common.files import write_json
+from raysteps.judge.feedback import Feedback, withhold
+from raysteps.kit.manifest import Step
+from raysteps.reports.points import parts_of, rest_of
+from raysteps.reports.student import student_page, try_student_page, write_student_page
+from raysteps.results.document import validate
+
+
+def _mixed(steps: list[Step], folder: Path, name: str = "ann") -> dict[str, Any]:
+    """Two steps right, step 03 and the bonus 08 wrong, the others not started."""
+    known = {step.number: step for step in steps}
+    results = [passed_step(known[number], folder) for number in ("01", "02")]
+    results.append(wrong_step(known["03"], folder))
+    results += [idle_step(known[number]) for number in ("04", "05", "06", "07")]
+    results += [wrong_step(known["08"], folder), idle_step(known["09"])]
+    return document_of(results, name)
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(360, "light"), (1440, "dark")])
+def test_it_is_clean_and_what_students_wrote_stays_text(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path, width: int, scheme: str
+) -> None:
+    document = _mixed(steps, tmp_path, NASTY)
+    page = open_page(write_student_page(document, tmp_path, steps), width=width, scheme=scheme)
+    assert page.inner_text("h1") == NASTY
+    page.get_by_role("button", name="Unfold all").click()
+    page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
+    said = page.locator("#step-03").inner_text()
+    for text in (
+        f"a test {NASTY}",
+        f"said {NASTY}",
+        f"a == {NASTY}",
+        f"direction (1, 0, 0) {NASTY}",
+        f"unused {NASTY}",
+    ):
+        assert text in said
+    assert_accessible(page)
+    assert_no_sideways_scrolling(page)
+
+
+def test_a_script_in_the_report_is_stopped_by_its_policy(watched: Watched, steps: list[Step], tmp_path: Path) -> None:
+    path = write_student_page(_mixed(steps, tmp_path), tmp_path, steps)
+    text = path.read_text(encoding="utf-8").replace("<main", "<script>document.title = 'taken'</script><main")
+    path.write_text(text, encoding="utf-8")
+    watched.expected = "script-src|Content Security Policy"
+    assert watched.open(path).title() == "Raysteps: ann"
+
+
+def test_it_tells_what_to_do_next_and_how_the_points_come_about(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    document = _mixed(steps, tmp_path)
+    page = open_page(write_student_page(document, tmp_path, steps))
+    todo = page.get_by_role("region", name="Next thing to do")
+    assert "03 Phong shading" in todo.inner_text()
+    assert "Most likely: the normal is not of length 1" in todo.inner_text()
+    assert todo.locator("code").inner_text() == "./raysteps check 03"
+    strip = page.get_by_role("navigation", name="Steps").get_by_role("link")
+    assert strip.count() == len(steps)
+    assert "partly right" in strip.nth(2).inner_text()
+    total = document["total"]
+    assert page.get_by_role("img", name=f"{total['points']} of 100 points").count() == 1
+    sums = page.locator(".arithmetic tfoot td").all_inner_texts()
+    assert sum(float(text) for text in sums[:-1]) == pytest.approx(total["points"], abs=0.05)
+    assert "× 30 % of 15" in page.locator("#step-03 .parts").inner_text()  # noqa: RUF001
+    assert [page.locator(f"#step-0{at}").evaluate("step => step.open") for at in (1, 3, 4)] == [False, True, False]
+    strip.nth(3).click()
+    assert page.locator("#step-04").evaluate("step => step.open")
+
+
+def test_its_pictures_are_compared_and_a_pixel_has_its_command(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    page = open_page(write_student_page(_mixed(steps, tmp_path), tmp_path, steps))
+    element = page.locator("#step-03 compare-pictures").first
+    element.scroll_into_view_if_needed()
+    element.get_by_role("button", name="First wrong pixel").click()
+    command = "./raysteps inspect scenes/lessons/three-spheres.nff 0 0 --step 3 --size 160x120 --against reference"
+    assert element.locator(".compare-command code").inner_text() == command
+
+
+def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
+    document = document_of([passed_step(step, tmp_path) for step in steps])
+    page = open_page(write_student_page(document, tmp_path, steps))
+    assert "every step is right" in page.get_by_role("region", name="Next thing to do").inner_text()
+    assert "20 of them bonus" in page.locator(".score").inner_text()
+
+
+@pytest.mark.parametrize(
+    ("feedback", "seen", "unseen"),
+    [
+        ("full", ["direction (1, 0, 0)", "normal is not of length 1", "./raysteps replay cases/03-mirror.json"], []),
+        ("diagnosis", ["normal is not of length 1", "mirror"], ["direction (1, 0, 0)", "replay", "seed 7"]),
+        ("score", ["hidden cases"], ["normal is not of length 1", "<code>mirror", "direction (1, 0, 0)", "replay"]),
+    ],
+)
+def test_what_the_results_withhold_is_not_in_the_page(
+    steps: list[Step], tmp_path: Path, feedback: Feedback, seen: list[str], unseen: list[str]
+) -> None:
+    text = student_page(withhold(_mixed(steps, tmp_path), feedback), tmp_path, steps)
+    assert [words for words in seen if words not in text] == []
+    assert [words for words in unseen if words in text] == []
+
+
+def test_it_stays_below_5_mb_and_right_pictures_are_left_out_first(steps: list[Step], tmp_path: Path) -> None:
+    results = [(passed_step if step.number in "0103" else wrong_step)(step, tmp_path, (150, 200)) for step in steps]
+    document = document_of(results)
+    text = student_page(document, tmp_path, steps)
+    assert len(text.encode()) < 5_000_000
+    left_out = text.split('id="step-')
+    assert "left out to keep this page small" in left_out[0]
+    by_step = {part[:2]: part for part in left_out[1:]}
+    assert "Left out" in by_step["01"]
+    assert "Left out" not in by_step["02"]
+
+
+def test_results_of_an_older_kit_still_make_a_page(steps: list[Step], tmp_path: Path) -> None:
+    document = document_of([wrong_step(step, tmp_path) for step in steps])
+    for result in document["steps"]:
+        for image in result["images"]:
+            del image["work"], image["reference_work"]
+        for item in result["hidden"]:
+            for group in item["groups"]:
+                del group["undecided"], group["wasteful"]
+    validate(document)
+    assert "06 Octree" in student_page(document, tmp_path, steps)
+    assert "03 phong shading" in student_page(document, tmp_path, [])
+
+
+def test_only_png_files_of_the_folder_are_shown(steps: list[Step], tmp_path: Path) -> None:
+    folder = tmp_path / "results"
+    document = document_of([wrong_step(steps[0], folder)])
+    first, second = document["steps"][0]["images"][:2]
+    secret = tmp_path / "secret.png"
+    secret.write_bytes((folder / first["mine"]).read_bytes())
+    shown = student_page(document, folder, steps).count("data:image/png")
+    first["mine"] = "../secret.png"
+    (folder / second["mine"]).write_text("<svg onload='alert(1)'>", encoding="utf-8")
+    assert student_page(document, folder, steps).count("data:image/png") == shown - 4  # two pictures and their maps
+
+
+def test_a_student_kit_without_a_judge_has_no_hidden_part(steps: list[Step], tmp_path: Path) -> None:
+    step = steps[2]
+    result = copy.deepcopy(document_of([passed_step(step, tmp_path)])["steps"][0])
+    assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "hidden", "together"]
+    assert rest_of(result, parts_of(result, step)) == 0
+    result.update(max=9.75, points=9.75, hidden=[])
+    assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "together"]
+    assert rest_of(result, parts_of(result, step)) == 0
+    result["points"] = 9.0
+    assert rest_of(result, parts_of(result, step)) == -0.75
+
+
+def test_the_command_makes_the_page_of_a_folder(
+    steps: list[Step], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_json(tmp_path / "results.json", _mixed(steps, tmp_path))
+    assert cli.main(["report", str(tmp_path)]) == 0
+    made = (tmp_path / "report.html").read_text(encoding="utf-8")
+    (tmp_path / "report.html").unlink()
+    assert cli.main(["report", str(tmp_path / "results.json")]) == 0
+    assert (tmp_path / "report.html").read_text(encoding="utf-8") == made
+    assert cli.main(["report", str(tmp_path / "nowhere")]) == 2
+    assert "expected is a results.json" in capsys.readouterr().err
+
+
+def test_trouble_with_the_page_is_told_and_costs_nothing(steps: list[Step], tmp_path: Path) -> None:
+    (tmp_path / "results.json").write_text(json.dumps({"steps": []}), encoding="utf-8")
+    told: list[str] = []
+    assert try_student_page(tmp_path, steps, told.append) is None
+    assert len(told) == 1
+    assert not (tmp_path / "report.html").exists()
