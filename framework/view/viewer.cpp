@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 
 #include "io/arguments.hpp"
@@ -30,7 +31,7 @@ void say(const std::string& text) {
 std::filesystem::path free_name(const std::string& scene) {
     const std::string stem = display_name(path_of(scene).stem());
     for (int number = 1;; ++number) {
-        std::filesystem::path name = stem + "-" + std::to_string(number) + ".ppm";
+        std::filesystem::path name = path_of(stem + "-" + std::to_string(number) + ".ppm");
         if (!std::filesystem::exists(name)) {
             return name;
         }
@@ -167,7 +168,7 @@ private:
             const Image image = content(frame_, controls_.settings(), "");
             const bool map = controls_.settings().map.has_value();
             write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
-            say("saved " + path.string() + "\n");
+            say("saved " + display_name(path) + "\n");
         } catch (const std::exception& error) {
             std::fprintf(stderr, "view: %s\n", error.what());
         }

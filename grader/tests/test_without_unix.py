@@ -26,8 +26,8 @@ console.locking = locking
 sys.modules["msvcrt"] = console
 for name in ("fcntl", "grp", "pty", "pwd", "resource", "spwd", "syslog", "termios", "tty"):
     sys.modules[name] = None
-UNIX = "fork forkpty getegid geteuid getgid getuid killpg mkfifo pidfd_open setsid sysconf uname wait4 waitid " \\
-    "chown memfd_create pread sched_getaffinity sched_setaffinity O_NOFOLLOW O_NONBLOCK O_CLOEXEC O_DIRECTORY O_NOCTTY O_PATH"
+UNIX = '''fork forkpty getegid geteuid getgid getuid killpg mkfifo pidfd_open setsid sysconf uname wait4 waitid chown
+memfd_create pread sched_getaffinity sched_setaffinity O_NOFOLLOW O_NONBLOCK O_CLOEXEC O_DIRECTORY O_NOCTTY O_PATH'''
 for name in UNIX.split():
     if hasattr(os, name):
         delattr(os, name)

@@ -33,7 +33,9 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
 
 
 def _first_error(output: str) -> str:
-    found = re.search(r"^.*(?:error: |error [A-Z]+[0-9]+: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M)
+    found = re.search(
+        r"^.*(?:error: |error [A-Z]+[0-9]+: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M
+    )
     return shorten(printable(found.group()), 300) if found else "see above"
 
 

@@ -10,7 +10,8 @@ from raysteps.programs.student_build import Compiled
 from raysteps.sandbox.task import Ran
 
 _ERROR = re.compile(
-    r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$", re.M
+    r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
+    re.M,
 )
 _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M

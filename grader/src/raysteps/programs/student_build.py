@@ -106,8 +106,9 @@ class StudentBuild:
             return Program((self._kit.interpreter, "--library-path", libraries, Input(program, kind))), None
         parts = [*binaries, *self._kit.rest(kind, step, together=together)]
         output = Output(executable(Path("program")).name)
-        inputs = [Input(part, part.name) for part in parts]
-        ran = self._run(limits, *link_words(self._kit.description, inputs, output))
+        target: Word = output
+        inputs: list[Word] = [Input(part, part.name) for part in parts]
+        ran = self._run(limits, *link_words(self._kit.description, inputs, target))
         data = ran.outputs.get(output.name)
         if not data:
             return None, ran

@@ -94,5 +94,7 @@ def find_sandbox(*, require: bool = False) -> Sandbox:
     found = sandbox or OpenAir()
     if require and not found.isolation.strong:
         why = reasons[0] if reasons else f"{VARIABLE} asks for {choice}."
-        raise UsageError(f"A strong sandbox is required, and there is none here: {why}{_ON_WINDOWS}\nSee docs/sandbox.md.")
+        raise UsageError(
+            f"A strong sandbox is required, and there is none here: {why}{_ON_WINDOWS}\nSee docs/sandbox.md."
+        )
     return found

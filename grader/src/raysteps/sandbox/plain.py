@@ -87,7 +87,7 @@ def _wait(process: "subprocess.Popen[bytes]", job: Job, start: float, limits: Li
 
 
 def _called(given: Input, folder: Path) -> Path:
-    """The path itself, or the same file or folder under the name that the task is to see. A program keeps its ending."""
+    """The path itself, or the same under the name that the task is to see. A program keeps its ending."""
     source = given.path.absolute()
     name = given.inner_name + (".exe" if source.suffix == ".exe" and not given.inner_name.endswith(".exe") else "")
     if source.name == name:

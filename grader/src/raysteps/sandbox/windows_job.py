@@ -64,9 +64,7 @@ if sys.platform == "win32":
 
         def cpu_seconds(self) -> float:
             used = _Accounting()
-            _kernel.QueryInformationJobObject(
-                self._handle, _ACCOUNTING, ctypes.byref(used), ctypes.sizeof(used), None
-            )
+            _kernel.QueryInformationJobObject(self._handle, _ACCOUNTING, ctypes.byref(used), ctypes.sizeof(used), None)
             return float(used.user + used.system) / _TICKS
 
         def end(self) -> None:

@@ -12,9 +12,10 @@ _LINES = {
     "dnf": "sudo dnf install {}",
     "pacman": "sudo pacman -S {}",
 }
-_WINDOWS_COMPILER = """a compiler, one of these two:
+_BUILD_TOOLS = "--passive --wait --add Microsoft.VisualStudio.Workload.VCTools --includeRecommended"
+_WINDOWS_COMPILER = f"""a compiler, one of these two:
   winget install BrechtSanders.WinLibs.POSIX.UCRT
-  winget install Microsoft.VisualStudio.2022.BuildTools --override "--passive --wait --add Microsoft.VisualStudio.Workload.VCTools --includeRecommended"
+  winget install Microsoft.VisualStudio.2022.BuildTools --override "{_BUILD_TOOLS}"
 The first is MinGW (g++), a small download. The second is Microsoft's (cl): type all commands of the kit in the
 "x64 Native Tools Command Prompt for VS 2022" then."""
 

@@ -15,9 +15,10 @@ def _as_root() -> list[str] | None:
     """The words before a command that only root may give; none where there is no way to become root."""
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         return []
-    if shutil.which("sudo") is None:
+    sudo = shutil.which("sudo")
+    if sudo is None:
         return None
-    asked = subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False, stdin=subprocess.DEVNULL)
+    asked = subprocess.run([sudo, "-n", "true"], capture_output=True, check=False, stdin=subprocess.DEVNULL)
     return ["sudo", "-n"] if asked.returncode == 0 else None
 
 

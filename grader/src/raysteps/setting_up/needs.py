@@ -21,9 +21,7 @@ class Need:
     packages: dict[str, str]
 
 
-COMPILER = Need(
-    "a C++20 compiler", {"apt-get": "g++", "brew": "gcc", "dnf": "gcc-c++", "pacman": "gcc", "winget": ""}
-)
+COMPILER = Need("a C++20 compiler", {"apt-get": "g++", "brew": "gcc", "dnf": "gcc-c++", "pacman": "gcc", "winget": ""})
 CMAKE = Need(
     "CMake 3.22 or newer",
     {"apt-get": "cmake", "brew": "cmake", "dnf": "cmake", "pacman": "cmake", "winget": "Kitware.CMake"},

@@ -44,7 +44,7 @@ class Room:
         words = [getattr(sys, "_base_executable", sys.executable), "-m", "venv", "--clear", str(self.folder)]
         if subprocess.run(words, check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
             raise CannotSetUp(f"{self.folder} cannot be made; the lines above say why")
-        install = [self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e"]
+        install = [str(self.python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e"]
         wanted = f"{self._root / 'grader'}[dev]"
         if subprocess.run([*install, wanted], check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
             raise CannotSetUp("the Python packages could not be installed; is there a network connection?")
@@ -53,11 +53,11 @@ class Room:
     def run(self, words: list[str]) -> int:
         """Hands over to the package. -P: a file in the current folder is no module of ours."""
         command = [str(self.python), "-X", "utf8", "-P", "-m", "raysteps", *words]
-        if sys.platform == "win32":  # where a program cannot become another
-            with subprocess.Popen(command) as process:
-                while True:
-                    try:
-                        return process.wait()
-                    except KeyboardInterrupt:
-                        continue  # Ctrl-C reaches the program as well, and it knows what to do
-        os.execv(self.python, command)  # noqa: S606  (there is no shell to want)
+        if sys.platform != "win32":
+            os.execv(self.python, command)  # noqa: S606  (there is no shell to want)
+        with subprocess.Popen(command) as process:  # where a program cannot become another
+            while True:
+                try:
+                    return process.wait()
+                except KeyboardInterrupt:
+                    continue  # Ctrl-C reaches the program as well, and it knows what to do

@@ -12,8 +12,8 @@ from raysteps.submission.archives import DAMAGED, archive_entries
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import Entry, NotTaken, shown
 from raysteps.submission.folders import FolderReader
-from raysteps.submission.plain_folders import PlainFolderReader
 from raysteps.submission.places import Place, Places, unusual_places
+from raysteps.submission.plain_folders import PlainFolderReader
 
 _MOST_COPIES = 3  # that are named
 

@@ -3,7 +3,6 @@
 import os
 import shutil
 import tempfile
-from functools import partial
 from pathlib import Path
 
 from raysteps.common.process import Outcome, run
@@ -71,15 +70,15 @@ def _same_pictures(native: BuildTree, tree: BuildTree) -> Report:
         outcome = native.build(["raytrace-reference"])
     if outcome.code != 0:
         return Report("failed", what_failed(outcome))
-    start = partial(_in_wine, tree)
     different = []
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         for step in read_steps(tree.project):
-            options = [tree.project.root / _SCENE, "--size", _SIZE, "--quiet", "--step", str(step.index), "-o"]
+            options: list[str | Path] = [tree.project.root / _SCENE, "--size", _SIZE, "--step", str(step.index)]
+            options += ["--quiet", "-o"]
             # a name that no code page has, to see that paths are not spoiled on the way
             here, there = Path(folder) / "here.ppm", Path(folder) / f"dört-光-{step.number}.ppm"
             run([native.program("raytrace-reference"), *options, here], seconds=_SECONDS)
-            said = start([_program(tree, "raytrace-reference"), *options, there])
+            said = _in_wine(tree, [_program(tree, "raytrace-reference"), *options, there])
             try:
                 verdict = compare(read_ppm(there), read_ppm(here), 0.0)
             except PictureError as error:
