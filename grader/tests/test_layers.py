@@ -82,7 +82,7 @@ def test_steps_know_core_and_earlier_contracts(project: Project, room: str) -> N
 
 
 _PACKAGES = (
-    "common", "pages", "kit", "sandbox", "submission", "results", "programs", "judge", "mistakes", "diagnosis",
+    "setting_up", "common", "pages", "kit", "sandbox", "submission", "results", "programs", "judge", "mistakes", "diagnosis",
     "grading", "reports", "classroom", "exports", "commands", "upkeep",
 )  # fmt: skip
 _IMPORT = re.compile(r"^\s*(?:from|import) raysteps\.(\w+)", re.MULTILINE)
