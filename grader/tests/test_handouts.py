@@ -135,7 +135,9 @@ def test_every_command_line_of_a_handout_can_be_read(project: Project, kit: Buil
             arguments = _parser().parse_args(words)
             if words[0] == "check":
                 assert [one.id for one in choose(_STEPS, arguments.steps)] == [step.id]
-    assert {"check", "render", "inspect"} <= seen
+            if words[0] == "hint":
+                assert [one.id for one in choose(_STEPS, [arguments.step])] == [step.id]
+    assert {"check", "render", "inspect", "hint", "watch"} <= seen
 
 
 def test_a_line_that_cannot_be_read_is_found(kit: BuiltKit) -> None:
