@@ -16,8 +16,13 @@ _ERROR = re.compile(
 _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
 )
-_MISSING = re.compile(r"undefined reference to [`'](?P<name>.+?)'|undefined symbol: (?P<other>\S.*)")
-_TWICE = re.compile(r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)")
+_MISSING = re.compile(
+    r"undefined reference to [`'](?P<name>.+?)'|(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
+)
+_TWICE = re.compile(
+    r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"
+    r"|LNK2005: \"?(?P<theirs>[^\"\n]+?)\"?(?: \([^)\n]*\))? already defined"
+)
 _MOST_LOG = 64_000
 _DRIVE, _PART = r"(?:\b[A-Za-z]:)?", r"[/\\][^\s:/\\]+"
 
@@ -102,10 +107,10 @@ def link_message(ran: Ran) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:
         return "It does not build: the linker took too long."
-    missing = _MISSING.search(printable(ran.outcome.stderr))
-    twice = _TWICE.search(printable(ran.outcome.stderr))
+    said = printable(ran.outcome.stderr + ran.outcome.stdout)  # Microsoft's linker complains on stdout
+    missing, twice = _MISSING.search(said), _TWICE.search(said)
     if twice is not None:
-        return f"It does not build: {shorten(twice['name'], 200)} is defined twice."
+        return f"It does not build: {shorten(twice['name'] or twice['theirs'], 200)} is defined twice."
     if missing is None:
         return "It does not build: the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)
