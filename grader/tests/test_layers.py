@@ -82,8 +82,8 @@ def test_steps_know_core_and_earlier_contracts(project: Project, room: str) -> N
 
 
 _PACKAGES = (
-    "setting_up", "common", "pages", "kit", "sandbox", "submission", "results", "programs", "judge", "mistakes", "diagnosis",
-    "grading", "reports", "classroom", "exports", "commands", "upkeep",
+    "setting_up", "common", "pages", "kit", "sandbox", "submission", "results", "programs", "judge", "mistakes",
+    "diagnosis", "grading", "reports", "classroom", "exports", "commands", "upkeep",
 )  # fmt: skip
 _IMPORT = re.compile(r"^\s*(?:from|import) raysteps\.(\w+)", re.MULTILINE)
 
