@@ -11,11 +11,7 @@ STATUS_WORDS: dict[Status, tuple[str, str, str]] = {  # in words, its tone, its 
     "crashed": ("crashed", "bad", "✗"),
     "timeout": ("took too long", "bad", "✗"),
 }
-HOW_SURE = {
-    "mistake": "most likely",
-    "transformation": "it looks as if",
-    "finding": "look here",
-}  # by kind of diagnosis
+HOW_SURE = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}  # of a diagnosis
 
 
 def percent(share: float) -> str:
