@@ -9,7 +9,7 @@ _SECONDS = 1200
 
 CLANG = ("clang",)
 PAGES = ("chromium",)
-WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb")
+WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb", "xdotool")
 
 
 def _installed(package: str) -> bool:
