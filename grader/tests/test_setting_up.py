@@ -1,6 +1,7 @@
 """Before the first command: the file `raysteps` in both of its languages, and what a bare machine is told."""
 
 import ast
+import shlex
 import shutil
 import subprocess
 import sys
@@ -39,7 +40,7 @@ def copy_of_the_command(project: Project, folder: Path) -> Path:
     (folder / "grader" / "pyproject.toml").touch()
     room = Room(folder)
     room.python.parent.mkdir(parents=True)
-    python = f'#!/bin/sh\ncase "$*" in *"-m raysteps"*) printf "%s|" "$@" ;; *) exec {sys.executable} "$@" ;; esac\n'
+    python = f'#!/bin/sh\ncase "$*" in *"-m raysteps"*) printf "%s|" "$@" ;; *) exec {shlex.quote(sys.executable)} "$@" ;; esac\n'
     room.python.write_text(python, encoding="utf-8")
     room.python.chmod(0o755)
     program = "import sys; sys.path.insert(0, 'grader/src'); from pathlib import Path\n"

@@ -51,9 +51,8 @@ class FolderReader:
         self.closed: list[tuple[str, ...]] = []
 
     def entries(self) -> Iterator[Entry]:
-        handle = os.open(
-            self._root, _FOLDER & ~getattr(os, "O_NOFOLLOW", 0)
-        )  # the folder itself was named by whoever grades
+        followed = _FOLDER & ~getattr(os, "O_NOFOLLOW", 0)  # the folder itself was named by whoever grades
+        handle = os.open(self._root, followed)
         try:
             yield from self._below(handle, ())
         finally:

@@ -16,6 +16,7 @@ from raysteps.submission.places import Place, Places, unusual_places
 from raysteps.submission.plain_folders import PlainFolderReader
 
 _MOST_COPIES = 3  # that are named
+_OPENS_BELOW = os.open in os.supports_dir_fd  # not on Windows
 
 ARCHIVE_ENDINGS = (".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar", ".zip")
 
@@ -139,7 +140,7 @@ def submission_name(path: Path) -> str:
 
 def _collect(path: Path, collector: _Collector) -> None:
     if path.is_dir():
-        reader = FolderReader(path) if os.open in os.supports_dir_fd else PlainFolderReader(path)
+        reader = FolderReader(path) if _OPENS_BELOW else PlainFolderReader(path)
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
     elif not path.is_file():
