@@ -40,7 +40,8 @@ def copy_of_the_command(project: Project, folder: Path) -> Path:
     (folder / "grader" / "pyproject.toml").touch()
     room = Room(folder)
     room.python.parent.mkdir(parents=True)
-    python = f'#!/bin/sh\ncase "$*" in *"-m raysteps"*) printf "%s|" "$@" ;; *) exec {shlex.quote(sys.executable)} "$@" ;; esac\n'
+    otherwise = f'exec {shlex.quote(sys.executable)} "$@"'
+    python = f'#!/bin/sh\ncase "$*" in *"-m raysteps"*) printf "%s|" "$@" ;; *) {otherwise} ;; esac\n'
     room.python.write_text(python, encoding="utf-8")
     room.python.chmod(0o755)
     program = "import sys; sys.path.insert(0, 'grader/src'); from pathlib import Path\n"
