@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "apps/inspect_options.hpp"
+#include "apps/run_program.hpp"
 #include "inspect/inspect_json.hpp"
 #include "inspect/inspect_pixel.hpp"
 #include "inspect/inspect_text.hpp"
@@ -13,8 +14,6 @@
 namespace {
 
 using namespace raysteps;
-
-constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
 
 void run(const InspectOptions& options) {
     Scene scene = read_nff(path_of(options.picture.scene));
@@ -39,20 +38,12 @@ void run(const InspectOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return run_program("inspect", "inspect", [argc, argv] {
         const InspectOptions options = parse_inspect_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
             std::fputs(k_inspect_usage, stdout);
-            return 0;
+            return;
         }
         run(options);
-        return 0;
-    } catch (const ReadError& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-    } catch (const UsageError& error) {
-        std::fprintf(stderr, "inspect: %s\nAll options: ./raysteps inspect --help\n", error.what());
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "inspect: %s\n", error.what());
-    }
-    return k_exit_usage;
+    });
 }

@@ -3,13 +3,13 @@
 #include <cstdio>
 
 #include "apps/options.hpp"
+#include "apps/run_program.hpp"
 #include "apps/spd_report.hpp"
 #include "apps/stats_json.hpp"
 #include "core/threads.hpp"
 #include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/ppm.hpp"
-#include "io/read_error.hpp"
 #include "io/read_file.hpp"
 #include "io/terminal.hpp"
 #include "io/write_file.hpp"
@@ -20,8 +20,6 @@
 namespace {
 
 using namespace raysteps;
-
-constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
     const int step = options.spd ? std::max(options.step, 6) : options.step;  // SPD scenes are large
@@ -79,24 +77,16 @@ void run(const RaytraceOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return run_program("raytrace", "render", [argc, argv] {
         const RaytraceOptions options = parse_options(utf8_arguments(argc, argv));
         if (options.help) {
             std::fputs(k_raytrace_usage, stdout);
-            return 0;
+            return;
         }
         if (options.list_accelerations) {
             std::fputs(list_accelerations().c_str(), stdout);
-            return 0;
+            return;
         }
         run(options);
-        return 0;
-    } catch (const ReadError& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-    } catch (const UsageError& error) {
-        std::fprintf(stderr, "raytrace: %s\nAll options: ./raysteps render --help\n", error.what());
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "raytrace: %s\n", error.what());
-    }
-    return k_exit_usage;
+    });
 }

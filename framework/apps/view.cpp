@@ -2,18 +2,17 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "apps/run_program.hpp"
 #include "apps/view_options.hpp"
 #include "core/threads.hpp"
 #include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
-#include "io/read_error.hpp"
 #include "view/viewer.hpp"
 
 namespace {
 
 using namespace raysteps;
 
-constexpr int k_exit_usage = 2;  // bad arguments, bad scene, no window, or a file that cannot be written
 constexpr int k_largest_shown = 4096;  // pixels a side: up to 1.5 GB
 
 void check_size(const Camera& camera) {
@@ -55,20 +54,12 @@ void run(const ViewOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return run_program("view", "view", [argc, argv] {
         const ViewOptions options = parse_view_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
             std::fputs(k_view_usage, stdout);
-            return 0;
+            return;
         }
         run(options);
-        return 0;
-    } catch (const ReadError& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-    } catch (const UsageError& error) {
-        std::fprintf(stderr, "view: %s\nAll options: ./raysteps view --help\n", error.what());
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "view: %s\n", error.what());
-    }
-    return k_exit_usage;
+    });
 }
