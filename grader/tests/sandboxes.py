@@ -19,6 +19,7 @@ from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task
 from raysteps.sandbox.users import can_lend_users
 
 Misbehave = Callable[..., Ran]
+PROGRAM = f"program-{os.getpid()}"  # no other run of tests on this machine starts processes of that name
 
 
 def sandbox_named(name: str) -> Sandbox:
@@ -70,7 +71,7 @@ def misbehave(hostile: Path) -> Misbehave:
 
     def run(sandbox: Sandbox, *words: str | Input | Output, **limits: float) -> Ran:
         chosen = Limits(**{"wall_seconds": 10, "memory_mb": 512, **limits})  # type: ignore[arg-type]
-        return sandbox.run(Task((Input(hostile, "program"), *words), limits=chosen))
+        return sandbox.run(Task((Input(hostile, PROGRAM), *words), limits=chosen))
 
     return run
 

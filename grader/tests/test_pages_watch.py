@@ -156,7 +156,7 @@ def test_everybody_can_read_it(live: Live, pages: Watched, width: int, scheme: S
     page = pages.open(live.server.address, width=width, scheme=scheme, calm=True)
     for view in (_failing(live), broken, live.view("int right;", full=True), replace(broken, gone=True)):
         live.show(view)
-        text = json.loads(live.board.now()[1])["verdict"]["text"]
+        text = json.loads(live.board.now().text)["verdict"]["text"]
         _says(page, "#watch-verdict", text)
         assert_accessible(page)
         assert_no_sideways_scrolling(page)

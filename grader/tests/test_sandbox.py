@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from sandboxes import Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
+from sandboxes import PROGRAM, Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
 
 from raysteps.kit.project import here
 from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
@@ -113,7 +113,7 @@ def test_no_other_process_tells_of_the_grader(
     scene = tmp_path / "trap-for-cheats.nff"
     scene.write_text("sphere\n", encoding="ascii")
     for file in ("/proc/1/environ", "/proc/1/cmdline", "/proc/1/maps"):
-        said = sandbox.run(Task((Input(hostile, "program"), "read", file, Input(scene, "1.nff"))))
+        said = sandbox.run(Task((Input(hostile, PROGRAM), "read", file, Input(scene, "1.nff"))))
         assert "trap" not in said.outcome.stdout + said.outcome.stderr
 
 
@@ -121,7 +121,7 @@ def test_a_neutral_name_is_all_that_is_told(sandbox: Sandbox, hostile: Path, tmp
     scene = tmp_path / "trap-for-cheats.nff"
     scene.write_text("sphere\n", encoding="ascii")
     for file in ("/proc/self/mountinfo", "/proc/self/cmdline", "/proc/self/environ"):
-        task = Task((Input(hostile, "program"), "read", file), inputs=(Input(scene, "1.nff"),))
+        task = Task((Input(hostile, PROGRAM), "read", file), inputs=(Input(scene, "1.nff"),))
         said = sandbox.run(task).outcome.stdout
         assert said
         assert "trap" not in said
@@ -212,7 +212,7 @@ def test_a_fork_bomb_is_held(sandbox: Sandbox, misbehave: Misbehave) -> None:
     ran = misbehave(sandbox, "bomb", processes=20, wall_seconds=1)
     assert time.monotonic() - start < 3
     assert ran.stopped == "wall"
-    assert processes_running("program") == []
+    assert processes_running(PROGRAM) == []
 
 
 def test_a_neighbours_bomb_takes_no_threads(sandbox: Sandbox, misbehave: Misbehave) -> None:
@@ -231,7 +231,7 @@ def test_a_daemon_does_not_hold_the_grader(any_sandbox: Sandbox, misbehave: Misb
     ran = misbehave(any_sandbox, "daemon")
     assert time.monotonic() - start < 5
     assert (ran.outcome.code, ran.outcome.stdout) == (0, "done\n")
-    assert processes_running("program") == []
+    assert processes_running(PROGRAM) == []
 
 
 def test_a_flood_is_capped(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
@@ -277,7 +277,7 @@ def test_nothing_is_left_behind(
     misbehave(any_sandbox, "fill", ".", tmp_mb=4)
     misbehave(any_sandbox, "write", Output("a"), "1")
     assert _traces(folder) == before
-    assert processes_running("program") == []
+    assert processes_running(PROGRAM) == []
 
 
 def test_what_a_run_costs(any_sandbox: Sandbox, misbehave: Misbehave, capsys: pytest.CaptureFixture[str]) -> None:

@@ -175,19 +175,20 @@ def test_a_killed_grader_leaves_nothing(name: str, way: str, hostile: Path) -> N
         "import sys\nfrom pathlib import Path\nfrom raysteps.sandbox.choice import find_sandbox\n"
         "from raysteps.sandbox.task import Input, Limits, Task\n"
         "limits = Limits(wall_seconds=30, processes=10)\n"
-        "find_sandbox().run(Task((Input(Path(sys.argv[1]), 'orphan'), sys.argv[2]), limits))\n"
+        "find_sandbox().run(Task((Input(Path(sys.argv[1]), sys.argv[3]), sys.argv[2]), limits))\n"
     )
+    orphan = f"orphan-{os.getpid()}"
     environment = {**os.environ, VARIABLE: name}
-    with subprocess.Popen([sys.executable, "-c", code, str(hostile), way], env=environment) as grader:
+    with subprocess.Popen([sys.executable, "-c", code, str(hostile), way, orphan], env=environment) as grader:
         until = time.monotonic() + 10
-        while not processes_running("orphan") and time.monotonic() < until:
+        while not processes_running(orphan) and time.monotonic() < until:
             time.sleep(0.05)
-        assert processes_running("orphan")
+        assert processes_running(orphan)
         grader.send_signal(signal.SIGKILL)
     until = time.monotonic() + 5
-    while processes_running("orphan") and time.monotonic() < until:
+    while processes_running(orphan) and time.monotonic() < until:
         time.sleep(0.05)
-    assert processes_running("orphan") == []
+    assert processes_running(orphan) == []
 
 
 def _python_for_others() -> list[str]:

@@ -45,9 +45,10 @@ def test_links_are_not_followed(tmp_path: Path, steps: list[Step]) -> None:
 
 def test_a_folder_that_cannot_be_written_is_a_usage_error(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    for path in (tmp_path / "file", tmp_path / "file" / "below"):
-        with pytest.raises(UsageError, match="cannot be written"):
-            usable_folder(path)
+    with pytest.raises(UsageError, match="is a file; expected a folder"):
+        usable_folder(tmp_path / "file")
+    with pytest.raises(UsageError, match="cannot be written"):
+        usable_folder(tmp_path / "file" / "below")
 
 
 def test_the_demo_checks_its_samples(steps: list[Step]) -> None:

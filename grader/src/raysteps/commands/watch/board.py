@@ -2,9 +2,17 @@
 
 import json
 import threading
-from typing import Any
+from typing import Any, NamedTuple
 
 State = dict[str, Any]
+
+
+class News(NamedTuple):
+    """One state, and whether it is the last."""
+
+    version: int
+    text: str
+    is_last: bool
 
 
 class Board:
@@ -17,10 +25,6 @@ class Board:
         self._state = state
         self._closed = False
 
-    @property
-    def is_closed(self) -> bool:
-        return self._closed
-
     def show(self, state: State) -> None:
         with self._changed:
             self._put(state)
@@ -31,16 +35,16 @@ class Board:
         self._version += 1
         self._changed.notify_all()
 
-    def now(self) -> tuple[int, str]:
-        """The version and the state, in one line."""
+    def now(self) -> News:
+        """The state, in one line of text."""
         with self._changed:
-            return self._version, self._text
+            return News(self._version, self._text, self._closed)
 
-    def wait(self, seen: int, seconds: float) -> tuple[int, str] | None:
+    def wait(self, seen: int, seconds: float) -> News | None:
         """What is newer than the version that was seen; None when there is nothing after that time."""
         with self._changed:
             if self._changed.wait_for(lambda: self._version != seen, seconds):
-                return self._version, self._text
+                return News(self._version, self._text, self._closed)
             return None
 
     def close(self) -> None:

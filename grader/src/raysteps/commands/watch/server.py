@@ -10,7 +10,7 @@ from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlsplit
 
-from raysteps.commands.watch.board import Board
+from raysteps.commands.watch.board import Board, News
 from raysteps.common.errors import UsageError
 
 _HOSTS = {"127.0.0.1", "localhost"}  # another name that leads here is an attack by DNS rebinding
@@ -81,7 +81,7 @@ class _Handler(BaseHTTPRequestHandler):
         if not secrets.compare_digest(token.encode(), self.server.token.encode()):
             self._answer(404, "There is nothing here. The whole address stands in the terminal.\n")
         elif rest == ["", ""]:
-            self._answer(200, self.server.make_page(self.server.board.now()[1]), "text/html; charset=utf-8")
+            self._answer(200, self.server.make_page(self.server.board.now().text), "text/html; charset=utf-8")
         elif rest == ["events", ""]:
             self._stream()
         else:
@@ -100,19 +100,21 @@ class _Handler(BaseHTTPRequestHandler):
             return
         try:
             self._head(200, "text/event-stream")
-            version, text = self.server.board.now()
-            while True:
-                self.wfile.write(f"id: {version}\ndata: {text}\n\n".encode())
-                self.wfile.flush()
-                if self.server.board.is_closed:
-                    return
-                version, text = self._news(version)
+            news = self.server.board.now()
+            self._tell(news)
+            while not news.is_last:
+                news = self._wait_for_more(news.version)
+                self._tell(news)
         except OSError:
             return  # the browser went away
         finally:
             self.server.listeners.release()
 
-    def _news(self, version: int) -> tuple[int, str]:
+    def _tell(self, news: News) -> None:
+        self.wfile.write(f"id: {news.version}\ndata: {news.text}\n\n".encode())
+        self.wfile.flush()
+
+    def _wait_for_more(self, version: int) -> News:
         while (found := self.server.board.wait(version, _SIGN_OF_LIFE_SECONDS)) is None:
             self.wfile.write(b": still watching\n\n")
             self.wfile.flush()
