@@ -12,11 +12,13 @@ from rich.console import Console
 from raysteps.classroom import command as classroom
 from raysteps.commands import report_page
 from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
+from raysteps.commands.course import command as course
 from raysteps.commands.demo import demo
 from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
+from raysteps.commands.watch import command as watch
 from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
@@ -47,6 +49,9 @@ def _parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    watch.add_arguments(commands.add_parser("watch", help="build, test and draw a step again with every save"))
+    course.add_arguments(commands.add_parser)
 
     add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
     add.add_argument("args", nargs=argparse.REMAINDER)
@@ -98,10 +103,14 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
 def _run(arguments: argparse.Namespace, console: Console) -> int:
     project = here()
     match arguments.command:
+        case "watch":
+            return watch.run(project, arguments, console)
         case "check":
             return check(project, arguments.steps, console)
         case "inspect":
             return inspect.run(project, arguments, console)
+        case name if name in course.COMMANDS:
+            return course.run(project, arguments, console)
         case "replay":
             return replay(project, arguments.case, arguments.submission, console)
         case "grade":

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.commands.course.remembered import remember
 from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
@@ -16,6 +17,7 @@ from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
 from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.case_files import place_of
+from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
@@ -62,23 +64,39 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
-def check(project: Project, names: list[str], console: Console) -> int:
-    """Checks the steps in the repository and explains what is wrong. Your own code needs no sandbox."""
-    chosen = choose(read_steps(project), names)
+@dataclass(frozen=True)
+class Checked:
+    """What came of checking one's own steps; there is no page where it could not be made."""
+
+    kit: BuiltKit
+    results: Results
+    page: Path | None
+
+
+def check_steps(project: Project, chosen: list[Step], say: Say) -> Checked:
+    """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
     out = project.build / "check"
-    with console.status("starting") as status, one_at_a_time(project.build / "check.lock"):
-        say = progress(console, status)
+    with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say)
         clear(out, kit.steps, chosen)
         submission = take_in(project.steps, kit.steps)
         settings = Settings(only=tuple(step.id for step in chosen), jobs=os.cpu_count() or 1)
         results = grade_one(kit, submission, settings, OpenAir(), out, say)
-        page = try_student_page(out, kit.steps, say)
-    print_details(console, results, kit.steps, out, replay_beside)
+        remember(project, results, submission.sources)
+        return Checked(kit, results, try_student_page(out, kit.steps, say))
+
+
+def check(project: Project, names: list[str], console: Console) -> int:
+    """Checks the steps in the repository and explains what is wrong."""
+    chosen = choose(read_steps(project), names)
+    out = project.build / "check"
+    with console.status("starting") as status:
+        checked = check_steps(project, chosen, progress(console, status))
+    print_details(console, checked.results, checked.kit.steps, out, replay_beside)
     console.print()
-    print_table(console, results)
-    print_files(console, out / "results.json", page)
-    return exit_code(results)
+    print_table(console, checked.results)
+    print_files(console, out / "results.json", checked.page)
+    return exit_code(checked.results)
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,11 @@ class Project:
         return self.root / "grader" / "samples"
 
     @property
+    def stubs(self) -> Path:
+        """The stubs once more, for a student who wants to begin again: those in steps/ are written over."""
+        return self.root / "grader" / "stubs"
+
+    @property
     def build(self) -> Path:
         return self.root / "build"
 

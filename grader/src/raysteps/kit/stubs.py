@@ -1,7 +1,8 @@
-"""Makes the stubs in steps/ from the marked regions of solutions/."""
+"""Makes the stubs from the marked regions of solutions/."""
 
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
@@ -90,16 +91,28 @@ def stub_for(project: Project, step: Step) -> str:
     return make_stub((project.solutions / step.path).read_text(encoding="utf-8"), step)
 
 
-def outdated_stubs(project: Project, steps: list[Step]) -> list[Step]:
-    """The steps whose stub differs from what the solution generates."""
-    outdated = []
-    for step in steps:
-        path = project.steps / step.path
-        if not path.is_file() or path.read_bytes() != stub_for(project, step).encode():
-            outdated.append(step)
-    return outdated
+def pristine_stub(project: Project, step: Step) -> str:
+    """The step as the student got it; also where there are no solutions to make it from."""
+    path = project.stubs / step.path
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraderFault(f"{path}: expected the stub of {step.id}; take it from a fresh copy of the kit") from error
 
 
-def write_stubs(project: Project, steps: list[Step]) -> list[Step]:
-    """Writes all stubs; returns the steps whose stub changed."""
-    return [step for step in steps if write_if_changed(project.steps / step.path, stub_for(project, step).encode())]
+def _stub_files(project: Project, steps: list[Step]) -> dict[Path, bytes]:
+    """Path and content: where students write, and beside the grader, where they do not."""
+    made = {step: stub_for(project, step).encode() for step in steps}
+    return {room / step.path: data for room in (project.steps, project.stubs) for step, data in made.items()}
+
+
+def outdated_stubs(project: Project, steps: list[Step]) -> list[Path]:
+    """The files that differ from what the solutions generate."""
+    return [
+        path for path, data in _stub_files(project, steps).items() if not path.is_file() or path.read_bytes() != data
+    ]
+
+
+def write_stubs(project: Project, steps: list[Step]) -> list[Path]:
+    """Writes all stubs; returns the files that changed."""
+    return [path for path, data in _stub_files(project, steps).items() if write_if_changed(path, data)]

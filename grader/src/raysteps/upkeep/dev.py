@@ -14,7 +14,10 @@ from raysteps.upkeep.truth.command import check_truth
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds one command below `dev` for each thing to do."""
     commands = parser.add_subparsers(dest="what", required=True, metavar="WHAT")
-    for name, made in (("stubs", "the stubs in steps/"), ("samples", "the samples in grader/samples/")):
+    for name, made in (
+        ("stubs", "the stubs in steps/ and grader/stubs/"),
+        ("samples", "the samples in grader/samples/"),
+    ):
         add = commands.add_parser(name, help=f"make {made} from the solutions")
         add.add_argument("--check", action="store_true", help="only tell what is out of date")
     commands.add_parser(

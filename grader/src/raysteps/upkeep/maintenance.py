@@ -1,7 +1,5 @@
 """The commands `dev stubs`, `dev samples` and `dev mistakes`, for those who maintain the kit."""
 
-from pathlib import Path
-
 from raysteps.diagnosis.learning import known_mistakes
 from raysteps.judge.plan import read_plan
 from raysteps.kit.built_kit import Say
@@ -17,8 +15,8 @@ from raysteps.upkeep.samples import outdated_samples, write_samples
 def stubs(project: Project, *, check: bool) -> int:
     """Makes the stubs, or tells which are out of date."""
     steps = read_steps(project)
-    changed = [Path("steps") / step.path for step in (outdated_stubs if check else write_stubs)(project, steps)]
-    return _tell([path.as_posix() for path in changed], "dev stubs", check=check)
+    changed = (outdated_stubs if check else write_stubs)(project, steps)
+    return _tell([path.relative_to(project.root).as_posix() for path in changed], "dev stubs", check=check)
 
 
 def samples(project: Project, *, check: bool) -> int:

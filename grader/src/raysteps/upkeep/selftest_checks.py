@@ -19,7 +19,7 @@ _PAIRS = 40
 
 
 def _stubs(project: Project) -> Report:
-    names = [step.path.as_posix() for step in outdated_stubs(project, read_steps(project))]
+    names = [path.relative_to(project.root).as_posix() for path in outdated_stubs(project, read_steps(project))]
     text = "these stubs differ from what the solutions generate (./raysteps dev stubs makes them anew): "
     return Report("failed", text + ", ".join(names)) if names else Report("passed")
 

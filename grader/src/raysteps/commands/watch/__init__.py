@@ -1,0 +1,1 @@
+"""The command `watch`: a step is built, tested and drawn again with every save."""

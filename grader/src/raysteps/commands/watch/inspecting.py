@@ -1,0 +1,73 @@
+"""The pixel that is most wrong, and the command that looks into it."""
+
+import importlib.util
+import shlex
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from raysteps.commands.watch.view import View
+from raysteps.kit.manifest import ImageCase
+from raysteps.kit.project import Project
+
+_UNDERSTOOD = ("--step", "--size", "--depth", "--accel")  # of the arguments that a picture is made with
+
+
+def command_for(case: ImageCase, x: str, y: str) -> list[str]:
+    """The words after `./raysteps`."""
+    pairs = zip(case.args[::2], case.args[1::2], strict=False)
+    options = [word for name, value in pairs if name in _UNDERSTOOD for word in (name, value)]
+    return ["inspect", case.scene, x, y, *options, "--against", "reference"]
+
+
+def typed(words: Sequence[str]) -> str:
+    """As a person types it."""
+    return shlex.join(["./raysteps", *words])
+
+
+def template(case: ImageCase) -> str:
+    """With {x} and {y} for the page to fill in."""
+    return typed(command_for(case, "X", "Y")).replace(" X Y ", " {x} {y} ", 1)
+
+
+def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
+    """The column and the row; none where the pictures cannot be compared or are the same."""
+    try:
+        one, other = (np.asarray(Image.open(path).convert("RGB"), dtype=np.int16) for path in (mine, reference))
+    except OSError:
+        return None
+    if one.shape != other.shape:
+        return None
+    gap = np.abs(one - other).max(axis=2)
+    y, x = (int(index) for index in np.unravel_index(int(gap.argmax()), gap.shape))
+    return (x, y) if gap[y, x] > 0 else None
+
+
+def command_of_worst(view: View) -> list[str] | None:
+    """Of the first picture that is wrong."""
+    if view.result is None or view.out is None:
+        return None
+    cases = {case.name: case for case in view.step.images}
+    for image in view.result["images"]:
+        if image["passed"] or not image["mine"] or not image["reference"] or image["name"] not in cases:
+            continue
+        worst = worst_pixel(view.out / image["mine"], view.out / image["reference"])
+        if worst is not None:
+            return command_for(cases[image["name"]], *map(str, worst))
+    return None
+
+
+def can_inspect() -> bool:
+    return importlib.util.find_spec("raysteps.commands.inspect") is not None
+
+
+def run_inspect(project: Project, words: Sequence[str]) -> None:
+    """On this terminal; Ctrl-C ends it and nothing else."""
+    try:
+        subprocess.run([sys.executable, "-P", "-m", "raysteps", *words], cwd=project.root, check=False)
+    except KeyboardInterrupt:
+        print()

@@ -1,0 +1,93 @@
+"""What can be told of a step within a second or two: whether it builds, its visible tests and its pictures."""
+
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.text import listed
+from raysteps.grading.build_messages import build_log, link_message, why_not_built
+from raysteps.grading.visible_images import Gallery, judge
+from raysteps.grading.visible_tests import run_tests
+from raysteps.kit.built_kit import BuiltKit, Kind
+from raysteps.kit.manifest import Step
+from raysteps.kit.stubs import pristine_stub, same_code, unfinished_functions
+from raysteps.programs.limits import limits_of
+from raysteps.programs.pictures import write_png
+from raysteps.programs.rendering import reference_picture
+from raysteps.programs.student_build import Program, StudentBuild
+from raysteps.results.model import ImageResult, StepResult
+from raysteps.sandbox.task import Sandbox
+
+Tell = Callable[[StepResult], None]
+
+
+@dataclass(frozen=True)
+class QuickLook:
+    """One step between steps of the reference, without the judge. `tell` hears of each part when it is done."""
+
+    kit: BuiltKit
+    step: Step
+    sandbox: Sandbox
+    out: Path
+    tell: Tell = lambda result: None
+
+    def look(self, source: str) -> StepResult:
+        """No points: they are for a check to say."""
+        result = StepResult(self.step.id, "failed", 0.0, self.step.points, self.step.bonus)
+        if same_code(source, pristine_stub(self.kit.project, self.step)):
+            return self._not_started(result)
+        left = unfinished_functions(source, self.step)
+        if left:
+            result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
+        with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+            build = StudentBuild(self.kit, self.sandbox, Path(folder))
+            compiled = build.compile(self.step, source.encode(), limits_of(self.step, {}))
+            result.build_log = build_log(compiled.ran)
+            if compiled.binary is None:
+                return _does_not_build(result, why_not_built(self.kit, self.step, compiled, source))
+            return self._run(build, compiled.binary, result)
+
+    def _not_started(self, result: StepResult) -> StepResult:
+        """The reference's pictures are shown all the same: that is where it goes."""
+        result.status = "not-started"
+        result.messages = [f"{self.step.file} is still the stub. What to do stands in steps/{self.step.id}/README.md."]
+        for case in self.step.images:
+            image = ImageResult(case.name, case.scene, False, case.max_wrong)
+            image.reference = (Path("pictures") / self.step.id / f"{case.name}-reference.png").as_posix()
+            pixels = reference_picture(self.kit, self.kit.project.root / case.scene, case.args)
+            write_png(pixels, self.out / image.reference)
+            result.images.append(image)
+        return result
+
+    def _run(self, build: StudentBuild, binary: Path, result: StepResult) -> StepResult:
+        limits = limits_of(self.step, {})
+
+        def program(kind: Kind) -> Program | None:
+            found, ran = build.program(kind, self.step, [binary], limits)
+            if found is None and ran is not None:
+                result.build_log = (result.build_log + "\n" + build_log(ran)).strip()
+                _does_not_build(result, link_message(ran))
+            return found
+
+        tests, raytrace = program("test"), program("raytrace")
+        if tests is None or raytrace is None:
+            return result
+        gallery = Gallery(self.kit, self.sandbox, limits, self.out)
+        self.tell(result)
+        result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
+        if any(test.outcome == "timeout" for test in result.tests):
+            gallery.hung()
+        self.tell(result)
+        for case in self.step.images:
+            result.images.append(judge(gallery, raytrace, self.step, case))
+            self.tell(result)
+        passed = [item.passed for items in (result.tests, result.images) for item in items]
+        result.status = "passed" if all(passed) else "partial" if any(passed) else "failed"
+        return result
+
+
+def _does_not_build(result: StepResult, message: str) -> StepResult:
+    result.status = "does-not-build"
+    result.messages = [message]
+    return result

@@ -1,0 +1,108 @@
+"use strict";
+
+/** The pictures of a step; an element stays as long as its picture, so that nobody loses a zoom with a save. */
+class WatchPictures {
+  #room = document.getElementById("watch-pictures");
+  #shown = new Map();
+  #step = "";
+
+  /** What a run has not drawn yet stays as it was. */
+  show(state) {
+    if (state.step.id !== this.#step || state.complete) {
+      const names = new Set(state.pictures.map((picture) => picture.name));
+      for (const [name, { article }] of this.#shown) {
+        if (state.step.id !== this.#step || !names.has(name)) {
+          article.remove();
+          this.#shown.delete(name);
+        }
+      }
+      this.#step = state.step.id;
+    }
+    state.pictures.forEach((picture) => this.#showOne(picture, state.step));
+  }
+
+  #showOne(picture, step) {
+    const known = this.#shown.get(picture.name) ?? this.#add(picture, step);
+    known.words.textContent = picture.message || (picture.passed ? "" : picture.mine ? "" : "This is what it shall look like.");
+    known.sign.textContent = picture.passed ? " ✓ right" : picture.mine ? " ✗ wrong" : "";
+    known.sign.className = picture.passed ? "watch-good" : "watch-bad";
+    const key = [picture.reference, picture.mine, picture.flip].join(" ");
+    if (key === known.key) {
+      return;
+    }
+    known.key = key;
+    const one = (src, name) => src && { src, name, alt: `${picture.name}: ${name}` };
+    const flip = one(picture.flip, "FLIP map");
+    known.view.setPictures({ reference: one(picture.reference, "reference"), mine: one(picture.mine, "mine"), flip });
+  }
+
+  #add(picture, step) {
+    const attributes = { label: picture.name, group: `step-${step.number}` };
+    const view = make("compare-pictures", picture.inspect ? { ...attributes, inspect: picture.inspect } : attributes);
+    const sign = make("span");
+    const words = make("p");
+    const article = make("article", { class: "watch-picture" }, make("h2", {}, picture.name, sign), words, view);
+    this.#room.append(article);
+    const known = { article, view, sign, words, key: null };
+    this.#shown.set(picture.name, known);
+    return known;
+  }
+}
+
+/** The page: shows one state after the other. */
+class WatchPage {
+  #pictures = new WatchPictures();
+  #words = document.getElementById("watch-words");
+  #step = "";
+
+  show(state) {
+    document.getElementById("watch-title").textContent = `${state.step.number} ${state.step.title}`;
+    document.title = `${{ good: "✓ ", bad: "✗ ", warn: "! " }[state.verdict.tone] ?? ""}${state.step.number} ${state.step.title}`;
+    const verdict = document.getElementById("watch-verdict");
+    const took = state.seconds !== null && !state.full ? ` (${state.seconds.toFixed(1)} s)` : "";
+    WatchPage.#say(verdict, state.verdict.text + took);
+    verdict.dataset.tone = state.verdict.tone;
+    const saved = state.saved ? `, saved ${state.saved}` : "";
+    this.tell(state.over ? "over" : state.phase, state.over ? "Not watching any more." : `${state.file}${saved}: ${state.doing}`);
+    const stale = state.phase === "looking" && !state.complete;
+    this.#words.parentElement.dataset.stale = String(stale && state.step.id === this.#step && !state.known);
+    if (!stale || state.known || state.step.id !== this.#step) {
+      this.#words.replaceChildren(...watchWords(state));
+    }
+    this.#pictures.show(state);
+    this.#step = state.step.id;
+  }
+
+  tell(phase, text) {
+    const doing = document.getElementById("watch-doing");
+    doing.dataset.phase = phase;
+    WatchPage.#say(doing, text);
+  }
+
+  /** What stays the same is not read out again. */
+  static #say(element, text) {
+    if (element.textContent !== text) {
+      element.textContent = text;
+    }
+  }
+}
+
+/** Follows the server until it says that it is over, or goes away. */
+function watchServer(page) {
+  const source = new EventSource("events");
+  source.addEventListener("message", (event) => {
+    const state = JSON.parse(event.data);
+    page.show(state);
+    if (state.over) {
+      source.close();
+    }
+  });
+  source.addEventListener("error", () => page.tell("over", "Not watching any more. Type ./raysteps watch to go on, and open its new address."));
+}
+
+const watchPage = new WatchPage();
+const watchFirst = JSON.parse(document.getElementById("data").textContent);
+watchPage.show(watchFirst);
+if (!watchFirst.over) {
+  watchServer(watchPage);
+}

@@ -1,0 +1,21 @@
+#include "steps/04-shadows/shadows.hpp"
+
+#include "core/unfinished.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace raysteps {
+
+Ray shadow_ray(const HitRecord& hit, const Light& light) {
+    // TODO: Start a little off the surface and aim at the light.
+    RAYSTEPS_TODO("04-shadows", "shadow_ray");
+    return Ray{hit.position, hit.normal};
+}
+
+bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+    // TODO: Cast the shadow ray and ask whether it meets anything before it reaches the light.
+    RAYSTEPS_TODO("04-shadows", "is_lit");
+    return false;
+}
+
+}  // namespace raysteps

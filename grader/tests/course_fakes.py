@@ -1,0 +1,45 @@
+"""A kit without programs: manifests and stubs only, enough for what builds nothing."""
+
+import io
+import shutil
+from pathlib import Path
+
+from rich.console import Console
+
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import Project, here
+from raysteps.results.model import Results, StepResult
+
+
+def small_project(root: Path) -> Project:
+    """Nobody has written anything yet, and there are no solutions."""
+    copy = Project(root)
+    for step in read_steps(here()):
+        for room in (copy.steps, copy.stubs):
+            (room / step.path).parent.mkdir(parents=True)
+            shutil.copy(here().stubs / step.path, room / step.path)
+        shutil.copy(here().steps / step.id / "step.toml", copy.steps / step.id)
+    return copy
+
+
+def printed() -> Console:
+    """A console that keeps what it prints, see `text`."""
+    return Console(file=io.StringIO(), width=200, force_terminal=False)
+
+
+def text(console: Console) -> str:
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue()
+
+
+def write_own(project: Project, step: Step, source: str) -> Path:
+    path = project.steps / step.path
+    path.write_text(source, encoding="utf-8")
+    return path
+
+
+def checked(step: Step, status: str, points: float) -> Results:
+    """What a check of one step came to."""
+    result = StepResult(step.id, "passed", points, step.points, step.bonus)
+    result.status = status  # type: ignore[assignment]
+    return Results("ann", [result])

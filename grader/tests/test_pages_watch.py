@@ -1,0 +1,143 @@
+"""The page of `watch` in a real browser: it changes when results change, and says when nobody watches any more."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
+from watch_fakes import result_of
+
+from raysteps.commands.course.hints import Hint
+from raysteps.commands.watch.board import Board
+from raysteps.commands.watch.page import page_of, state_of
+from raysteps.commands.watch.server import PageServer
+from raysteps.commands.watch.view import View
+from raysteps.kit.manifest import Step
+from raysteps.results.model import Diagnosis
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+
+class Live:
+    """A page with its server; `show` is what a run does."""
+
+    def __init__(self, step: Step, out: Path) -> None:
+        self.step = step
+        self.out = out
+        self.board = Board(state_of(View(step, saved="12:00:00")))
+        self.server = PageServer(self.board, page_of)
+
+    def view(self, source: str, *, full: bool = False) -> View:
+        result = asdict(result_of(self.step, source, self.out, full=full))
+        return View(self.step, "idle", "", "12:00:00", 0.8, result, self.out, complete=True, full=full)
+
+    def show(self, view: View) -> None:
+        self.board.show(state_of(view))
+
+
+@pytest.fixture
+def live(steps: list[Step], tmp_path: Path) -> Iterator[Live]:
+    found = Live(steps[0], tmp_path)
+    yield found
+    found.server.close()
+
+
+@pytest.fixture
+def pages(watched: Watched, live: Live) -> Watched:
+    """The page may ask its own server, and nobody else."""
+    watched.allowed.append(live.server.address)
+    return watched
+
+
+def _says(page: "Page", where: str, text: str) -> None:
+    page.locator(where, has_text=text).first.wait_for()
+
+
+def _failing(live: Live) -> View:
+    view = live.view("// wrong", full=True)
+    assert view.result is not None
+    found = Diagnosis(
+        "mistake", "left-right", "left and right <i>change places</i>", "It is a mirror image.", "A cross product."
+    )
+    view.result["diagnoses"] = [asdict(found)]
+    view.hints = [Hint(1, 3, "across  = 2 (x + 0.5) / width - 1\nupwards = 1")]
+    return view
+
+
+def test_it_follows_what_happens(live: Live, pages: Watched) -> None:
+    page = pages.open(live.server.address)
+    _says(page, "#watch-verdict", "Building")
+    live.show(live.view("// wrong"))
+    _says(page, "#watch-verdict", "1 of 2 tests right, 0 of 1 picture right.")
+    _says(page, "#watch-words .panel", "2 == 1")
+    _says(page, "#watch-words .watch-name", "it is <b>right</b>")
+    _says(page, "#watch-pictures h2", "✗ wrong")
+    page.locator("compare-pictures[data-state=ready]").wait_for()
+    before = page.locator("img[data-role=mine]").get_attribute("src")
+    live.show(live.view("// broken"))
+    _says(page, "#watch-words pre", "1 | // broken")
+    live.show(live.view("int right;"))
+    _says(page, "#watch-verdict[data-tone=good]", "2 tests right, 1 picture right. (0.8 s)")
+    page.locator("compare-pictures[data-state=ready]").wait_for()
+    assert page.locator("img[data-role=mine]").get_attribute("src") != before
+    assert page.locator("#watch-words .panel").count() == 0
+    assert page.title() == "✓ 01 Camera rays"
+
+
+def test_what_a_run_has_not_told_yet_stays(live: Live, pages: Watched) -> None:
+    page = pages.open(live.server.address)
+    live.show(live.view("// wrong"))
+    page.locator("compare-pictures[data-state=ready]").wait_for()
+    page.locator("compare-pictures").evaluate("element => { element.mark = 1; element.view = 'side'; }")
+    live.show(View(live.step, saved="12:00:05"))
+    _says(page, "#watch-doing[data-phase=looking]", "saved 12:00:05")
+    assert page.locator("#watch-words .panel").count() == 1
+    live.show(live.view("int right;"))
+    _says(page, "#watch-verdict", "2 tests right")
+    view = page.locator("compare-pictures")
+    assert view.evaluate("element => [element.mark, element.view]") == [1, "side"]
+
+
+def test_another_step_takes_the_place_of_this_one(live: Live, pages: Watched, steps: list[Step]) -> None:
+    page = pages.open(live.server.address)
+    live.show(live.view("// wrong"))
+    _says(page, "#watch-pictures h2", steps[0].images[0].name)
+    live.show(View(steps[1]))
+    _says(page, "h1", "02 Intersection")
+    assert page.locator("#watch-pictures article, #watch-words .panel").count() == 0
+
+
+def test_reloaded_it_is_the_same(live: Live, pages: Watched) -> None:
+    live.show(_failing(live))
+    page = pages.open(live.server.address)
+    _says(page, "#watch-verdict", "2.5 of 10 points")
+    said = page.locator("main").inner_text()
+    page.reload()
+    _says(page, "#watch-verdict", "2.5 of 10 points")
+    assert page.locator("main").inner_text() == said
+    _says(page, ".watch-name", "Most likely: left and right <i>change places</i>")
+
+
+def test_it_says_when_nobody_watches_any_more(live: Live, pages: Watched) -> None:
+    page = pages.open(live.server.address)
+    live.show(live.view("int right;"))
+    _says(page, "#watch-verdict", "2 tests right")
+    live.server.close()
+    _says(page, "#watch-doing[data-phase=over]", "Not watching any more.")
+    _says(page, "#watch-verdict", "2 tests right")
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(360, "light"), (1440, "dark")])
+def test_everybody_can_read_it(live: Live, pages: Watched, width: int, scheme: Scheme) -> None:
+    broken = live.view("// broken")
+    page = pages.open(live.server.address, width=width, scheme=scheme, calm=True)
+    for view in (_failing(live), broken, live.view("int right;", full=True), replace(broken, gone=True)):
+        live.show(view)
+        text = json.loads(live.board.now()[1])["verdict"]["text"]
+        _says(page, "#watch-verdict", text)
+        assert_accessible(page)
+        assert_no_sideways_scrolling(page)

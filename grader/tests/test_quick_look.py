@@ -1,0 +1,86 @@
+"""What `watch` learns of a step at once, with real programs."""
+
+import dataclasses
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import Sources
+
+from raysteps.commands.watch.runner import WORKER
+from raysteps.grading.quick_look import QuickLook
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.results.model import StepResult
+from raysteps.sandbox.open_air import OpenAir
+
+_ID = "07-tone-mapping"
+
+
+@pytest.fixture
+def step(steps: list[Step]) -> Step:
+    return next(step for step in steps if step.id == _ID)
+
+
+def _look(kit: BuiltKit, step: Step, source: str, out: Path) -> tuple[StepResult, list[tuple[int, int]]]:
+    """The result, and how many tests and pictures were told of at each time."""
+    told: list[tuple[int, int]] = []
+    tell = QuickLook(kit, step, OpenAir(), out, lambda result: told.append((len(result.tests), len(result.images))))
+    return tell.look(source), told
+
+
+def test_a_right_step_is_told_bit_by_bit(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    result, told = _look(kit, step, solved[_ID], tmp_path)
+    tests = len(kit.tests[_ID])
+    assert result.status == "passed"
+    assert told == [(0, 0), (tests, 0), *((tests, number + 1) for number in range(len(step.images)))]
+    assert result.hidden == []
+    for image in result.images:
+        assert image.passed
+        assert image.mine
+        assert (tmp_path / image.mine).is_file()
+
+
+def test_a_step_that_does_not_build(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    result, told = _look(kit, step, solved[_ID] + "\nint oops( { }\n", tmp_path)
+    assert (result.status, told) == ("does-not-build", [])
+    assert result.messages[0].startswith("It does not build: tone_mapping.cpp:")
+    assert "int oops( { }" in result.messages[0]
+
+
+def test_a_crash_is_told_of_each_test(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    source = solved[_ID].replace("std::lround(", "*static_cast<volatile int*>(nullptr) + std::lround(")
+    assert source != solved[_ID]
+    result, _ = _look(kit, step, source, tmp_path)
+    assert result.status == "partial"
+    assert "crashed" in {test.outcome for test in result.tests}
+    assert "ok" in {test.outcome for test in result.tests}
+    assert "crashed" in result.images[0].message
+
+
+def test_the_stub_shows_where_it_goes(kit: BuiltKit, step: Step, unsolved: Sources, tmp_path: Path) -> None:
+    result, _ = _look(kit, step, "// mine\n" + unsolved[_ID], tmp_path)
+    assert result.status == "not-started"
+    assert [image.name for image in result.images] == [case.name for case in step.images]
+    for image in result.images:
+        assert image.mine is None
+        assert image.reference
+        assert (tmp_path / image.reference).is_file()
+
+
+@pytest.mark.usefixtures("kit")
+def test_the_worker_does_a_job(project: Project, steps: list[Step]) -> None:
+    """Whatever stands in the step now: a student's clone holds other things than the stub."""
+    job = json.dumps({"kind": "look", "root": str(project.root), "step": steps[0].id})
+    ran = subprocess.run(WORKER, input=job + "\n", capture_output=True, text=True, check=True, timeout=300)
+    last = json.loads(ran.stdout.splitlines()[-1])
+    assert last["complete"]
+    assert set(last["result"]) == {field.name for field in dataclasses.fields(StepResult)}
+    assert last["out"] == str(project.build / "watch")
+
+
+def test_a_worker_without_a_job_ends() -> None:
+    ran = subprocess.run(WORKER, input="", capture_output=True, text=True, check=False, timeout=60)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, "", "")

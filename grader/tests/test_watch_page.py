@@ -1,0 +1,127 @@
+"""What the page is told, and which command looks into a pixel."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+import pytest
+from watch_fakes import result_of
+
+from raysteps.commands.watch.command import on_a_desktop
+from raysteps.commands.watch.inspecting import command_of_worst, template, typed, worst_pixel
+from raysteps.commands.watch.page import page_of, state_of
+from raysteps.commands.watch.view import View, verdict
+from raysteps.kit.manifest import Step
+from raysteps.programs.pictures import write_png
+
+_TALLY = "1 of 2 tests right, 0 of 1 picture right"
+
+
+def _view(step: Step, source: str, out: Path, *, full: bool = False) -> View:
+    result = asdict(result_of(step, source, out, full=full))
+    return View(step, "idle", result=result, out=out, complete=True, full=full, seconds=0.8, saved="12:00:00")
+
+
+@pytest.mark.parametrize(
+    ("source", "full", "said"),
+    [
+        ("", False, ("good", "2 tests right, 1 picture right.")),
+        ("// wrong", False, ("bad", f"{_TALLY}.")),
+        ("// broken", False, ("bad", "It does not build.")),
+        ("", True, ("good", "Passed: 10 of 10 points.")),
+        (
+            "// wrong",
+            True,
+            ("warn", f"2.5 of 10 points: {_TALLY}, 0 of 1 hidden item right."),
+        ),
+    ],
+)
+def test_the_line_that_matters(
+    steps: list[Step], tmp_path: Path, source: str, full: bool, said: tuple[str, str]
+) -> None:
+    assert verdict(_view(steps[0], source, tmp_path, full=full)) == said
+
+
+def test_the_state_holds_what_went_wrong(steps: list[Step], tmp_path: Path) -> None:
+    state = state_of(_view(steps[0], "// wrong", tmp_path, full=True))
+    assert state["tests"]["passed"] == 1
+    assert state["tests"]["failed"][0]["actual"] == "2 == 1"
+    assert state["hidden"]["failed"][0]["message"] == "half is wrong"
+    (picture,) = state["pictures"]
+    assert picture["mine"].startswith("data:image/png;base64,")
+    assert picture["mine"] != picture["reference"]
+    assert picture["inspect"].startswith("./raysteps inspect scenes/lessons/three-spheres.nff {x} {y} --step 1 --size")
+    assert json.loads(json.dumps(state)) == state
+
+
+def test_pictures_that_are_gone_are_left_out(steps: list[Step], tmp_path: Path) -> None:
+    view = _view(steps[0], "// wrong", tmp_path)
+    (tmp_path / "mine.png").unlink()
+    (tmp_path / "reference.png").write_text("no picture")
+    (picture,) = state_of(view)["pictures"]
+    assert (picture["mine"], picture["reference"], picture["flip"]) == (None, None, None)
+
+
+def test_numbers_that_the_page_shows_are_not_said_twice(steps: list[Step], tmp_path: Path) -> None:
+    view = _view(steps[0], "// wrong", tmp_path)
+    assert view.result is not None
+    left = "RAYSTEPS_TODO is still in: a."
+    numbers = ["1 of 2 tests failed.", "1 of 1 picture did not pass.", "3 of 5 hidden items lost points."]
+    view.result["messages"] = [*numbers, left]
+    assert state_of(view)["messages"] == [left]
+
+
+def test_the_page_is_one_document_that_asks_its_own_server_only(steps: list[Step], tmp_path: Path) -> None:
+    text = json.dumps(state_of(_view(steps[0], "// wrong", tmp_path)))
+    html = page_of(text)
+    assert "connect-src &#39;self&#39;" in html
+    assert "<title>01 Camera rays</title>" in html
+    assert "it is <b>right</b>" not in html
+
+
+def test_the_worst_pixel_and_its_command(steps: list[Step], tmp_path: Path) -> None:
+    step = next(step for step in steps if "--view" in step.images[0].args)
+    view = _view(step, "// wrong", tmp_path)
+    words = command_of_worst(view)
+    assert words is not None
+    assert words[2:4] == ["5", "3"]
+    assert "--view" not in words
+    assert typed(words).endswith("--step 2 --size 160x120 --against reference")
+    assert command_of_worst(_view(step, "", tmp_path)) is None
+
+
+def test_the_worst_pixel_is_where_it_was_planted(tmp_path: Path) -> None:
+    reference = np.full((5, 7, 3), 100, dtype=np.uint8)
+    mine = reference.copy()
+    mine[1, 2] = (90, 100, 100)
+    mine[4, 6] = (100, 100, 180)
+    write_png(mine, tmp_path / "mine.png")
+    write_png(reference, tmp_path / "reference.png")
+    assert worst_pixel(tmp_path / "mine.png", tmp_path / "reference.png") == (6, 4)
+    assert worst_pixel(tmp_path / "mine.png", tmp_path / "mine.png") is None
+    write_png(reference[:3], tmp_path / "reference.png")
+    assert worst_pixel(tmp_path / "mine.png", tmp_path / "reference.png") is None
+    assert worst_pixel(tmp_path / "mine.png", tmp_path / "nothing.png") is None
+
+
+def test_odd_names_are_quoted(steps: list[Step]) -> None:
+    assert template(steps[0].images[0]).count("{x} {y}") == 1
+    assert typed(["inspect", "a b.nff"]) == "./raysteps inspect 'a b.nff'"
+
+
+@pytest.mark.parametrize(
+    ("environment", "platform", "desktop"),
+    [
+        ({}, "darwin", True),
+        ({}, "win32", True),
+        ({}, "linux", False),
+        ({"DISPLAY": ":0"}, "linux", True),
+        ({"WAYLAND_DISPLAY": "wayland-0"}, "linux", True),
+        ({"DISPLAY": ":0", "SSH_CONNECTION": "1 2 3 4"}, "linux", False),
+        ({"CI": "true"}, "darwin", False),
+        ({"DISPLAY": ""}, "linux", False),
+    ],
+)
+def test_a_browser_is_opened_on_a_desktop_only(environment: dict[str, str], platform: str, desktop: bool) -> None:
+    assert on_a_desktop(environment, platform) is desktop

@@ -1,0 +1,128 @@
+"""A worker that builds nothing: it does what it reads in the student's file, and a command line that uses it.
+
+`// broken` does not build, `// wrong` fails, `// wait 0.5` takes time, `// wait check` as long as it may, `// crash`
+ends in the middle, `// program` starts one that never ends, `// hang` never answers."""
+
+import argparse
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+from course_fakes import checked
+from rich.console import Console
+
+from raysteps.commands.course.remembered import remember
+from raysteps.commands.watch.command import add_arguments, run
+from raysteps.common.errors import RaystepsError
+from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.project import Project
+from raysteps.programs.pictures import write_png
+from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
+
+WORKER = (sys.executable, str(Path(__file__)), "worker")
+_PATIENCE = 20
+
+
+def wait_for(what: Callable[[], object], why: str = "it took too long") -> None:
+    end = time.monotonic() + _PATIENCE
+    while not what():
+        assert time.monotonic() < end, why
+        time.sleep(0.02)
+
+
+def result_of(step: Step, source: str, out: Path, *, full: bool) -> StepResult:
+    """As a worker would tell it, with pictures."""
+    right = "// wrong" not in source
+    result = StepResult(step.id, "passed" if right else "partial", 0.0, step.points, step.bonus)
+    if "// broken" in source:
+        result.status, result.messages = (
+            "does-not-build",
+            ["It does not build: own.cpp:1:1: no such thing\n  1 | // broken"],
+        )
+        result.build_log = "own.cpp:1:1: error: no such thing"
+        return result
+    result.tests = [
+        TestResult("it is there", True),
+        TestResult("it is <b>right</b>", right, "" if right else "a & b", "x == 1", "2 == 1", "own_test.cpp:7"),
+    ]
+    shade = 200 if right else 20
+    image = ImageResult(step.images[0].name, step.images[0].scene, right, 0.01)
+    image.message = "" if right else "50.00% of the pixels are wrong."
+    for role, value in (("mine", shade), ("reference", 200)):
+        pixels = np.full((6, 8, 3), 100, dtype=np.uint8)
+        pixels[3, 5:] = value
+        write_png(pixels, out / f"{role}.png")
+    image.mine, image.reference = "mine.png", "reference.png"
+    result.images = [image]
+    if full:
+        result.points = step.points if right else 2.5
+        result.hidden = [HiddenResult("a function", "function", 1.0 if right else 0.5, message="half is wrong")]
+        result.cumulative.passed = right
+    return result
+
+
+def _tell(**words: object) -> None:
+    print(json.dumps(words), flush=True)
+
+
+def _misbehave(source: str, kind: str) -> None:
+    if kind == "check" and "// wait check" in source:
+        time.sleep(1000)
+    if found := re.search(r"// wait ([0-9.]+)", source):
+        time.sleep(float(found[1]))
+    if "// program" in source:
+        process = subprocess.Popen(["sleep", "1000"])
+        Path(os.environ["FAKE_LOG"]).write_text(f"{process.pid} {os.environ['TMPDIR']}")
+        process.wait()
+    if "// hang" in source:
+        time.sleep(1000)
+
+
+def work() -> None:
+    """One job, as the real worker does it."""
+    line = sys.stdin.readline()
+    if not line:
+        return
+    job = json.loads(line)
+    project = Project(Path(job["root"]))
+    (step,) = choose(read_steps(project), [job["step"]])
+    source = (project.steps / step.path).read_text(encoding="utf-8")
+    _misbehave(source, job["kind"])
+    full = job["kind"] == "check"
+    out = project.build / job["kind"]
+    result = result_of(step, source, out, full=full)
+    words = {"result": asdict(result), "out": str(out)}
+    if not full and result.tests:
+        _tell(**(words | {"result": asdict(result) | {"images": []}}), complete=False)
+    if "// crash" in source:
+        print("it gets dark", file=sys.stderr, flush=True)
+        os.kill(os.getpid(), signal.SIGKILL)
+    if full:
+        remember(project, checked(step, result.status, result.points), {step.id: source.encode()})
+    _tell(**words, complete=True)
+
+
+def main(words: list[str]) -> int:
+    """`watch` in a project, with the fake worker."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("root", type=Path)
+    add_arguments(parser)
+    arguments = parser.parse_args(words)
+    try:
+        return run(Project(arguments.root), arguments, Console(), WORKER)
+    except RaystepsError as error:
+        print(error, file=sys.stderr)
+        return error.exit_code
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parent))
+    sys.exit(work() if sys.argv[1] == "worker" else main(sys.argv[1:]))
