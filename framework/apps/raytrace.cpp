@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "apps/options.hpp"
-#include "apps/spd_report.hpp"
 #include "apps/stats_json.hpp"
 #include "apps/terminal.hpp"
 #include "core/threads.hpp"
@@ -11,7 +10,13 @@
 #include "io/ppm.hpp"
 #include "io/read_error.hpp"
 #include "io/write_file.hpp"
+#if __has_include("render/spd.hpp")
+#include "apps/spd_report.hpp"
 #include "render/spd.hpp"
+#define RAYSTEPS_SPD 1
+#else
+#define RAYSTEPS_SPD 0  // a students' kit: the rays of the SPD are made much as those of step 01
+#endif
 
 namespace {
 
@@ -31,11 +36,17 @@ void check_crop(const Rect& crop, const Camera& camera) {
     }
 }
 
+#if RAYSTEPS_SPD
 void print_spd_counts(const Scene& scene, const RaytraceOptions& options) {
     const auto accelerator = make_accelerator(acceleration_of(options), scene.surfaces());
     const Stats stats = count_spd_rays(scene, *accelerator, default_threads());
     std::fputs(spd_report(std::filesystem::path(options.scene).stem().string(), stats).c_str(), stdout);
 }
+#else
+void print_spd_counts(const Scene&, const RaytraceOptions&) {
+    throw UsageError("--spd: expected the whole kit; a students' kit does not count by the rules of the SPD");
+}
+#endif
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
     RenderOptions render_options{{options.step, options.view, options.depth},

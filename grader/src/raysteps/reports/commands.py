@@ -5,11 +5,17 @@ from collections.abc import Mapping
 from typing import Any
 
 from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project, here
 
 
 def check_command(step_id: str) -> str:
     """Checks one's own step."""
     return f"./raysteps check {step_id[:2]}"
+
+
+def beside_reference(project: Project) -> tuple[str, ...]:
+    """The words that show a pixel's record beside the reference's, where there is one."""
+    return ("--against", "reference") if project.has_reference else ()
 
 
 def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
@@ -18,4 +24,4 @@ def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
     if case is None or "{" in case.scene:
         return None
     words = [shlex.quote(word) for word in case.args]
-    return " ".join(["./raysteps inspect", shlex.quote(case.scene), "{x} {y}", *words, "--against reference"])
+    return " ".join(["./raysteps inspect", shlex.quote(case.scene), "{x} {y}", *words, *beside_reference(here())])

@@ -12,7 +12,8 @@ from PIL import Image
 
 from raysteps.commands.watch.view import View
 from raysteps.kit.manifest import ImageCase
-from raysteps.kit.project import Project
+from raysteps.kit.project import Project, here
+from raysteps.reports.commands import beside_reference
 
 _UNDERSTOOD = ("--step", "--size", "--depth", "--accel")  # of the arguments that a picture is made with
 
@@ -21,7 +22,7 @@ def command_for(case: ImageCase, x: str, y: str) -> list[str]:
     """The words after `./raysteps`."""
     pairs = zip(case.args[::2], case.args[1::2], strict=False)
     options = [word for name, value in pairs if name in _UNDERSTOOD for word in (name, value)]
-    return ["inspect", case.scene, x, y, *options, "--against", "reference"]
+    return ["inspect", case.scene, x, y, *options, *beside_reference(here())]
 
 
 def typed(words: Sequence[str]) -> str:
