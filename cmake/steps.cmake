@@ -46,6 +46,9 @@ function(raysteps_add_step step variant source)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(${raw} PRIVATE -fno-gnu-unique)  # unique symbols are shared whatever a seal says
     endif()
+    if(variant STREQUAL "stub")
+        set_target_properties(${raw} PROPERTIES POSITION_INDEPENDENT_CODE ON)  # becomes a library, as a student's does
+    endif()
     if(NOT variant STREQUAL "reference")
         if(NOT MSVC)
             target_compile_options(${raw} PRIVATE -Wno-unused-parameter)
