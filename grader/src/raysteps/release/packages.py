@@ -1,6 +1,7 @@
 """The Python modules that a students' kit needs: all that its commands import, and nothing that knows answers."""
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -50,7 +51,15 @@ def _named(node: ast.AST) -> Iterator[str]:
         yield node.value
 
 
-def _imports(path: Path) -> Iterator[tuple[str, bool]]:
+def _started(node: ast.AST, package: str) -> Iterator[str]:
+    """A script beside the module that starts it, by its file name, and what such a script imports from beside itself."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.fullmatch(r"\w+\.py", node.value):
+        yield f"{package}.{node.value.removesuffix('.py')}"
+    if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
+        yield from (f"{package}.{word.value}" for word in node.args if isinstance(word, ast.Constant))
+
+
+def _imports(path: Path, package: str) -> Iterator[tuple[str, bool]]:
     """What a module names, and whether that is needed as soon as it is imported."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     inside = {
@@ -61,7 +70,8 @@ def _imports(path: Path) -> Iterator[tuple[str, bool]]:
     }
     for node in ast.walk(tree):
         at_once = isinstance(node, ast.Import | ast.ImportFrom) and id(node) not in inside
-        yield from ((name, at_once) for name in _named(node) if name.startswith("raysteps"))
+        names = [*_named(node), *_started(node, package)]
+        yield from ((name, at_once) for name in names if name.startswith("raysteps"))
 
 
 def needed_modules(source: Path) -> list[Path]:
@@ -75,7 +85,7 @@ def needed_modules(source: Path) -> list[Path]:
         found[module] = path
         parent = module.rpartition(".")[0]
         waiting += [parent] if parent else []
-        for name, at_once in _imports(path):
+        for name, at_once in _imports(path, module.rpartition(".")[0]):
             if not _is_never(name):
                 waiting.append(name)
             elif at_once and _path(source, name) is not None:
