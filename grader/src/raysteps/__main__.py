@@ -5,6 +5,6 @@ from importlib.util import find_spec
 if find_spec("raysteps.cli") is not None:
     from raysteps.cli import main
 else:
-    from raysteps.students.cli import main
+    from raysteps.students_cli import main
 
 raise SystemExit(main())

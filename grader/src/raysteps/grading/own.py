@@ -31,17 +31,19 @@ _TROUBLE = {
 
 def blame(work: Work, step: Step, found: Mapping[str, StepResult]) -> list[str]:
     """Earlier steps that are not right, and the pictures to compare with."""
-    earlier = [other for other in work.kit.steps if other.index < step.index]
+    wrong = [other for other in work.kit.steps if other.index < step.index and not is_right(found[other.id])]
+    if not wrong:
+        return []
+    first, *others = wrong
     lines = [
-        f"Step {other.number} {_TROUBLE.get(found[other.id].status, 'is not right yet: its mistakes show here too')}."
-        for other in earlier
-        if not is_right(found[other.id])
+        f"Step {first.number} {_TROUBLE.get(found[first.id].status, 'is not right yet: its mistakes show here too')}."
     ]
-    if lines:
-        root = work.kit.project.root
-        pictures = [given_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
-        one = len(pictures) == 1
-        lines.append(f"Compare with the reference's picture{'' if one else 's'}: {listed(pictures)}.")
+    if others:
+        named = listed([other.number for other in others])
+        lines.append(f"Not right either, perhaps only because of it: {named}. Mend {first.number} first.")
+    root = work.kit.project.root
+    pictures = [given_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
+    lines.append(f"Compare with the reference's picture{'s' if len(pictures) > 1 else ''}: {listed(pictures)}.")
     return lines
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 
-ENTRIES = ("raysteps.__main__", "raysteps.students.cli")
+ENTRIES = ("raysteps.__main__", "raysteps.students_cli")
 # A module that goes to students may import these inside of a function, for the case that the kit has solutions.
 NEVER = (
     "raysteps.classroom",
@@ -52,7 +52,7 @@ def _named(node: ast.AST) -> Iterator[str]:
 
 
 def _started(node: ast.AST, package: str) -> Iterator[str]:
-    """A script beside the module that starts it, by its file name, and what such a script imports from beside itself."""
+    """A script beside the module that starts it, by its file name, and what that imports from beside itself."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.fullmatch(r"\w+\.py", node.value):
         yield f"{package}.{node.value.removesuffix('.py')}"
     if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):

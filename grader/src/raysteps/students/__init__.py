@@ -1,1 +1,1 @@
-"""What only a students' kit has: its commands, and how it takes in a newer release."""
+"""A release as students have it: the list of its files, and how a newer one is taken in."""

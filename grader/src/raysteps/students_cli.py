@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from rich.console import Console
 
-from raysteps.commands import report_page
+from raysteps.commands import report_page, update
 from raysteps.commands.check import check
 from raysteps.commands.course import command as course
 from raysteps.commands.ending import EXITS, console_here, ended
@@ -13,7 +13,6 @@ from raysteps.commands.inspect import command as inspect
 from raysteps.commands.render import render
 from raysteps.commands.watch import command as watch
 from raysteps.kit.project import here
-from raysteps.students import update
 
 
 def _parser() -> argparse.ArgumentParser:
