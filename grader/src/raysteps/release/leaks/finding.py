@@ -11,7 +11,7 @@ from raysteps.release.leaks.pieces import Piece, is_compiled, pieces
 from raysteps.release.leaks.secrets import Secrets
 from raysteps.release.leaks.words import words_in
 
-_SYMBOL = re.compile(r"(?<![A-Za-z_])[0-9]{1,3}[A-Za-z_]\w*")
+_LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")
 
 
 @dataclass(frozen=True)
@@ -38,18 +38,14 @@ def _in_words(secrets: Secrets, piece: Piece) -> Iterator[Leak]:
 
 
 def _in_symbols(secrets: Secrets, piece: Piece) -> Iterator[Leak]:
-    """Linker names stand one after the other: 8raysteps9wall_hit."""
+    """A linker writes names one after the other, each with its length before it: _ZN8raysteps9wall_hit."""
     told = set()
-    for found in _SYMBOL.finditer(piece.text):
-        rest = found[0]
-        while (size := re.match(r"[0-9]{1,3}", rest)) is not None:
-            end = size.end() + int(size[0])
-            name, rest = rest[:end], rest[end:]
-            origin = secrets.names.get(name)
-            if origin is not None and name not in told:
-                told.add(name)
-                yield Leak(piece.place, None, origin, f"the symbol {name[size.end() :]}")
-            rest = re.sub(r"^[A-Z]*_?(?=[0-9])", "", rest)
+    for length in _LENGTH.finditer(piece.text):
+        name = piece.text[length.end() : length.end() + int(length[0])]
+        origin = secrets.names.get(name)
+        if origin is not None and name not in told:
+            told.add(name)
+            yield Leak(piece.place, None, origin, f"the symbol {name}")
 
 
 def _leaks_in(secrets: Secrets, place: str, data: bytes) -> Iterator[Leak]:

@@ -27,7 +27,7 @@ class Secrets:
     """Sequences of words, and names of helpers that only solutions have."""
 
     sequences: Sequences
-    names: dict[str, str]  # as a linker writes them, and where they come from
+    names: dict[str, str]  # and where they come from
 
 
 def _texts(project: Project, pattern: str) -> Iterator[tuple[str, str]]:
@@ -74,13 +74,13 @@ def _shipped(project: Project) -> Iterator[str]:
 
 
 def _helpers(project: Project, public: set[str]) -> dict[str, str]:
-    """Functions and types of solutions that are called so nowhere else, by their linker names."""
+    """Functions and types that only solutions have; not those of a library."""
     found: dict[str, str] = {}
     for origin, source in _solution_code(project):
         code = tokens(source)
-        for name, following in zip(code, [*code[1:], ""], strict=True):
-            if following in ("(", "{") and _NAME.fullmatch(name) and name not in public:
-                found.setdefault(f"{len(name)}{name}", origin)
+        for before, name, following in zip(["", *code], code, [*code[1:], ""], strict=False):
+            if following in ("(", "{") and before not in (":", ".") and _NAME.fullmatch(name) and name not in public:
+                found.setdefault(name, origin)
     return found
 
 
