@@ -21,6 +21,17 @@ endif()
 # For the wide trees alone: where it is missing there are none.
 find_package(hwy 1.0 CONFIG QUIET)
 
+# For the window alone: where they are missing there is none.
+find_package(glfw3 3.3 CONFIG QUIET)
+set(OpenGL_GL_PREFERENCE GLVND)
+find_package(OpenGL QUIET)
+if(TARGET glfw AND TARGET OpenGL::GL)
+    set(RAYSTEPS_WINDOW ON CACHE INTERNAL "Whether the targets view-mine and view-reference are there")
+else()
+    set(RAYSTEPS_WINDOW OFF CACHE INTERNAL "Whether the targets view-mine and view-reference are there")
+    message(STATUS "GLFW 3.3 or OpenGL is not installed: no window for `./raysteps view` (Debian: libglfw3-dev)")
+endif()
+
 # Their headers are theirs: no warnings from them.
 foreach(library glm::glm Catch2::Catch2)
     get_target_property(target ${library} ALIASED_TARGET)

@@ -8,17 +8,13 @@
 #include "inspect/inspect_text.hpp"
 #include "io/nff_reader.hpp"
 #include "io/write_file.hpp"
+#include "render/acceleration_choice.hpp"
 
 namespace {
 
 using namespace raysteps;
 
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
-
-Acceleration acceleration_of(const RaytraceOptions& options) {
-    const Acceleration from_step_6 = options.step < 9 ? Acceleration::octree : Acceleration::bvh;
-    return options.acceleration.value_or(options.step < 6 ? Acceleration::none : from_step_6);
-}
 
 void run(const InspectOptions& options) {
     Scene scene = read_nff(std::filesystem::path(options.picture.scene));
@@ -27,7 +23,7 @@ void run(const InspectOptions& options) {
         scene.camera.height = options.picture.size->height;
     }
     check_pixel(options, scene.camera);
-    const Acceleration acceleration = acceleration_of(options.picture);
+    const Acceleration acceleration = options.picture.acceleration.value_or(usual_acceleration(options.picture.step));
     const auto accelerator = make_accelerator(acceleration, scene.surfaces());
     const StepOptions step{options.picture.step, options.picture.view, options.picture.depth};
     PixelRecord record = inspect_pixel(scene, *accelerator, acceleration, step, options.x, options.y);

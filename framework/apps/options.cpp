@@ -6,6 +6,8 @@
 #include <map>
 #include <string_view>
 
+#include "render/acceleration_choice.hpp"
+
 namespace raysteps {
 
 const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [options]
@@ -22,6 +24,11 @@ const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [op
                           (none before step 6, octree from there on, bvh for step 9)
   --list-accel            print which of these this program has
   --stats FILE.json       write counters: rays by kind, tests, seconds
+  --map tests|boxes|depth|time
+                          instead of the picture what each pixel cost, as a colour over a legend:
+                          surface tests, box tests, how deep its rays went, or nanoseconds
+  --map-scale N           the cost of the last colour, so that two maps can be compared
+                          (a round number above all but the dearest pixels)
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
   --spd                   count rays by the rules of the Standard Procedural Databases and
@@ -85,19 +92,12 @@ Rect parse_crop(const std::string& text) {
     return {(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
 }
 
-const std::map<std::string, Acceleration>& accelerations() {
-    static const std::map<std::string, Acceleration> names{
-        {"none", Acceleration::none}, {"boxes", Acceleration::boxes}, {"octree", Acceleration::octree},
-        {"bvh", Acceleration::bvh},   {"wide", Acceleration::wide},   {"wide-octree", Acceleration::wide_octree}};
-    return names;
-}
-
 Acceleration parse_acceleration(const std::string& text) {
-    const auto found = accelerations().find(text);
-    if (found == accelerations().end()) {
+    const std::optional<Acceleration> kind = acceleration_named(text);
+    if (!kind) {
         complain("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
     }
-    return found->second;
+    return *kind;
 }
 
 View parse_view(const std::string& text) {
@@ -105,6 +105,18 @@ View parse_view(const std::string& text) {
         complain("--view", "color or normals", text);
     }
     return text == "normals" ? View::normals : View::color;
+}
+
+CostKind parse_map(const std::string& text) {
+    static const std::map<std::string, CostKind> kinds{{"tests", CostKind::tests},
+                                                       {"boxes", CostKind::boxes},
+                                                       {"depth", CostKind::depth},
+                                                       {"time", CostKind::time}};
+    const auto found = kinds.find(text);
+    if (found == kinds.end()) {
+        complain("--map", "tests, boxes, depth or time", text);
+    }
+    return found->second;
 }
 
 using Setter = std::function<void(RaytraceOptions&, const std::string&)>;
@@ -119,6 +131,11 @@ const std::map<std::string, Setter>& options_with_value() {
         {"--view", [](auto& o, const auto& text) { o.view = parse_view(text); }},
         {"--size", [](auto& o, const auto& text) { o.size = parse_size(text); }},
         {"--crop", [](auto& o, const auto& text) { o.crop = parse_crop(text); }},
+        {"--map", [](auto& o, const auto& text) { o.map = parse_map(text); }},
+        {"--map-scale",
+         [](auto& o, const auto& text) {
+             o.map_scale = static_cast<std::uint64_t>(number_between("--map-scale", text, 1, 1'000'000'000));
+         }},
         {"--accel", [](auto& o, const auto& text) { o.acceleration = parse_acceleration(text); }},
     };
     return setters;
@@ -131,14 +148,17 @@ void check(const RaytraceOptions& options) {
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
     }
+    if (options.map_scale && !options.map) {
+        throw UsageError("--map-scale: expected --map beside it, which says what is drawn");
+    }
 }
 
 }  // namespace
 
 std::string list_accelerations() {
     std::string list;
-    for (const auto& [name, kind] : accelerations()) {
-        list += has_accelerator(kind) ? name + "\n" : "";
+    for (const Acceleration kind : available_accelerations()) {
+        list += std::string(acceleration_name(kind)) + "\n";
     }
     return list;
 }

@@ -25,6 +25,8 @@ struct RaytraceOptions {
     int threads = 0;                           ///< 0: one per core
     std::optional<Acceleration> acceleration;  ///< nothing: none before step 06, octree from there on, bvh for step 9
     std::optional<Rect> crop;
+    std::optional<CostKind> map;             ///< nothing: the picture itself
+    std::optional<std::uint64_t> map_scale;  ///< nothing: by the picture
     bool quiet = false;
     bool spd = false;
     bool list_accelerations = false;

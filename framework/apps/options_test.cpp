@@ -39,6 +39,19 @@ TEST_CASE("All options are read, in any order", "[apps]") {
     CHECK(options.crop->height == 4);
 }
 
+TEST_CASE("A work map is asked for by what it counts", "[apps]") {
+    const RaytraceOptions options = parse_options({"a.nff", "-o", "b", "--map", "boxes", "--map-scale", "250"});
+    CHECK(options.map == CostKind::boxes);
+    CHECK(options.map_scale == 250);
+    CHECK_FALSE(parse_options({"a.nff", "-o", "b"}).map);
+    CHECK(complaint_about({"a.nff", "-o", "b", "--map", "rays"}) ==
+          "--map: expected tests, boxes, depth or time, found 'rays'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--map", "time", "--map-scale", "0"}) ==
+          "--map-scale: expected a whole number from 1 to 1000000000, found '0'");
+    CHECK(complaint_about({"a.nff", "-o", "b", "--map-scale", "9"}) ==
+          "--map-scale: expected --map beside it, which says what is drawn");
+}
+
 TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({}) == "expected a scene, like scenes/lessons/three-spheres.nff");
     CHECK(complaint_about({"a.nff"}) == "expected -o FILE for the picture");

@@ -39,6 +39,26 @@ if(RAYSTEPS_MODEL STREQUAL "reference")
     raysteps_add_inspect(inspect-reference)
 endif()
 
+# view, a window on a scene.
+if(RAYSTEPS_WINDOW)
+    file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")
+    add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources})
+    target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)
+    target_compile_definitions(view-app PRIVATE GL_SILENCE_DEPRECATION)  # a Mac calls all of OpenGL deprecated
+
+    function(raysteps_add_view name)
+        add_executable(${name} $<TARGET_OBJECTS:view-app> $<TARGET_OBJECTS:raysteps-inspect-recorded>)
+        target_link_libraries(${name} PRIVATE raysteps-view raysteps-inspect raysteps-render raysteps-io raysteps-core
+                                              glfw OpenGL::GL)
+        raysteps_link_steps(${name} ${ARGN})
+    endfunction()
+
+    raysteps_add_view(view-mine ${numbers})
+    if(RAYSTEPS_MODEL STREQUAL "reference")
+        raysteps_add_view(view-reference)
+    endif()
+endif()
+
 # worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
 if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/worker.cpp")  # a students' kit has no judge
     add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp

@@ -1,4 +1,5 @@
 // raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -10,6 +11,8 @@
 #include "io/ppm.hpp"
 #include "io/read_error.hpp"
 #include "io/write_file.hpp"
+#include "render/acceleration_choice.hpp"
+#include "render/work_map.hpp"
 #if __has_include("render/spd.hpp")
 #include "apps/spd_report.hpp"
 #include "render/spd.hpp"
@@ -25,8 +28,8 @@ using namespace raysteps;
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
-    const Acceleration from_step_6 = options.step < 9 ? Acceleration::octree : Acceleration::bvh;
-    return options.acceleration.value_or(options.step < 6 && !options.spd ? Acceleration::none : from_step_6);
+    const int step = options.spd ? std::max(options.step, 6) : options.step;  // SPD scenes are large
+    return options.acceleration.value_or(usual_acceleration(step));
 }
 
 void check_crop(const Rect& crop, const Camera& camera) {
@@ -53,12 +56,14 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
                                  acceleration_of(options),
                                  default_threads(),
                                  options.crop,
-                                 !options.quiet && stderr_is_terminal()};
+                                 !options.quiet && stderr_is_terminal(),
+                                 options.map.has_value()};
     const Rendering rendering = render(scene, render_options);
     if (!options.stats.empty()) {
         write_file(options.stats, stats_json(rendering, scene.surfaces().size()));
     }
-    write_ppm(rendering.image, options.output);
+    write_ppm(options.map ? work_map(rendering.costs, *options.map, options.map_scale) : rendering.image,
+              options.output);
 }
 
 void run(const RaytraceOptions& options) {

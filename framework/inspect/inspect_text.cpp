@@ -46,9 +46,9 @@ void write_totals(TextLines& out, const PixelRecord& record) {
                                  " reflected, " + std::to_string(stats.refract) + " refracted)");
     out.line(0, "", search_words(record.counts, record.surfaces));
     if (record.left_out.any()) {
-        out.line(0, "left out", "counted but not kept, as it is too much: " + amount(record.left_out.rays, "ray") + ", " +
-                                    amount(record.left_out.boxes, "box test") + ", " +
-                                    amount(record.left_out.tests, "surface test"));
+        const LeftOut& left = record.left_out;
+        out.line(0, "left out", "counted but not kept, as it is too much: " + amount(left.rays, "ray") + ", " +
+                                    amount(left.boxes, "box test") + ", " + amount(left.tests, "surface test"));
     }
 }
 

@@ -46,7 +46,8 @@ bool loses_space(const SurfaceList& surfaces, const glm::vec3& point, Missed& mi
     missed.reason = MissReason::no_part;
     for (int level = 0; level < k_levels; ++level) {
         const std::array<Box, 8> parts = split(box);
-        const auto part = std::find_if(parts.begin(), parts.end(), [&](const Box& one) { return contains(one, point); });
+        const auto part =
+            std::find_if(parts.begin(), parts.end(), [&](const Box& one) { return contains(one, point); });
         if (part == parts.end()) {
             missed.box = box;
             return true;

@@ -1,5 +1,7 @@
 #include "inspect/names.hpp"
 
+#include "render/acceleration_choice.hpp"
+
 namespace raysteps {
 
 std::string name_of(RayRole role) {
@@ -42,22 +44,6 @@ std::string name_of(MissReason reason) {
     return "";
 }
 
-std::string name_of(Acceleration acceleration) {
-    switch (acceleration) {
-        case Acceleration::none:
-            return "none";
-        case Acceleration::boxes:
-            return "boxes";
-        case Acceleration::octree:
-            return "octree";
-        case Acceleration::bvh:
-            return "bvh";
-        case Acceleration::wide:
-            return "wide";
-        case Acceleration::wide_octree:
-            return "wide-octree";
-    }
-    return "";
-}
+std::string name_of(Acceleration acceleration) { return std::string(acceleration_name(acceleration)); }
 
 }  // namespace raysteps

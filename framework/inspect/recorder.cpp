@@ -1,6 +1,7 @@
 #include "inspect/recorder.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace raysteps {
 namespace {
@@ -33,7 +34,18 @@ Unheard::~Unheard() {
 }
 
 Recorder::Recorder(const Accelerator& accelerator, std::size_t surfaces) : last_ray_(surfaces, 0) {
-    accelerator.visit_boxes(nullptr, [this](const BoxPlace& place) { known_[&place.box] = {place.level, place.listed}; });
+    accelerator.visit_boxes(nullptr, [this](const BoxPlace& place) {
+        known_.push_back({&place.box, place.level, place.listed});
+    });
+    std::sort(known_.begin(), known_.end(),
+              [](const Known& a, const Known& b) { return std::less<const Box*>()(a.box, b.box); });
+}
+
+const Recorder::Known* Recorder::find_known(const Box& box) const {
+    const auto found = std::lower_bound(known_.begin(), known_.end(), &box, [](const Known& known, const Box* wanted) {
+        return std::less<const Box*>()(known.box, wanted);
+    });
+    return found != known_.end() && found->box == &box ? &*found : nullptr;
 }
 
 void Recorder::begin(RayNode* node) {
@@ -58,10 +70,10 @@ SearchCounts Recorder::end() {
 void Recorder::box(const Box& box, const std::optional<Interval>& part) {
     ++counts_.box_tests;
     asked_boxes_[&box] = part.has_value();
-    const auto known = known_.find(&box);
+    const Known* const known = find_known(box);
     if (part) {
         ++counts_.boxes_entered;
-        counts_.candidates += known != known_.end() ? known->second.listed : 0;
+        counts_.candidates += known != nullptr ? known->listed : 0;
     }
     if (node_ == nullptr || node_->boxes.size() >= k_most_events_per_ray || kept_boxes_ >= k_most_events) {
         ++left_out_.boxes;
@@ -69,9 +81,9 @@ void Recorder::box(const Box& box, const std::optional<Interval>& part) {
     }
     ++kept_boxes_;
     BoxEvent& event = node_->boxes.emplace_back(BoxEvent{box, part, {}, {}});
-    if (known != known_.end()) {
-        event.level = known->second.level;
-        event.listed = known->second.listed;
+    if (known != nullptr) {
+        event.level = known->level;
+        event.listed = known->listed;
     }
 }
 
@@ -114,7 +126,8 @@ const Surface* Recorder::giver_of(const Ray& ray, const HitRecord& hit) const {
 }
 
 const Surface* Recorder::blocker(float distance) const {
-    const auto near = std::find_if(hits_.rbegin(), hits_.rend(), [&](const auto& one) { return one.second < distance; });
+    const auto near =
+        std::find_if(hits_.rbegin(), hits_.rend(), [&](const auto& one) { return one.second < distance; });
     return near != hits_.rend() ? near->first : nullptr;
 }
 

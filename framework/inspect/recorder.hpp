@@ -44,11 +44,14 @@ public:
 
 private:
     struct Known {
+        const Box* box = nullptr;
         int level = 0;
         std::uint64_t listed = 0;
     };
 
-    std::unordered_map<const Box*, Known> known_;
+    [[nodiscard]] const Known* find_known(const Box& box) const;
+
+    std::vector<Known> known_;             // the structure's boxes, sorted by address
     std::vector<std::uint32_t> last_ray_;  // by surface: the last ray that asked it, from 1
     std::uint32_t ray_ = 0;
     RayNode* node_ = nullptr;

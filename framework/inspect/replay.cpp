@@ -18,7 +18,8 @@ bool Replay::any_hit(const Ray& /*ray*/, float /*distance*/) {
 }
 
 Color Replay::local_light(const HitRecord& hit, int /*depth*/) {
-    const auto asked = std::find_if(rays_.rend() - static_cast<std::ptrdiff_t>(next_), rays_.rend(), [&](const CastRay* cast) {
+    const auto latest = rays_.rend() - static_cast<std::ptrdiff_t>(next_);
+    const auto asked = std::find_if(latest, rays_.rend(), [&](const CastRay* cast) {
         return cast->hit && cast->local && cast->hit->distance == hit.distance && cast->hit->position == hit.position;
     });
     if (asked == rays_.rend()) {

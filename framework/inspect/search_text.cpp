@@ -37,13 +37,20 @@ std::string ranges(std::vector<std::size_t> numbers) {
     return text;
 }
 
+void say_more(TextLines& out, std::uint64_t all, std::uint64_t shown, int level) {
+    if (all > shown) {
+        out.line(level, "and " + std::to_string(all - shown) + " more");
+    }
+}
+
 std::string reason_words(const Missed& missed) {
     const std::string box = missed.box ? brief(missed.box->min) + " to " + brief(missed.box->max) : "";
     switch (missed.reason) {
         case MissReason::not_chosen:
             return "it was tested, but another answer was given";
         case MissReason::not_tested:
-            return missed.box ? "the box that lists it was entered, but it was not tested: " + box : "it was not tested";
+            return missed.box ? "the box that lists it was entered, but it was not tested: " + box
+                              : "it was not tested";
         case MissReason::box_missed:
             return "the ray was said to miss a box that holds the hit: " + box;
         case MissReason::not_visited:
@@ -65,47 +72,53 @@ std::string reason_words(const Missed& missed) {
 }  // namespace
 
 void write_boxes(TextLines& out, const RayNode& node, int level) {
-    if (node.counts.box_tests == 0) {
+    const SearchCounts& counts = node.counts;
+    if (counts.box_tests == 0) {
         return;
     }
-    out.line(level, "boxes", std::to_string(node.counts.box_tests) + " asked, " +
-                                 std::to_string(node.counts.boxes_entered) + " entered, in this order:");
-    std::size_t lines = 0;
+    const std::string entered = std::to_string(counts.boxes_entered) + " entered";
+    out.line(level, "boxes",
+             std::to_string(counts.box_tests) + " asked, " + entered +
+                 (counts.boxes_entered > 0 ? ", in this order:" : ""));
+    std::uint64_t shown = 0;
     for (const BoxEvent& event : node.boxes) {
-        if (event.part && lines++ < k_most_box_lines) {
+        if (event.part && shown < k_most_box_lines) {
             out.line(level + 1, box_words(event));
+            ++shown;
         }
     }
-    if (node.counts.boxes_entered > std::min(lines, k_most_box_lines)) {
-        out.line(level + 1, "and " + std::to_string(node.counts.boxes_entered - std::min(lines, k_most_box_lines)) +
-                                " more");
-    }
+    say_more(out, counts.boxes_entered, shown, level + 1);
 }
 
 void write_tests(TextLines& out, const PixelRecord& record, const RayNode& node, int level) {
-    if (node.counts.candidates > 0) {
-        out.line(level, "candidates", std::to_string(node.counts.candidates) + " in the lists of these boxes, duplicates counted (" +
-                                           share(node.counts.candidates, record.surfaces) + " of " +
-                                           std::to_string(record.surfaces) + ")");
+    const SearchCounts& counts = node.counts;
+    const std::string all = " of " + std::to_string(record.surfaces);
+    if (counts.candidates > 0) {
+        out.line(level, "candidates",
+                 std::to_string(counts.candidates) + " in the lists of these boxes, duplicates counted (" +
+                     share(counts.candidates, record.surfaces) + all + ")");
     }
-    out.line(level, "tests", amount(node.counts.surface_tests, "test") + " on " +
-                                  amount(node.counts.unique_surfaces, "different surface") + ", " +
-                                  share(node.counts.unique_surfaces, record.surfaces) + " of " +
-                                  std::to_string(record.surfaces));
+    out.line(level, "tests",
+             amount(counts.surface_tests, "test") + " on " + amount(counts.unique_surfaces, "different surface") +
+                 ", " + share(counts.unique_surfaces, record.surfaces) + all);
     std::vector<std::size_t> tested;
+    std::vector<const SurfaceEvent*> hits;
     for (const SurfaceEvent& event : node.tests) {
         tested.push_back(event.surface);
-    }
-    if (!tested.empty()) {
-        const bool all = node.tests.size() == node.counts.surface_tests;
-        out.line(level + 1, (all ? "surfaces " : "the first of them: ") + ranges(std::move(tested)));
-    }
-    std::size_t lines = 0;
-    for (const SurfaceEvent& event : node.tests) {
-        if (event.distance && lines++ < k_most_hit_lines) {
-            out.line(level + 1, "surface " + std::to_string(event.surface) + " is hit at distance " + brief(*event.distance));
+        if (event.distance) {
+            hits.push_back(&event);
         }
     }
+    if (!tested.empty()) {
+        const bool complete = tested.size() == counts.surface_tests;
+        out.line(level + 1, (complete ? "surfaces " : "the first of them: ") + ranges(std::move(tested)));
+    }
+    const std::size_t shown = std::min(hits.size(), k_most_hit_lines);
+    for (std::size_t i = 0; i < shown; ++i) {
+        out.line(level + 1, "surface " + std::to_string(hits[i]->surface) + " is hit at distance " +
+                                brief(*hits[i]->distance));
+    }
+    say_more(out, hits.size(), shown, level + 1);
 }
 
 void write_missed(TextLines& out, const Missed& missed, int level) {

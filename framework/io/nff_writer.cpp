@@ -20,10 +20,17 @@ bool same(const Fill& a, const Fill& b) {
            a.transmittance == b.transmittance && a.index_of_refraction == b.index_of_refraction;
 }
 
+void append_vector(std::string& text, std::string_view word, const glm::vec3& vector) {
+    text += word;
+    for (int i = 0; i < 3; ++i) {
+        text += ' ' + number_text(vector[i]);
+    }
+}
+
 class NffWriter {
 public:
     std::string write(const Scene& scene) {
-        write_camera(scene.camera);
+        text_ = write_viewpoint(scene.camera);
         line("b", scene.background, {});
         for (const Light& light : scene.lights) {
             line("l", light.position, {light.color.r, light.color.g, light.color.b});
@@ -52,15 +59,6 @@ private:
             text_ += ' ';
         }
         text_ += number_text(value);
-    }
-
-    void write_camera(const Camera& camera) {
-        text_ += "v\n";
-        line("from", camera.from, {});
-        line("at", camera.at, {});
-        line("up", camera.up, {});
-        text_ += "angle " + number_text(camera.angle) + "\nhither " + number_text(camera.hither) + "\n";
-        text_ += "resolution " + std::to_string(camera.width) + " " + std::to_string(camera.height) + "\n";
     }
 
     void write_fill(const Fill& fill) {
@@ -109,5 +107,14 @@ private:
 }  // namespace
 
 std::string write_nff(const Scene& scene) { return NffWriter().write(scene); }
+
+std::string write_viewpoint(const Camera& camera) {
+    std::string text = "v\n";
+    append_vector(text, "from", camera.from);
+    append_vector(text, "\nat", camera.at);
+    append_vector(text, "\nup", camera.up);
+    text += "\nangle " + number_text(camera.angle) + "\nhither " + number_text(camera.hither);
+    return text + "\nresolution " + std::to_string(camera.width) + " " + std::to_string(camera.height) + "\n";
+}
 
 }  // namespace raysteps

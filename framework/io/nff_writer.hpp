@@ -10,4 +10,7 @@ namespace raysteps {
 /// they are made unit length again). A surface of a type that NFF does not know becomes a comment.
 [[nodiscard]] std::string write_nff(const Scene& scene);
 
+/// The `v` block alone.
+[[nodiscard]] std::string write_viewpoint(const Camera& camera);
+
 }  // namespace raysteps

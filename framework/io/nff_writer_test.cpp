@@ -41,3 +41,18 @@ TEST_CASE("a normal of unit length stays as it is, however often it is written a
     const std::string once = write_nff(read_nff(text, "once"));
     CHECK(write_nff(read_nff(once, "twice")) == once);
 }
+
+TEST_CASE("a camera can be written alone, as lines that a scene may hold", "[nff]") {
+    Camera camera;
+    camera.from = {0.1F, -2.5F, 1e-7F};
+    camera.angle = 33.3F;
+    camera.width = 320;
+    camera.height = 240;
+    const Camera read = read_nff(write_viewpoint(camera), "camera").camera;
+    CHECK(read.from == camera.from);
+    CHECK(read.at == camera.at);
+    CHECK(read.up == camera.up);
+    CHECK(read.angle == camera.angle);
+    CHECK(read.width == 320);
+    CHECK(read.height == 240);
+}

@@ -1,6 +1,7 @@
 // All structures give brute force's hits, to the last bit.
 #include "render/accelerator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -200,6 +201,30 @@ TEST_CASE("Each structure tells its size", "[render][accelerator]") {
     CHECK(bvh.references == 300);
     CHECK(bvh.boxes > 30);
     CHECK(bvh.bytes > bvh.boxes * sizeof(Box));
+}
+
+TEST_CASE("Each structure shows all its boxes, and which of them list a surface", "[render][accelerator]") {
+    Random random(11);
+    const Scene scene = random_scene(random, 120, 1.0F);
+    const Surface* const wanted = scene.surfaces()[70];
+    for (const Acceleration kind : {Acceleration::boxes, Acceleration::octree, Acceleration::bvh}) {
+        INFO("structure " << static_cast<int>(kind));
+        const auto structure = make_accelerator(kind, scene.surfaces());
+        StructureSize seen;
+        int listing = 0;
+        int deepest = 0;
+        structure->visit_boxes(wanted, [&](const BoxPlace& place) {
+            CHECK((place.level == 0) == (seen.boxes == 0));
+            ++seen.boxes;
+            seen.references += place.listed;
+            listing += place.lists_wanted ? 1 : 0;
+            deepest = std::max(deepest, place.level);
+        });
+        CHECK(seen.boxes == structure->size().boxes);
+        CHECK(seen.references == structure->size().references);
+        CHECK(listing >= 1);
+        CHECK(deepest >= 2);
+    }
 }
 
 TEST_CASE("The bounding volumes are the same for any number of threads", "[render][accelerator]") {

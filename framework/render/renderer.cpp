@@ -30,14 +30,18 @@ struct Job {
     Stats stats;
     Progress progress;
     Image image;
+    CostGrid costs;
 };
 
 void render_tile(const Rect& tile, StepTracer& tracer, Job& job) {
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
             const Ray ray = primary_ray(job.scene.camera, job.frame, x, y);
-            const Color color = tracer.primary_color(ray);
-            job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
+            const int column = x - job.crop.x;
+            const int row = y - job.crop.y;
+            const Color color = job.options.measure_cost ? measured_color(tracer, ray, job.costs.at(column, row))
+                                                         : tracer.primary_color(ray);
+            job.image.at(column, row) = encode(color, job.options.step.step);
         }
     }
 }
@@ -75,10 +79,13 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
             {},
             {},
             Progress(count, options.show_progress),
-            Image(crop.width, crop.height)};
+            Image(crop.width, crop.height),
+            options.measure_cost ? CostGrid(crop.width, crop.height) : CostGrid()};
     run_on_threads(options.threads, [&job] { work(job); });
     job.progress.finish();
-    return {std::move(job.image), job.stats, accelerator->size(), build_seconds, seconds_since(render_start)};
+    return {std::move(job.image), job.stats,
+            accelerator->size(),  build_seconds,
+            seconds_since(render_start), std::move(job.costs)};
 }
 
 }  // namespace raysteps

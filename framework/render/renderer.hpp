@@ -5,7 +5,7 @@
 #include "core/image.hpp"
 #include "core/scene.hpp"
 #include "core/stats.hpp"
-#include "render/step_tracer.hpp"
+#include "render/pixel_cost.hpp"
 
 namespace raysteps {
 
@@ -23,6 +23,7 @@ struct RenderOptions {
     int threads = 1;
     std::optional<Rect> crop;    ///< inside the picture; nothing: the whole picture
     bool show_progress = false;  ///< a bar on stderr
+    bool measure_cost = false;   ///< fills Rendering::costs, which takes some time
 };
 
 struct Rendering {
@@ -31,6 +32,7 @@ struct Rendering {
     StructureSize structure;
     double build_seconds = 0.0;
     double render_seconds = 0.0;
+    CostGrid costs;  ///< as large as the image, or empty
 };
 
 /// The same bytes for any number of threads.

@@ -1,35 +1,14 @@
 // The picture does not depend on how the work is shared out, and the counters tell the truth.
 #include "render/renderer.hpp"
 
-#include "core/sphere.hpp"
-#include "core/triangle.hpp"
 #include "render/tiles.hpp"
+#include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
 
 namespace {
-
-/// A floor, a mirror ball and a glass ball, lit by two lights.
-Scene small_scene() {
-    Scene scene;
-    scene.camera.from = {0.0F, 1.0F, 6.0F};
-    scene.camera.width = 50;
-    scene.camera.height = 37;
-    scene.background = {0.1F, 0.2F, 0.3F};
-    scene.lights = {{{4.0F, 5.0F, 3.0F}, k_white}, {{-4.0F, 3.0F, 2.0F}, Color(0.5F)}};
-    const Fill matte{{0.8F, 0.7F, 0.2F}, 0.9F, 0.0F, 1.0F, 0.0F, 1.0F};
-    const Fill mirror{{0.5F, 0.5F, 0.9F}, 0.4F, 0.6F, 30.0F, 0.0F, 1.0F};
-    const Fill glass{{1.0F, 1.0F, 1.0F}, 0.1F, 0.1F, 50.0F, 0.8F, 1.5F};
-    const glm::vec3 back_left{-5.0F, -1.0F, -5.0F};
-    const glm::vec3 front_right{5.0F, -1.0F, 5.0F};
-    scene.add(std::make_unique<Triangle>(back_left, glm::vec3(-5.0F, -1.0F, 5.0F), front_right, matte));
-    scene.add(std::make_unique<Triangle>(back_left, front_right, glm::vec3(5.0F, -1.0F, -5.0F), matte));
-    scene.add(std::make_unique<Sphere>(glm::vec3(-1.1F, 0.0F, 0.0F), 1.0F, mirror));
-    scene.add(std::make_unique<Sphere>(glm::vec3(1.1F, 0.0F, 0.0F), 1.0F, glass));
-    return scene;
-}
 
 RenderOptions options_of_step(int step) {
     RenderOptions options;
@@ -40,7 +19,7 @@ RenderOptions options_of_step(int step) {
 }  // namespace
 
 TEST_CASE("The picture is the same for any number of threads", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (int step = 1; step <= 8; ++step) {
         INFO("step " << step);
         RenderOptions options = options_of_step(step);
@@ -51,7 +30,7 @@ TEST_CASE("The picture is the same for any number of threads", "[render]") {
 }
 
 TEST_CASE("Every step changes the picture", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (const int step : {2, 3, 4, 5, 7, 8}) {
         INFO("step " << step);
         CHECK_FALSE(render(scene, options_of_step(step)).image == render(scene, options_of_step(step - 1)).image);
@@ -61,7 +40,7 @@ TEST_CASE("Every step changes the picture", "[render]") {
 }
 
 TEST_CASE("A crop is the same pixels as in the whole picture", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     RenderOptions options = options_of_step(8);
     const Image whole = render(scene, options).image;
     options.crop = Rect{7, 11, 20, 9};
@@ -93,7 +72,7 @@ TEST_CASE("Tiles cover each pixel once", "[render]") {
 }
 
 TEST_CASE("Brute force tests every surface once for each ray, but ends a shadow ray at the first hit", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     for (const int step : {2, 4, 5, 8}) {
         INFO("step " << step);
         const Stats stats = render(scene, options_of_step(step)).stats;
@@ -112,13 +91,13 @@ TEST_CASE("Brute force tests every surface once for each ray, but ends a shadow 
 }
 
 TEST_CASE("Step 04 casts one shadow ray from each hit to each light", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     const Stats stats = render(scene, options_of_step(4)).stats;
     CHECK(stats.shadow == stats.eye_hit * scene.lights.size());
 }
 
 TEST_CASE("A depth of 1 follows no bounce", "[render]") {
-    const Scene scene = small_scene();
+    const Scene scene = balls_on_floor();
     RenderOptions options = options_of_step(8);
     options.step.max_ray_depth = 1;
     const Stats stats = render(scene, options).stats;

@@ -1,5 +1,6 @@
 #include "render/step_tracer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/stats.hpp"
@@ -39,7 +40,9 @@ void StepTracer::count(bool hit) {
             ++stats.refract;
             break;
     }
+    deepest_ = std::max(deepest_, next_depth_);
     next_ = RayKind::reflect;  // what step 05 casts after the ray that it was given
+    ++next_depth_;
 }
 
 bool StepTracer::reaches(const HitRecord& hit, const Light& light) { return is_lit(*this, hit, light); }
@@ -69,8 +72,10 @@ Color StepTracer::local_light(const HitRecord& hit, int depth) {
 Color StepTracer::trace(const Ray& ray, int depth) {
     const RayKind bounced = std::exchange(through_glass_, false) ? RayKind::refract : RayKind::reflect;
     const RayKind before = std::exchange(next_, depth == 1 ? RayKind::eye : bounced);
+    const int depth_before = std::exchange(next_depth_, depth);
     const Color color = raysteps::trace(*this, ray, depth);
     next_ = before;
+    next_depth_ = depth_before;
     return color;
 }
 
@@ -79,6 +84,8 @@ Color StepTracer::surface_color(const HitRecord& hit) const {
 }
 
 Color StepTracer::primary_color(const Ray& ray) {
+    deepest_ = 0;
+    next_depth_ = 1;
     if (options_.step == 1) {
         return 0.5F * (ray.direction + 1.0F);
     }

@@ -24,6 +24,9 @@ public:
     /// The colour of a primary ray, before tone mapping.
     [[nodiscard]] Color primary_color(const Ray& ray);
 
+    /// How deep the last primary ray and what came of it went: 0 nothing was asked, 1 the ray itself, 2 a bounce.
+    [[nodiscard]] int deepest_ray() const { return deepest_; }
+
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) override;
     [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
@@ -50,6 +53,8 @@ private:
     std::vector<Light> lit_;       ///< by the hit that is shaded; kept, so that no hit needs memory of its own
     RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
     bool through_glass_ = false;   ///< whether step 08 is at work, so that a ray given to trace is refracted
+    int next_depth_ = 1;           ///< of the next ray that is no shadow ray; each one is followed by a deeper one
+    int deepest_ = 0;
 };
 
 }  // namespace raysteps

@@ -28,10 +28,10 @@ endif()
 
 # What follows tests the kit itself, with the reference.
 file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "render/*_test.cpp" "apps/*_test.cpp"
-     "inspect/*_test.cpp" "testing/*_test.cpp" "wide/*_test.cpp")
+     "inspect/*_test.cpp" "testing/*_test.cpp" "view/*_test.cpp" "wide/*_test.cpp")
 raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp
-                  apps/inspect_options.cpp $<TARGET_OBJECTS:raysteps-inspect-recorded>)
-target_link_libraries(test-framework PRIVATE raysteps-inspect raysteps-render raysteps-io raysteps-core)
+                  apps/inspect_options.cpp apps/view_options.cpp $<TARGET_OBJECTS:raysteps-inspect-recorded>)
+target_link_libraries(test-framework PRIVATE raysteps-view raysteps-inspect raysteps-render raysteps-io raysteps-core)
 raysteps_link_wide(test-framework)
 
 # The readers against broken files: replayed with any compiler, and searched for new ones with libFuzzer.

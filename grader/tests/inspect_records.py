@@ -13,7 +13,14 @@ _BALL = {"color": [0.9, 0.4, 0.1], "kd": 0.7, "ks": 0.3, "shine": 30, "transmitt
 
 
 def _ray(role: str, depth: int, origin: list[float], direction: list[float], **more: Any) -> dict[str, Any]:
-    ray: dict[str, Any] = {"role": role, "depth": depth, "origin": origin, "direction": direction, "limit": None}
+    ray: dict[str, Any] = {
+        "role": role,
+        "depth": depth,
+        "origin": origin,
+        "direction": direction,
+        "limit": None,
+        "any": None,
+    }
     ray |= {"counts": dict(_COUNTS), "boxes": [], "tests": [], "hit": None, "missed": None, "lights": [], "bounces": []}
     ray |= {"direct": None, "transmitted": None, "local": None, "color": None}
     return ray | more
@@ -33,16 +40,12 @@ def _hit(surface: int, position: list[float]) -> dict[str, Any]:
 
 def ball_record(*, lit: bool = True) -> dict[str, Any]:
     """The middle pixel of a picture of a ball that mirrors the sky, with one light before it."""
-    shadow = _ray("shadow", 1, [0, 0, 1.001], [0, 0, 1], limit=7.0, hit=None if lit else _hit(1, [0, 0, 1.5]))
-    light: dict[str, Any] = {
-        "light": 0,
-        "lit": lit,
-        "to_light": [0, 0, 1],
-        "mirrored": [0, 0, 1],
-        "l_n": 1.0,
-        "r_v": 1.0,
-    }
-    light |= {"diffuse": [0.5, 0.2, 0.1], "specular": [0.3, 0.3, 0.3], "rays": [shadow]}
+    shadow = _ray(
+        "shadow", 1, [0, 0, 1.001], [0, 0, 1], limit=7.0, any=not lit, hit=None if lit else _hit(1, [0, 0, 1.5])
+    )
+    light: dict[str, Any] = {"light": 0, "lit": lit, "to_light": [0, 0, 1], "mirrored": [0, 0, 1]}
+    light["shadow_ray"] = {"origin": shadow["origin"], "direction": shadow["direction"]}
+    light |= {"l_n": 1.0, "r_v": 1.0, "diffuse": [0.5, 0.2, 0.1], "specular": [0.3, 0.3, 0.3], "rays": [shadow]}
     eye = _ray(
         "eye",
         1,

@@ -50,7 +50,9 @@ def _image(folder: Path, step: Step, at: int, shape: tuple[int, int], *, right: 
         reference_work=work,
         message="" if right else f"99% of the pixels are wrong {NASTY}",
         outcome="ok" if right else "wrong",
-        **names,
+        mine=names["mine"],
+        reference=names["reference"],
+        difference=names["difference"],
     )
 
 

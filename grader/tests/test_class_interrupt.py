@@ -79,6 +79,7 @@ def test_interrupted(tmp_path: Path, number: signal.Signals) -> None:
     assert document["run"]["state"] == "interrupted"
     assert document["not_graded"][:2] == ["s02", "s03"]
     assert set(_results(out)) == {"s00", "s01"}
+    assert "Not graded yet" in (out / "class.html").read_text("utf-8")
 
 
 @pytest.mark.skipif(not Path("/proc").exists(), reason="needs /proc")

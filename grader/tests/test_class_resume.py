@@ -85,6 +85,7 @@ def test_no_table_of_earlier_results_stays_beside_new_ones(
             grade_class(handed_in, "--out", out, "--jobs", 1)
         assert not (out / "results.csv").exists()
         assert not (out / "class.json").exists()
+        assert not (out / "class.html").exists()
     assert grade_class(handed_in, "--out", out, "--resume") == 0
     assert (out / "results.csv").exists()
 

@@ -46,6 +46,8 @@ def test_what_a_grade_depends_on_counts(copy: Project, name: str) -> None:
         "steps/01-camera-rays/.camera_rays.hpp.swp",
         "steps/01-camera-rays/camera_rays.hpp~",
         "steps/01-camera-rays/README.md",
+        "grader/src/raysteps/pages/page.py",
+        "grader/src/raysteps/reports/student.py",
         "scenes/mine.ppm",
         "grader/src/raysteps/commands/render.py",
         "grader/src/raysteps/upkeep/bench/svg.py",

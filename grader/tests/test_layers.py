@@ -1,4 +1,4 @@
-"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- inspect <- apps."""
+"""Arrows run one way only: core <- io, core <- steps (contracts) <- render <- inspect <- view <- apps."""
 
 import re
 from pathlib import Path
@@ -8,14 +8,15 @@ import pytest
 from raysteps.kit.project import Project
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
-_LAYERS = ("core", "io", "render", "inspect", "wide", "apps", "testing")
+_LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "testing")
 _ALLOWED = {
     "core": {"core"},
     "io": {"core", "io"},
     "render": {"core", "io", "steps", "render"},
     "inspect": {"core", "io", "steps", "render", "inspect"},
+    "view": {"core", "io", "steps", "render", "inspect", "view"},
     "wide": {"core", "steps", "render", "wide"},
-    "apps": {"core", "io", "steps", "render", "inspect", "apps"},
+    "apps": {"core", "io", "steps", "render", "inspect", "view", "apps"},
     "testing": {"core", "testing"},
 }
 
@@ -41,12 +42,18 @@ def test_framework(project: Project, layer: str) -> None:
     for path in files:
         allowed = set(_ALLOWED[layer])
         if path.name.endswith("_test.cpp"):
-            allowed |= {"testing", "io", "render"} if layer in ("render", "inspect", "wide", "apps") else {"testing"}
+            allowed |= {"testing"} if layer in ("core", "io", "testing") else {"testing", "io", "render"}
         for include in _includes(path):
             found = _layer(include)
             assert ".." not in include, f"{path}: {include}"
             assert found is None or found in allowed, f"{path}: {layer} must not include {include}"
             assert not include.endswith(".cpp"), f"{path}: {include}"
+
+
+def test_only_the_window_itself_knows_windows(project: Project) -> None:
+    for path in _sources(project.root / "framework"):
+        if not path.name.startswith("window"):
+            assert not [name for name in _includes(path) if name.startswith(("GLFW/", "GL/"))], path
 
 
 def test_the_benchmarks_stand_on_everything_and_nothing_stands_on_them(project: Project) -> None:

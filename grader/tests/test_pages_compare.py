@@ -335,7 +335,7 @@ def test_equal_unequal_and_missing_pictures(open_page: OpenPage, tmp_path: Path)
 def test_pictures_can_be_replaced_and_are_read_only_when_seen(open_page: OpenPage, tmp_path: Path) -> None:
     element = _element(tmp_path, "balls", _reference(), _mine())
     page = open_page(_page(tmp_path, *[element] * 12))
-    _ready(page)
+    _ready(page).get_by_role("button", name="FLIP").click()
     states = page.evaluate("[...document.querySelectorAll('compare-pictures')].map(({dataset}) => dataset.state)")
     assert states[-1] == "waiting"
     other = _data(tmp_path, _reference())
@@ -346,6 +346,7 @@ def test_pictures_can_be_replaced_and_are_read_only_when_seen(open_page: OpenPag
         other.src,
     )
     first = _ready(page)
+    assert page.evaluate("document.querySelector('compare-pictures').view") == "slider"  # there is no map of these
     assert first.locator(".compare-count").inner_text().startswith("No difference")
     assert first.get_by_role("slider", name="Divider between before and after").count() == 1
 

@@ -102,6 +102,25 @@ def test_what_a_run_has_not_told_yet_stays(live: Live, pages: Watched) -> None:
     assert view.evaluate("element => [element.mark, element.view]") == [1, "side"]
 
 
+def test_before_there_is_a_picture_the_reference_is_shown(live: Live, pages: Watched) -> None:
+    page = pages.open(live.server.address)
+    view = live.view("int right;")
+    assert view.result is not None
+    view.result |= {"status": "not-started", "tests": []}
+    mine, view.result["images"][0]["mine"] = view.result["images"][0]["mine"], None
+    view.result["images"][0]["passed"] = False
+    live.show(view)
+    _says(page, "#watch-pictures", "This is what it shall look like.")
+    goal, compared = page.locator("img.watch-goal"), page.locator("compare-pictures")
+    assert goal.is_visible()
+    assert not compared.is_visible()
+    view.result["images"][0] |= {"mine": mine, "passed": True}
+    live.show(view)
+    compared.wait_for()
+    assert compared.evaluate("element => element.view") == "slider"
+    assert not goal.is_visible()
+
+
 def test_another_step_takes_the_place_of_this_one(live: Live, pages: Watched, steps: list[Step]) -> None:
     page = pages.open(live.server.address)
     live.show(live.view("// wrong"))

@@ -79,10 +79,8 @@ def test_a_new_job_stops_the_old_one_with_its_programs(
     program, folder = log.read_text().split()
     assert _runs(int(program))
     write_own(course, steps[0], "int a;")
-    began = time.monotonic()
     run = runner.start("look", steps[0])
     told, _ = _until_ended(events, run)
-    assert time.monotonic() - began < 15
     assert len(told) == 2
     assert run > old
     wait_for(lambda: not _runs(int(program)))

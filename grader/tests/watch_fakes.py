@@ -125,4 +125,7 @@ def main(words: list[str]) -> int:
 
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parent))
-    sys.exit(work() if sys.argv[1] == "worker" else main(sys.argv[1:]))
+    if sys.argv[1] == "worker":
+        work()
+    else:
+        sys.exit(main(sys.argv[1:]))

@@ -13,11 +13,13 @@ from raysteps.commands.check import check, exit_code
 from raysteps.commands.course import command as course
 from raysteps.commands.demo import demo
 from raysteps.commands.ending import EXITS, console_here, ended
+from raysteps.commands.gallery import command as gallery
 from raysteps.commands.grade import Wish, grade
 from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
+from raysteps.commands.view import view
 from raysteps.commands.watch import command as watch
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
@@ -53,6 +55,9 @@ def _parser() -> argparse.ArgumentParser:
 
     inspect.add_arguments(commands.add_parser("inspect", help="follow one pixel: its rays, tests and light"))
 
+    add = commands.add_parser("view", help="a window on a scene: move the camera, click pixels; --impl mine|reference")
+    add.add_argument("args", nargs=argparse.REMAINDER)
+
     add = commands.add_parser("check", help="check your own steps")
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
 
@@ -80,6 +85,8 @@ def _parser() -> argparse.ArgumentParser:
 
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
     add.add_argument("--out", type=Path, help="where the pictures go (build/demo)")
+
+    gallery.add_arguments(commands.add_parser("gallery", help="a page that walks through the steps in pictures"))
 
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
 
@@ -123,6 +130,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return exports.run(project, arguments, console)
         case "demo":
             return demo(project, arguments.out, console)
+        case "gallery":
+            return gallery.run(project, arguments, console)
         case "bench":
             return bench.run(project, arguments, console)
         case "test":
@@ -137,6 +146,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     def run(words: Sequence[str]) -> int:
         if words[0] == "render":
             return render(here(), list(words[1:]))
+        if words[0] == "view":
+            return view(here(), list(words[1:]))
         return _run(_parser().parse_args(words), console_here())
 
     return ended(run, _parser(), argv)

@@ -11,6 +11,7 @@ from raysteps.commands.course import command as course
 from raysteps.commands.ending import EXITS, console_here, ended
 from raysteps.commands.inspect import command as inspect
 from raysteps.commands.render import render
+from raysteps.commands.view import view
 from raysteps.commands.watch import command as watch
 from raysteps.kit.project import here
 
@@ -27,6 +28,8 @@ def _parser() -> argparse.ArgumentParser:
     watch.add_arguments(commands.add_parser("watch", help="build, test and draw a step again with every save"))
     course.add_arguments(commands.add_parser)
     add = commands.add_parser("render", help="render a scene with your own steps: the arguments of raytrace")
+    add.add_argument("args", nargs=argparse.REMAINDER)
+    add = commands.add_parser("view", help="a window on a scene, drawn with your own steps")
     add.add_argument("args", nargs=argparse.REMAINDER)
     inspect.add_arguments(commands.add_parser("inspect", help="follow one pixel: its rays, tests and light"))
     add = commands.add_parser("check", help="check your own steps: visible tests and pictures")
@@ -59,6 +62,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     def run(words: Sequence[str]) -> int:
         if words[0] == "render":
             return render(here(), list(words[1:]))
+        if words[0] == "view":
+            return view(here(), list(words[1:]))
         return _run(_parser().parse_args(words), console_here())
 
     return ended(run, _parser(), argv)

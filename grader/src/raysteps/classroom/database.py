@@ -22,9 +22,10 @@ LATEST = "SELECT max(run) FROM results AS later WHERE later.submission = results
 class ClassDatabase:
     """One class. What a method writes is there as a whole or not at all."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, connection: sqlite3.Connection | None = None) -> None:
+        """`connection` is one that only reads."""
         self.path = folder / FILE
-        self.connection = open_database(self.path)
+        self.connection = connection or open_database(self.path)
 
     def close(self) -> None:
         self.connection.close()

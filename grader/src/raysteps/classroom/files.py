@@ -1,5 +1,5 @@
-"""The files that are made from the database: of each submission results.json, its page,
-pictures and cases; and two tables."""
+"""The files that are made from the database: of each submission results.json, its page, pictures and cases; of the
+class two tables and a page."""
 
 import json
 import sys
@@ -14,6 +14,7 @@ from raysteps.common.files import forget_unfinished, write_bytes, write_if_chang
 from raysteps.judge.feedback import withhold
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import here
+from raysteps.reports import class_report
 from raysteps.reports.student import REPORT, try_student_page
 from raysteps.results.case_places import FOLDER as CASES
 
@@ -41,6 +42,10 @@ def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> se
     return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
 
 
+def _warn(words: str) -> None:
+    print(f"raysteps: {words}", file=sys.stderr)
+
+
 @cache
 def _steps() -> list[Step]:
     return read_steps(here())
@@ -62,7 +67,7 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
         text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
         changed.append(write_if_changed(folder / "results.json", text.encode()))
         if any(changed) or not (folder / REPORT).is_file():
-            try_student_page(folder, _steps(), lambda words: print(f"raysteps: {name}: {words}", file=sys.stderr))
+            try_student_page(folder, _steps(), lambda words: _warn(f"{name}: {words}"))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
@@ -103,7 +108,7 @@ def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
 
 def withdraw_tables(out: Path) -> None:
     """Before the first result changes: tables of earlier results beside new ones would be taken for theirs."""
-    for name in _TABLES:
+    for name in (*_TABLES, class_report.FILE):
         (out / name).unlink(missing_ok=True)
 
 
@@ -116,3 +121,4 @@ def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], do
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))
     write_json(out / facts, document)
+    class_report.try_class_report(document, out, _warn)

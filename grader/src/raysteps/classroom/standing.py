@@ -19,23 +19,18 @@ def _step(step: Document) -> Document:
     return {"points": step["points"], "max": step["max"], "status": step["status"]}
 
 
-def _mistakes(row: sqlite3.Row | None) -> set[tuple[str, str]]:
-    """Step and title of the known mistakes in a result."""
-    document = json.loads(row["document"]) if row is not None and row["document"] else {"steps": []}
-    return {
-        (step["id"], found["title"])
-        for step in document["steps"]
-        for found in step.get("diagnoses", ())
-        if found["kind"] == "mistake"
-    }
+def _mistakes(step: Document) -> list[str]:
+    """Titles of the known mistakes in a step of a result."""
+    return sorted({found["title"] for found in step.get("diagnoses", ()) if found["kind"] == "mistake"})
 
 
 def _result(row: sqlite3.Row | None) -> Document:
     """What a submission got."""
     if row is None:
-        return {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}, "inconsistent": {}}
-    nothing: Document = {"total": {"max": None}, "steps": []}
-    document = json.loads(row["document"]) if row["document"] else nothing
+        nothing: Document = {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}}
+        return {**nothing, "inconsistent": {}, "mistakes": {}, "seconds": None}
+    empty: Document = {"total": {"max": None}, "steps": []}
+    document = json.loads(row["document"]) if row["document"] else empty
     return {
         "status": row["status"],
         "points": row["points"],
@@ -43,6 +38,8 @@ def _result(row: sqlite3.Row | None) -> Document:
         "run": row["run"],
         "steps": {step["id"]: _step(step) for step in document["steps"]},
         "inconsistent": {step["id"]: step["inconsistent"] for step in document["steps"] if step["inconsistent"]},
+        "mistakes": {step["id"]: titles for step in document["steps"] if (titles := _mistakes(step))},
+        "seconds": round(row["seconds"], 2),
     }
 
 
@@ -99,9 +96,9 @@ class Standings:
 
     def of(self, row: sqlite3.Row) -> Document:
         current = self._database.current(row["name"])
-        self._mistakes.update(_mistakes(current))
         students = self._students(row["id"])
         result = _result(current)
+        self._mistakes.update((step, title) for step, titles in result["mistakes"].items() for title in titles)
         late = None
         ids = self.extended(row, students)
         if self._policy is not None and result["points"] is not None:

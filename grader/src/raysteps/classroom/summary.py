@@ -11,6 +11,7 @@ from raysteps.classroom.files import SUBMISSIONS
 from raysteps.classroom.lateness import BY_FILE
 from raysteps.classroom.progress import first_line
 from raysteps.common.text import count, number
+from raysteps.reports.class_report import FILE as CLASS_PAGE
 
 _MARKS = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
 _MOST_MISTAKES = 10
@@ -153,4 +154,5 @@ def print_summary(console: Console, document: dict[str, Any], out: Path) -> None
     console.print(
         f"Table: {escape(str(out / 'results.csv'))}, all facts: {escape(str(out / 'class.json'))}", soft_wrap=True
     )
+    console.print(f"Page: {escape(str(out / CLASS_PAGE))}", soft_wrap=True)
     console.print(f"Per submission: {escape(str(out / SUBMISSIONS))}", soft_wrap=True)

@@ -16,7 +16,8 @@ from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
-from raysteps.reports.student import REPORT, replay_beside, try_student_page
+from raysteps.reports.commands import replay_command
+from raysteps.reports.student import REPORT, try_student_page
 from raysteps.results.case_places import FOLDER as CASES
 from raysteps.results.case_places import place_of
 from raysteps.results.model import Results
@@ -98,7 +99,7 @@ def check(project: Project, names: list[str], console: Console) -> int:
     out = project.build / "check"
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status))
-    print_details(console, checked.results, checked.kit.steps, out, replay_beside)
+    print_details(console, checked.results, checked.kit.steps, out, replay_command)
     console.print()
     print_table(console, checked.results, visible_only=not project.has_reference)
     print_files(console, out / "results.json", checked.page)

@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from raysteps.common.errors import StudentBuildError, UsageError
+from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
@@ -52,6 +52,17 @@ def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
     if outcome.code != 0:
         error = _first_error(outcome.stdout + outcome.stderr)
         raise StudentBuildError(f"{what_failed(outcome)}\nYour steps do not build: {error}")
+    return tree.program(target)
+
+
+def build_reference(tree: BuildTree, target: str) -> Path:
+    """Builds a program from the reference's steps."""
+    if not tree.program(target).exists():
+        _say("building")
+    with tree.locked():
+        outcome = tree.build([target])
+    if outcome.code != 0:
+        raise GraderFault(f"{target} does not build:\n{what_failed(outcome)}")
     return tree.program(target)
 
 

@@ -59,9 +59,9 @@ class BuildTree:
             for folder in (self.folder / "CMakeFiles", *self.folder.glob("_deps/*-subbuild")):
                 shutil.rmtree(folder, ignore_errors=True)
 
-    def configure(self) -> None:
-        """Configures once; later changes of the CMake files are noticed by the build itself."""
-        if self.is_configured():
+    def configure(self, *, again: bool = False) -> None:
+        """Configures once; later changes of the CMake files are noticed by the build itself, new libraries are not."""
+        if self.is_configured() and not again:
             return
         self.forget_other_home()
         command: list[str | Path] = ["cmake", "--preset", self.preset, "-S", self.project.root, "-B", self.folder]

@@ -10,6 +10,7 @@ COMPARE_SCRIPTS = (
     "compare-views",
     "compare-controls",
     "compare-words",
+    "compare-marks",
     "compare-pointer",
     "compare-keyboard",
     "compare-desk",

@@ -18,6 +18,11 @@ def beside_reference(project: Project) -> tuple[str, ...]:
     return ("--against", "reference") if project.has_reference else ()
 
 
+def replay_command(case: str) -> str:
+    """Asks a case again; its file lies beside the report."""
+    return f"./raysteps replay {shlex.quote(case)}"
+
+
 def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
     """Looks into a pixel of a picture, `{x}` and `{y}`; none where the kit does not know how the picture was made."""
     case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None

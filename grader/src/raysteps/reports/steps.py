@@ -1,17 +1,16 @@
 """One step of a results.json, made ready for a page. Whatever a student's program may have said is cleaned."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from raysteps.common.text import clean, mean, number, size
 from raysteps.kit.manifest import Step
 from raysteps.reports.album import Place, Shown
-from raysteps.reports.commands import check_command, inspect_command
+from raysteps.reports.commands import check_command, inspect_command, replay_command
 from raysteps.reports.points import parts_of, rest_of
 from raysteps.results.work import Work
 
-Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 Document = Mapping[str, Any]
 
 STATUS_WORDS = {
@@ -47,7 +46,7 @@ def _test(test: Document) -> dict[str, Any]:
     return {**texts, "passed": test["passed"], "outcome": test["outcome"]}
 
 
-def _hidden(item: Document, again: Again) -> dict[str, Any]:
+def _hidden(item: Document) -> dict[str, Any]:
     groups = [
         {"name": clean(group["name"]), "right": group["right"], "cases": group["cases"]} for group in item["groups"]
     ]
@@ -61,7 +60,7 @@ def _hidden(item: Document, again: Again) -> dict[str, Any]:
             for label, text in (("Given", item["given"]), ("Expected", item["expected"]), ("Actual", item["actual"]))
             if text
         ],
-        "again": again(clean(item["case"])) if item["case"] else "",
+        "again": replay_command(clean(item["case"])) if item["case"] else "",
         "groups": [group for group in groups if group["right"] < group["cases"]],
     }
 
@@ -109,7 +108,7 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
     ]
 
 
-def step_view(result: Document, step: Step | None, album: Mapping[Place, Shown], again: Again) -> dict[str, Any]:
+def step_view(result: Document, step: Step | None, album: Mapping[Place, Shown]) -> dict[str, Any]:
     """All that the page says of a step."""
     words, tone, sign = STATUS_WORDS[result["status"]]
     parts = parts_of(result, step)
@@ -128,7 +127,7 @@ def step_view(result: Document, step: Step | None, album: Mapping[Place, Shown],
         "messages": [clean(message) for message in result["messages"]],
         "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.get("diagnoses", ())],
         "tests": [_test(test) for test in result["tests"]],
-        "hidden": [_hidden(item, again) for item in result["hidden"]],
+        "hidden": [_hidden(item) for item in result["hidden"]],
         "images": images,
         "inconsistent": [clean(claim) for claim in result["inconsistent"]],
         "build_log": clean(result["build_log"], _LOG),

@@ -6,23 +6,18 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.files import write_if_changed
-from raysteps.common.text import clean, in_seconds, number
+from raysteps.common.text import clean, number
 from raysteps.kit.manifest import Step
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
 from raysteps.pages.page import render_page
 from raysteps.reports.album import Place, Shown, make_album
 from raysteps.reports.points import Part
-from raysteps.reports.steps import Again, step_view
+from raysteps.reports.steps import step_view
 
 REPORT = "report.html"
 _MOST = 4_900_000  # bytes: a page that can be sent by mail
 _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
-
-
-def replay_beside(case: str) -> str:
-    """The command for a case that lies in the folder of the report."""
-    return f"./raysteps replay {case}"
 
 
 def _next(steps: Sequence[Mapping[str, Any]]) -> Mapping[str, Any] | None:
@@ -47,16 +42,16 @@ def _sums(steps: Sequence[Mapping[str, Any]]) -> dict[str, float]:
     return {name: sum(part.earned for part in parts if part.name == name) for name in _PARTS}
 
 
-def student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step], again: Again = replay_beside) -> str:
+def student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> str:
     """The page of a results.json whose pictures lie in the folder. It shows what the document holds, and no more."""
-    text = _page(document, make_album(document, folder, _ROOM), steps, again)
+    text = _page(document, make_album(document, folder, _ROOM), steps)
     excess = len(text.encode()) - _MOST
-    return text if excess <= 0 else _page(document, make_album(document, folder, _ROOM - excess), steps, again)
+    return text if excess <= 0 else _page(document, make_album(document, folder, _ROOM - excess), steps)
 
 
-def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequence[Step], again: Again) -> str:
+def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequence[Step]) -> str:
     known = {step.id: step for step in steps}
-    views = [step_view(result, known.get(result["id"]), album, again) for result in document["steps"]]
+    views = [step_view(result, known.get(result["id"]), album) for result in document["steps"]]
     name = clean(document["submission"], 200)
     context = {
         "name": name,
@@ -71,29 +66,24 @@ def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequ
             "kit": clean(document["kit"], 200),
             "seed": document["seed"],
             "isolation": clean(document["isolation"]["name"], 200),
-            "seconds": in_seconds(document["timing"]["seconds"]),
         },
     }
-    styles, scripts = (*COMPARE_STYLES, "student"), (*COMPARE_SCRIPTS, "student")
+    styles, scripts = (*COMPARE_STYLES, "parts", "student"), (*COMPARE_SCRIPTS, "student")
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 
-def write_student_page(
-    document: Mapping[str, Any], folder: Path, steps: Sequence[Step], again: Again = replay_beside
-) -> Path:
+def write_student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> Path:
     """Writes FOLDER/report.html."""
     path = folder / REPORT
-    write_if_changed(path, student_page(document, folder, steps, again).encode())
+    write_if_changed(path, student_page(document, folder, steps).encode())
     return path
 
 
-def try_student_page(
-    folder: Path, steps: Sequence[Step], say: Callable[[str], None], again: Again = replay_beside
-) -> Path | None:
+def try_student_page(folder: Path, steps: Sequence[Step], say: Callable[[str], None]) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
         document = json.loads((folder / "results.json").read_text(encoding="utf-8"))
-        return write_student_page(document, folder, steps, again)
+        return write_student_page(document, folder, steps)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {error!r}")
         return None

@@ -12,11 +12,17 @@ from raysteps.upkeep.selftest_programs import asan_checks, build, clang_checks, 
 _SLOW = "pytest, hostile submissions and packages for other systems"
 
 
+def _packages() -> Report:
+    """Before anything is configured; tests that need what cannot be had are skipped."""
+    wanted = (*PAGES, *WINDOW)
+    return Report("passed") if install(wanted) else Report("skipped", f"install: {' '.join(wanted)}")
+
+
 def selftest(project: Project, console: Console, *, full: bool) -> int:
     """All checks, or all that need no more than the basic tools."""
-    install((*PAGES, *WINDOW))  # before anything is configured; what cannot be had is skipped by its tests
     tree = BuildTree(project, "dev", project.build / "dev", project.steps)
-    checks = [Check("build everything, warnings are errors", lambda: build(tree, [])), *program_checks(tree)]
+    checks = [Check("a browser and a window system for the tests", _packages)]
+    checks += [Check("build everything, warnings are errors", lambda: build(tree, [])), *program_checks(tree)]
     checks.append(Check("all structures give the same picture", lambda: same_pictures(project, tree)))
     checks += grade_checks(project, console, full=full)
     checks += python_checks(project)

@@ -119,34 +119,33 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         _tell_problem(inspected, program, wish)
         return 1
     _write_json(arguments, inspected, console)
+    if reference is not None:
+        return compare(project, inspected, inspect(reference, wish), console, arguments.html)
     assert inspected.record is not None
-    if reference is None:
-        sys.stdout.write(inspected.text)
-        _write_html(arguments, console, inspected.record)
-        return 0
-    return _compare(project, arguments, inspected.record, inspect(reference, wish), console)
+    sys.stdout.write(inspected.text)
+    _write_html(arguments.html, console, inspected.record)
+    return 1 if inspected.record["endless"] else 0
 
 
 def _write_html(
-    arguments: argparse.Namespace,
+    path: Path | None,
     console: Console,
     record: Record,
     reference: Record | None = None,
     parting: Difference | None = None,
 ) -> None:
-    if arguments.html is not None:
-        write_page(record, reference, parting, arguments.html)
-        console.print(f"Page: {escape(str(arguments.html))}", soft_wrap=True, highlight=False)
+    if path is not None:
+        write_page(record, reference, parting, path)
+        console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
 
 
-def _compare(
-    project: Project, arguments: argparse.Namespace, mine: Record, reference: Inspected, console: Console
-) -> int:
+def compare(project: Project, mine: Inspected, reference: Inspected, console: Console, html: Path | None = None) -> int:
     """Both trees, and the first place where they part."""
+    assert mine.record is not None
     if reference.record is None:
         raise UsageError(f"the reference's program {reference.problem}")
-    parting = find_parting(mine, reference.record)
-    print_trees(console, mine, reference.record, parting)
-    print_verdict(console, read_steps(project), mine, reference.record, parting)
-    _write_html(arguments, console, mine, reference.record, parting)
+    parting = find_parting(mine.record, reference.record)
+    print_trees(console, mine.record, reference.record, parting)
+    print_verdict(console, read_steps(project), mine.record, reference.record, parting)
+    _write_html(html, console, mine.record, reference.record, parting)
     return 0 if parting is None else 1

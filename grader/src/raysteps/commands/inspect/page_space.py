@@ -15,7 +15,7 @@ def _plain(vector: Vector) -> list[float]:
 
 
 def _along(origin: Vector, direction: Vector, distance: float) -> list[float]:
-    return [a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)]
+    return _plain([a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)])
 
 
 def _end(ray: Record, size: float) -> list[float]:
@@ -50,7 +50,7 @@ def _camera(record: Record) -> dict[str, Any]:
     axes = [_plain(frame[name]) for name in ("forward", "right", "up")]
 
     def corner(right: int, up: int) -> list[float]:
-        return [f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)]
+        return _plain([f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)])
 
     return {
         **{name: _plain(camera[name]) for name in ("from", "at", "up")},
@@ -60,14 +60,23 @@ def _camera(record: Record) -> dict[str, Any]:
     }
 
 
+def _goal(record: Record) -> list[float]:
+    """What the pixel shows; a sky far behind the scene is no good place to look at."""
+    camera, hit = record["camera"], record["ray"]["hit"]
+    if hit is not None and is_finite(hit["position"]):
+        far = _FAR * length(minus(camera["at"], camera["from"]))
+        if length(minus(hit["position"], camera["from"])) <= far:
+            return _plain(hit["position"])
+    return _plain(camera["at"])
+
+
 def space_of(record: Record, tree: PageRay) -> dict[str, Any]:
-    """Camera, lights, surfaces near the rays, and the rays; `size` is how far the eye is from what it looks at."""
-    camera = record["camera"]
-    hit = record["ray"]["hit"]
-    goal = camera["at"] if hit is None else hit["position"]
-    size = max(length(minus(goal, camera["from"])) if is_finite(goal) else 0.0, 1e-3)
+    """Camera, lights, surfaces near the rays, and the rays; `size` is how far the eye is from the goal."""
+    goal = _goal(record)
+    size = max(length(minus(goal, record["camera"]["from"])), 1e-3)
     return {
         "camera": _camera(record),
+        "goal": goal,
         "size": size,
         "lights": [_plain(light["position"]) for light in record["lights"]],
         "surfaces": [

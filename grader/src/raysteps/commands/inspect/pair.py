@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from raysteps.commands.inspect.values import Record, Vector, brief, length, same_direction, same_number
+from raysteps.commands.inspect.values import CLOSE, Record, Vector, brief, length, same_direction, same_number
+
+EYE = "eye"
 
 
 class Difference(NamedTuple):
@@ -13,6 +15,7 @@ class Difference(NamedTuple):
     words: str
     function: str
     why: str = ""
+    shaky: bool = False  # the two rays began a little apart already, so that an edge may lie between them
 
 
 @dataclass(frozen=True)
@@ -26,9 +29,15 @@ class Pair:
     close: float
     step: int
     accel: str
+    lights: list[Record]
 
     def at(self, item: str, words: str, function: str, why: str = "") -> Difference:
-        return Difference((*self.place, item), f"{self.name}: {words}", function, why)
+        plain = self.place == (EYE,) and not words.startswith("yours")  # what else happens at the eye ray needs no name
+        return Difference((*self.place, item), words if plain else f"{self.name}: {words}", function, why, self.shaky)
+
+    @property
+    def shaky(self) -> bool:
+        return self.close > 2 * CLOSE
 
 
 def surface_name(hit: Record) -> str:

@@ -2,16 +2,21 @@
 
 from collections.abc import Iterator
 
+from raysteps.commands.inspect import expected
 from raysteps.commands.inspect.blame import blame_shadow
 from raysteps.commands.inspect.pair import Difference, Pair, not_unit, surface_name
 from raysteps.commands.inspect.values import (
+    CLOSE,
     Record,
+    as_float,
     brief,
     length,
     minus,
+    parted,
     point,
     same_color,
     same_direction,
+    told,
 )
 
 
@@ -54,17 +59,18 @@ def _shadow(pair: Pair, mine: Record, reference: Record) -> Iterator[Difference]
 def _light_end(light: Record, ray: Record) -> list[float]:
     """A point far enough along the ray to stand for the light."""
     limit = ray["limit"] if isinstance(ray["limit"], int | float) else 1.0
-    return [a + limit * b for a, b in zip(ray["origin"], light["to_light"], strict=True)]
+    return [as_float(a) + limit * as_float(b) for a, b in zip(ray["origin"], light["to_light"], strict=True)]
 
 
 def _terms(pair: Pair, mine: Record, reference: Record) -> Iterator[Difference]:
     number = reference["light"] + 1
-    item = f"terms{number}"
-    if not same_direction(mine["mirrored"], reference["mirrored"], 10 * pair.close):
+    item, hit, source = f"terms{number}", pair.mine["hit"], pair.lights[reference["light"]]
+    turned = expected.mirrored([-as_float(value) for value in mine["to_light"]], hit["normal"])
+    if not (same_direction(mine["mirrored"], reference["mirrored"]) or same_direction(mine["mirrored"], turned)):
         words = f"light {number}: its mirrored direction is {point(mine['mirrored'])}"
         yield pair.at(item, f"{words}, the reference's {point(reference['mirrored'])}", "mirror")
-    for term in ("diffuse", "specular"):
-        if not same_color(mine[term], reference[term], 10 * pair.close):
+    for term, right in (("diffuse", expected.diffuse), ("specular", expected.specular)):
+        if parted(mine[term], reference[term], right(hit, mine, source), 10 * CLOSE):
             words = f"light {number}: the {term} term is {point(mine[term])}, the reference's {point(reference[term])}"
             yield pair.at(item, words, term)
 
@@ -80,6 +86,6 @@ def light_differences(pair: Pair) -> Iterator[Difference]:
     for light in reference["lights"]:
         if light["light"] in own:
             yield from _terms(pair, own[light["light"]], light)
-    if not agree and mine["direct"] is not None:
-        words = f"the sum over the lights is {point(mine['direct'])}, the reference's {point(reference['direct'])}"
+    if parted(mine["direct"], reference["direct"], expected.direct(mine["lights"]), 10 * CLOSE):
+        words = f"the sum over the lights is {told(mine['direct'])}, the reference's {told(reference['direct'])}"
         yield pair.at("direct", words, "shade")

@@ -14,7 +14,7 @@ from raysteps.kit.building import release_tree, what_failed
 from raysteps.kit.built_kit import Say
 from raysteps.kit.project import Project
 
-_SECONDS = 60
+_SECONDS = 30
 _MOST_BYTES = 64 << 20
 _USAGE = 2
 
@@ -67,7 +67,7 @@ def _problem(outcome: Outcome) -> str:
 
 def _read(path: Path) -> Record | None:
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        record = json.loads(path.read_text(encoding="utf-8", errors="replace"))  # a scene's name may be any bytes
     except (OSError, ValueError, RecursionError):
         return None
     is_record = isinstance(record, dict) and record.get("schema") == "raysteps/inspect/v1"

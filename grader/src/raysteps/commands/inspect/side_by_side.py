@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 from rich import box
-from rich.console import Console
+from rich.console import Console, RenderableType
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -43,8 +44,11 @@ def _marked(keys: list[Key], place: Key | None) -> Key | None:
     return None
 
 
-def _cell(line: Line | None, style: str) -> Text:
-    return Text("" if line is None else "  " * min(line.level, _DEEPEST) + line.text, style=style)
+def _cell(line: Line | None, style: str) -> RenderableType:
+    """Indented by its level, also where it takes more than one line."""
+    if line is None:
+        return ""
+    return Padding(Text(line.text, style=style), (0, 0, 0, 2 * min(line.level, _DEEPEST)), expand=False)
 
 
 def _style(mine: Line | None, reference: Line | None, *, first: bool) -> str:
@@ -69,8 +73,8 @@ def print_trees(console: Console, mine: Record, reference: Record, parting: Diff
             line = row[at]
             if line is not None:
                 first = line.key == place
-                text = Text(f"{_MARK if first else ' '} ") + _cell(line, _style(*row, first=first))
-                console.print(text, soft_wrap=not console.is_terminal)
+                mark = f"{_MARK if first else ' '} {'  ' * min(line.level, _DEEPEST)}"
+                console.print(Text(mark + line.text, style=_style(*row, first=first)), soft_wrap=True)
         console.print()
 
 

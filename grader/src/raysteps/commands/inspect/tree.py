@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from raysteps.commands.inspect.pair import meets, surface_name
+from raysteps.commands.inspect.pair import EYE, meets, surface_name
 from raysteps.commands.inspect.values import Record, brief, point
 from raysteps.common.text import count
 
@@ -90,7 +90,7 @@ def lines_of(record: Record) -> list[Line]:
     """From the camera to the bytes."""
     frame = record["frame"]
     lines = [Line(("frame",), 0, f"camera: forward {point(frame['forward'])}, up {point(frame['up'])}")]
-    lines += _ray(record["ray"], ("eye",), 0, record["step"])
+    lines += _ray(record["ray"], (EYE,), 0, record["step"])
     if record["mapped"] is not None:
         lines.append(Line(("mapped",), 0, f"tone mapping {point(record['mapped'])}"))
     ending = "the rays never end" if record["endless"] else f"bytes {' '.join(map(str, record['bytes'] or []))}"

@@ -9,7 +9,7 @@ Number = float | str  # one that is not finite is a word
 Vector = Sequence[Number]
 
 CLOSE = 1e-4  # share by which rounding alone may move a number of a right solution
-_COARSEST = 0.05
+_COARSEST = 0.3
 _NORMAL = 1e-3  # on small spheres rounding moves a normal more than a position
 _DARKEST = 2e-5  # colours below differ by less than anybody could see
 
@@ -61,9 +61,17 @@ def same_color(one: Vector | None, other: Vector | None, close: float) -> bool:
     return all(same_number(a, b, close, _DARKEST) for a, b in zip(one, other, strict=True))
 
 
-def coarser(close: float, apart: float) -> float:
-    """After a bounce: curved mirrors spread rays, and a ray may begin up to 0.01 off its surface."""
-    return min(_COARSEST, 4 * close + 10 * apart)
+def coarser(one: Record, other: Record) -> float:
+    """How close two rays can be expected to end that begin like these."""
+    apart = length(minus(one["origin"], other["origin"])) + length(minus(one["direction"], other["direction"]))
+    return min(_COARSEST, CLOSE + 30 * apart) if math.isfinite(apart) else CLOSE
+
+
+def parted(mine: Vector | None, reference: Vector | None, expected: Vector | None, close: float) -> bool:
+    """Whether two colours differ, and mine does not follow from what it was made of."""
+    if same_color(mine, reference, close):
+        return False
+    return mine is None or expected is None or not same_color(mine, expected, 10 * CLOSE)
 
 
 def brief(value: Number) -> str:
@@ -72,3 +80,7 @@ def brief(value: Number) -> str:
 
 def point(vector: Vector) -> str:
     return f"({', '.join(map(brief, vector))})"
+
+
+def told(color: Vector | None) -> str:
+    return "unknown" if color is None else point(color)

@@ -15,7 +15,7 @@ from raysteps.kit.manifest import ImageCase
 from raysteps.kit.project import Project, here
 from raysteps.reports.commands import beside_reference
 
-_UNDERSTOOD = ("--step", "--size", "--depth", "--accel")  # of the arguments that a picture is made with
+_UNDERSTOOD = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
 
 def command_for(case: ImageCase, x: str, y: str) -> list[str]:

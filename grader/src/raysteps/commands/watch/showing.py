@@ -55,7 +55,7 @@ class Showing:
     def result(self, view: View) -> None:
         """What came of a look or of a check."""
         tone, text = verdict(view)
-        took = f"  ({view.seconds:.1f} s)" if view.seconds is not None and not view.full else ""
+        took = f"  ({view.seconds:.1f} s)" if view.seconds is not None and not view.full and tone != "plain" else ""
         self.line(f"{_SIGNS[tone]} {text}{took}", _COLORS[tone])
         if view.result is None or view.problem or view.gone:
             return

@@ -6,14 +6,10 @@ const compareNarrow = 520;
 /** One comparison at work: what is looked at, and what the reader does with it. */
 class CompareDesk {
   #shared;
-  #inspect;
   #frame = 0;
   #timer = 0;
   #rate = 1;
   #playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  #hover = null;
-  #cursor = null;
-  #mark = null;
 
   /**
    * @param {string} label what is compared
@@ -28,14 +24,10 @@ class CompareDesk {
     this.split = 0.5;
     this.blinkMine = false;
     this.seen = false;
-    /** @type {(place: {x: number, y: number}) => void} */
-    this.onPixel = () => {};
     this.#shared = shared;
-    this.#inspect = inspect;
     const act = this.#actions();
     this.ui = makeControls(label, names, act);
-    this.ui.inspect.hidden = !inspect;
-    this.#tellCommand();
+    this.marks = new CompareMarks(this.ui, names, inspect);
     listenToPointers(this.ui, act);
     this.ui.root.addEventListener("keydown", (event) => {
       if (this.pair && compareKey(event, this.ui, act)) {
@@ -53,16 +45,16 @@ class CompareDesk {
       fit: () => this.#shared.set(1, 0.5, 0.5),
       pull: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, right, down),
       push: (right, down) => this.#shown[0]?.pane.pulled(this.#shared, -right * 40, -down * 40),
-      canZoom: (factor) => (factor < 1 ? this.#shared.zoom > 1 : true),
+      canZoom: (factor) => this.#shown.some(({ pane }) => (factor < 1 ? pane.zoom > 1 : pane.zoom < pane.most)),
       zoomed: () => this.#shared.zoom > 1,
       splits: () => this.view === "slider",
       split: (left) => this.#splitTo(left / this.#size.width),
       splitNow: () => this.split,
       splitTo: (split) => this.#splitTo(split),
-      hover: (left, top) => this.#point(this.#pixelAt(left, top)),
-      leave: () => this.#point(null),
+      hover: (left, top) => this.pair && this.marks.point(this.pair, this.#pixelAt(left, top)),
+      leave: () => this.pair && this.marks.point(this.pair, null),
       pick: (left, top) => this.#keep(this.#pixelAt(left, top)),
-      keep: () => this.#keep(this.#cursor ?? this.#mark),
+      keep: () => this.#keep(this.marks.cursor ?? this.marks.kept),
       step: (right, down) => this.#step(right, down),
       go: (which) => this.#go(which),
       blinks: () => this.view === "blink",
@@ -92,14 +84,20 @@ class CompareDesk {
     stage.style.aspectRatio = `${width} / ${height * twice}`;
   }
 
+  /** When the stage has another size. */
+  resized() {
+    if (this.pair?.width) {
+      this.shape(this.pair.width, this.pair.height);
+    }
+    this.refresh();
+  }
+
   /** Takes the pictures when they were read. */
   take(pair) {
     this.pair = pair;
     tellPair(this.ui, pair, this.names);
-    if (!pair.comparable) {
-      this.view = "side";
-    }
-    this.choose(this.view);
+    const impossible = this.ui.views.some(({ dataset, disabled }) => disabled && dataset.view === this.view);
+    this.choose(!pair.comparable ? "side" : impossible ? "slider" : this.view);
   }
 
   /** Nothing is drawn, and no memory of a canvas is held, while nobody sees it. */
@@ -117,12 +115,9 @@ class CompareDesk {
     const button = this.ui.views.find(({ dataset }) => dataset.view === view);
     if (button && !button.disabled) {
       this.view = view;
-      if (this.pair?.width) {
-        this.shape(this.pair.width, this.pair.height);
-      }
       this.#tellView();
       this.#tick();
-      this.refresh();
+      this.resized();
     }
   }
 
@@ -152,8 +147,8 @@ class CompareDesk {
       }
     }
     for (const { pane } of this.view === "slider" ? all.slice(0, 1) : all) {
-      this.#mark && paintFrame(context, pane, this.#mark, "mark");
-      this.#cursor && paintFrame(context, pane, this.#cursor, "cursor");
+      paintFrame(context, pane, this.marks.kept, "mark");
+      paintFrame(context, pane, this.marks.cursor, "cursor");
     }
     const { pane } = all[0];
     this.ui.zoom.textContent = `${pane.zoom < 10 ? Number(pane.zoom.toFixed(1)) : Math.round(pane.zoom)}×`;
@@ -190,57 +185,27 @@ class CompareDesk {
     return this.#shown.map(({ pane }) => pane.pixelAt(left, top)).find(Boolean) ?? null;
   }
 
-  /** The pixel under the pointer; without one the readout keeps to the cursor or the mark. */
-  #point(pixel) {
-    const same = pixel?.x === this.#hover?.x && pixel?.y === this.#hover?.y;
-    if (!this.pair || same) {
-      return;
-    }
-    this.#hover = pixel;
-    this.#tellPixel(pixel ?? this.#cursor ?? this.#mark);
-  }
-
-  #tellPixel(pixel) {
-    tellPixel(this.ui.cells, this.pair, pixel);
-    if (pixel) {
-      this.onPixel(pixel);
-    }
-  }
-
   #step(right, down) {
-    const from = this.#cursor ?? this.#mark ?? { x: this.pair.width >> 1, y: this.pair.height >> 1 };
-    const limit = (value, most) => Math.min(most - 1, Math.max(0, value));
-    this.#cursor = { x: limit(from.x + right, this.pair.width), y: limit(from.y + down, this.pair.height) };
-    this.#shown[0]?.pane.shows(this.#cursor) || this.#shown[0]?.pane.centred(this.#shared, this.#cursor);
-    this.#tellPixel(this.#cursor);
-    this.ui.say.textContent = pixelInWords(this.pair, this.names, this.#cursor);
+    this.marks.step(this.pair, right, down);
+    const [{ pane }] = this.#shown;
+    if (!pane.shows(this.marks.cursor)) {
+      pane.centred(this.#shared, this.marks.cursor);
+    }
     this.refresh();
   }
 
-  /** Marks a pixel and fills in the command that inspects it. */
   #keep(pixel) {
     if (pixel && this.pair) {
-      this.#mark = pixel;
-      this.#cursor = null;
-      this.#tellPixel(pixel);
-      this.#tellCommand();
+      this.marks.keep(this.pair, pixel);
       this.refresh();
     }
-  }
-
-  #tellCommand() {
-    const { command, copy } = this.ui;
-    const { x, y } = this.#mark ?? { x: "X", y: "Y" };
-    command.textContent = (this.#inspect ?? "").replace("{x}", x).replace("{y}", y);
-    copy.disabled = !this.#mark;
   }
 
   #go(which) {
     const pixel = this.pair[which];
     if (pixel) {
       this.#keep(pixel);
-      this.#shown[0]?.pane.centred(this.#shared, pixel);
-      this.ui.say.textContent = pixelInWords(this.pair, this.names, pixel);
+      this.#shown[0].pane.centred(this.#shared, pixel);
     }
   }
 

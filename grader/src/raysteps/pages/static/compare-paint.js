@@ -50,10 +50,15 @@ function paintNumbers(context, pane, { raster, numbers }, clip) {
 }
 
 /**
- * A frame around a pixel that is seen on any colour; a small pixel gets a ring.
+ * A frame around a pixel, if there is one, that is seen on any colour; a small pixel gets a ring.
+ * @param {{x: number, y: number} | null} pixel
  * @param {"mark" | "cursor"} kind
  */
-function paintFrame(context, pane, { x, y }, kind) {
+function paintFrame(context, pane, pixel, kind) {
+  if (!pixel) {
+    return;
+  }
+  const { x, y } = pixel;
   context.save();
   context.beginPath();
   context.rect(pane.box.left, pane.box.top, pane.box.width, pane.box.height);

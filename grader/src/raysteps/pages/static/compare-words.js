@@ -50,6 +50,9 @@ function tellPair(ui, pair, names) {
   for (const button of ui.views) {
     const { id, needsBoth } = compareViews.find((view) => view.id === button.dataset.view);
     button.disabled = (needsBoth && !pair.comparable) || (id === "flip" && !pair.flip);
+    if (id === "flip" && !pair.flip) {
+      button.title = pair.comparable && !pair.wrong ? "FLIP: there is no difference" : "FLIP: there is no map of these pictures";
+    }
   }
   ui.first.disabled = ui.worst.disabled = !pair.wrong;
   tellPixel(ui.cells, pair, null);

@@ -8,7 +8,7 @@ const compareWatch = new IntersectionObserver((entries) => {
   }
 }, { rootMargin: "150px" });
 const compareResize = new ResizeObserver((entries) => {
-  entries.forEach(({ target }) => target.closest("compare-pictures")?.refresh());
+  entries.forEach(({ target }) => target.closest("compare-pictures")?.resized());
 });
 
 /** `<compare-pictures>`: two pictures, and the ways to find where they differ. Nothing is read before it is seen. */
@@ -65,6 +65,10 @@ class ComparePictures extends HTMLElement {
 
   refresh = () => this.#desk?.refresh();
 
+  resized() {
+    this.#desk?.resized();
+  }
+
   #image(role) {
     return this.querySelector(`:scope > img[data-role="${role}"]`);
   }
@@ -73,7 +77,7 @@ class ComparePictures extends HTMLElement {
     const name = (role) => this.#image(role)?.dataset.name ?? this.getAttribute(`${role}-name`) ?? role;
     const names = { reference: name("reference"), mine: name("mine") };
     this.#desk = new CompareDesk(this.getAttribute("label") ?? "Pictures", names, this.#shared, this.getAttribute("inspect"));
-    this.#desk.onPixel = ({ x, y }) => this.#tell(x, y);
+    this.#desk.marks.onPixel = ({ x, y }) => this.#tell(x, y);
     const sized = this.#image("reference") ?? this.#image("mine");
     this.append(this.#desk.ui.root);
     this.#desk.shape(Number(sized?.getAttribute("width") ?? 4), Number(sized?.getAttribute("height") ?? 3));

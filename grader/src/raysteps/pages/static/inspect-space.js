@@ -4,7 +4,7 @@
  * @typedef {{id: string, role: string, origin: Vec3, end: Vec3, hit: number | null,
  *   boxes: {min: Vec3, max: Vec3, entered: boolean, level: number | null}[],
  *   tests: {surface: number, hit: boolean, before: number}[]}} InsideRay
- * @typedef {{camera: object, lights: Vec3[], size: number, surfaces: object[], rays: InsideRay[]}} InsideSpace
+ * @typedef {{camera: object, goal: Vec3, lights: Vec3[], size: number, surfaces: object[], rays: InsideRay[]}} InsideSpace
  */
 
 const RAY_COLORS = {
@@ -26,7 +26,8 @@ class InsideView {
     this.surfaces = [];
     for (const surface of space.surfaces) {
       const mesh = meshOf(surface);
-      if (mesh) this.surfaces.push({ number: surface.surface, color: surface.color, kept: this.painter.keepMesh(mesh) });
+      const around = surface.radii.length === 1 && Math.hypot(...sub3(surface.points[0], space.camera.from)) < surface.radii[0];
+      if (mesh) this.surfaces.push({ number: surface.surface, color: surface.color, kept: this.painter.keepMesh(mesh, around) });
     }
     this.rays = space.rays.map((ray) => ({ ray, kept: this.painter.keepLines([[ray.origin, ray.end]]) }));
     this.lamps = space.lights.map((at) => this.painter.keepMesh(sphereMesh(at, 0.02 * space.size, 10)));
@@ -58,8 +59,7 @@ class InsideView {
 
   fromTheSide() {
     this.orbit.goHome();
-    const first = this.space.rays[0];
-    this.orbit.lookAt(first.hit === null ? this.space.camera.at : first.end, 1.15 * this.space.size);
+    this.orbit.lookAt(this.space.goal, 1.15 * this.space.size);
     this.orbit.turn(0.9, 0.28);
   }
 

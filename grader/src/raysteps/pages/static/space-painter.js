@@ -63,10 +63,10 @@ class SpacePainter {
     return made;
   }
 
-  /** @param {Mesh} mesh */
-  keepMesh(mesh) {
+  /** @param {Mesh} mesh @param {boolean} around it surrounds the scene, which must be seen through its near side */
+  keepMesh(mesh, around = false) {
     const parts = { position: [this.buffer(mesh.positions), 3], normal: [this.buffer(mesh.normals), 3] };
-    return { program: "mesh", parts, count: mesh.positions.length / 3 };
+    return { program: "mesh", parts, count: mesh.positions.length / 3, around };
   }
 
   /** @param {[Vec3, Vec3][]} lines */
@@ -112,9 +112,14 @@ class SpacePainter {
       gl.enableVertexAttribArray(at);
       gl.vertexAttribPointer(at, amount, gl.FLOAT, false, 0, 0);
     }
+    if (kept.around) {
+      gl.enable(gl.CULL_FACE);
+      gl.cullFace(gl.FRONT);
+    }
     gl.depthMask(color[3] >= 1);
     gl.drawArrays(gl.TRIANGLES, 0, kept.count);
     gl.depthMask(true);
+    gl.disable(gl.CULL_FACE);
   }
 
   /** What is drawn inside is seen through everything. @param {() => void} draw */

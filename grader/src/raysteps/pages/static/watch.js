@@ -21,29 +21,37 @@ class WatchPictures {
     state.pictures.forEach((picture) => this.#showOne(picture, state.step));
   }
 
+  /** Where there is no picture of mine, the reference shows where it goes. */
   #showOne(picture, step) {
     const known = this.#shown.get(picture.name) ?? this.#add(picture, step);
     known.words.textContent = picture.message || (picture.passed ? "" : picture.mine ? "" : "This is what it shall look like.");
-    known.sign.textContent = picture.passed ? " ✓ right" : picture.mine ? " ✗ wrong" : "";
+    known.sign.textContent = picture.passed ? " ✓ right" : picture.mine ? " ✗ wrong" : picture.message ? " ✗ missing" : "";
     known.sign.className = picture.passed ? "watch-good" : "watch-bad";
     const key = [picture.reference, picture.mine, picture.flip].join(" ");
     if (key === known.key) {
       return;
     }
     known.key = key;
-    const one = (src, name) => src && { src, name, alt: `${picture.name}: ${name}` };
-    const flip = one(picture.flip, "FLIP map");
-    known.view.setPictures({ reference: one(picture.reference, "reference"), mine: one(picture.mine, "mine"), flip });
+    known.view.hidden = !picture.mine;
+    known.goal.hidden = Boolean(picture.mine) || !picture.reference;
+    if (picture.mine) {
+      const one = (src, name) => src && { src, name, alt: `${picture.name}: ${name}` };
+      const flip = one(picture.flip, "FLIP map");
+      known.view.setPictures({ reference: one(picture.reference, "reference"), mine: one(picture.mine, "mine"), flip });
+    } else if (picture.reference) {
+      known.goal.src = picture.reference;
+    }
   }
 
   #add(picture, step) {
     const attributes = { label: picture.name, group: `step-${step.number}` };
     const view = make("compare-pictures", picture.inspect ? { ...attributes, inspect: picture.inspect } : attributes);
+    const goal = make("img", { class: "watch-goal", alt: `${picture.name}: the reference` });
     const sign = make("span");
     const words = make("p");
-    const article = make("article", { class: "watch-picture" }, make("h2", {}, picture.name, sign), words, view);
+    const article = make("article", { class: "watch-picture" }, make("h2", {}, picture.name, sign), words, goal, view);
     this.#room.append(article);
-    const known = { article, view, sign, words, key: null };
+    const known = { article, view, goal, sign, words, key: null };
     this.#shown.set(picture.name, known);
     return known;
   }
@@ -59,7 +67,7 @@ class WatchPage {
     document.getElementById("watch-title").textContent = `${state.step.number} ${state.step.title}`;
     document.title = `${{ good: "✓ ", bad: "✗ ", warn: "! " }[state.verdict.tone] ?? ""}${state.step.number} ${state.step.title}`;
     const verdict = document.getElementById("watch-verdict");
-    const took = state.seconds !== null && !state.full ? ` (${state.seconds.toFixed(1)} s)` : "";
+    const took = state.seconds !== null && !state.full && state.verdict.tone !== "plain" ? ` (${state.seconds.toFixed(1)} s)` : "";
     WatchPage.#say(verdict, state.verdict.text + took);
     verdict.dataset.tone = state.verdict.tone;
     const saved = state.saved ? `, saved ${state.saved}` : "";

@@ -1,0 +1,74 @@
+// view: a window on a scene, with the steps that the program was linked with.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "apps/view_options.hpp"
+#include "core/threads.hpp"
+#include "io/nff_reader.hpp"
+#include "io/read_error.hpp"
+#include "view/viewer.hpp"
+
+namespace {
+
+using namespace raysteps;
+
+constexpr int k_exit_usage = 2;  // bad arguments, bad scene, no window, or a file that cannot be written
+constexpr int k_largest_shown = 4096;  // pixels a side: up to 1.5 GB
+
+void check_size(const Camera& camera) {
+    if (std::max(camera.width, camera.height) > k_largest_shown) {
+        throw UsageError("--size: expected at most " + std::to_string(k_largest_shown) +
+                         " pixels a side in a window, found " + std::to_string(camera.width) + "x" +
+                         std::to_string(camera.height) + "; `./raysteps render` makes larger pictures");
+    }
+}
+
+void check_click(const ViewOptions& options, const Camera& camera) {
+    if (options.click && (options.click->x >= camera.width || options.click->y >= camera.height)) {
+        throw UsageError("--click: expected a pixel of the " + std::to_string(camera.width) + "x" +
+                         std::to_string(camera.height) + " picture, found " + std::to_string(options.click->x) + "," +
+                         std::to_string(options.click->y));
+    }
+}
+
+void run(const ViewOptions& options) {
+    const RaytraceOptions& picture = options.picture;
+    if (picture.threads > 0) {
+        set_default_threads(picture.threads);
+    }
+    Scene scene = read_nff(std::filesystem::path(picture.scene));
+    if (picture.size) {
+        scene.camera.width = picture.size->width;
+        scene.camera.height = picture.size->height;
+    }
+    check_size(scene.camera);
+    check_click(options, scene.camera);
+    run_viewer(scene, {picture.scene,
+                       {picture.step, picture.view, picture.depth},
+                       picture.acceleration,
+                       default_threads(),
+                       options.screenshot,
+                       options.click});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const ViewOptions options = parse_view_options({argv + 1, argv + argc});
+        if (options.picture.help) {
+            std::fputs(k_view_usage, stdout);
+            return 0;
+        }
+        run(options);
+        return 0;
+    } catch (const ReadError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    } catch (const UsageError& error) {
+        std::fprintf(stderr, "view: %s\nAll options: ./raysteps view --help\n", error.what());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "view: %s\n", error.what());
+    }
+    return k_exit_usage;
+}

@@ -1,0 +1,64 @@
+#include "inspect/light_terms.hpp"
+
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "inspect/recorder.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+#include "steps/03-phong-shading/phong_shading.hpp"
+#include "steps/04-shadows/shadows.hpp"
+#include "steps/08-refraction/refraction.hpp"
+
+namespace raysteps {
+namespace {
+
+void describe(const Light& light, int step, const HitRecord& hit, LightRecord& record) {
+    if (step >= 4) {
+        record.shadow_ray = shadow_ray(hit, light);
+    }
+    record.to_light = glm::normalize(light.position - hit.position);
+    record.mirrored = mirror(-record.to_light, hit.normal);
+    record.l_n = glm::dot(record.to_light, hit.normal);
+    record.r_v = glm::dot(record.mirrored, -hit.ray_direction);
+    record.diffuse = diffuse(hit.fill, light, hit.normal, record.to_light);
+    record.specular = specular(hit.fill, light, hit.normal, record.to_light, -hit.ray_direction);
+}
+
+}  // namespace
+
+void describe_lights(const Scene& scene, const StepOptions& options, const HitRecord& hit, RayNode& node) {
+    const Unheard unheard;
+    if (options.step < 4) {  // all lights count, and nobody asked for them one by one
+        node.lights.resize(scene.lights.size());
+        for (std::size_t i = 0; i < node.lights.size(); ++i) {
+            node.lights[i].light = i;
+        }
+    }
+    std::vector<Light> reaching;
+    for (LightRecord& record : node.lights) {
+        const Light& light = scene.lights[record.light];
+        describe(light, options.step, hit, record);
+        if (record.lit) {
+            reaching.push_back(light);
+        }
+    }
+    node.direct = shade(hit, reaching);
+}
+
+void describe_meeting(const StepOptions& options, const RayNode& node, Meeting& meeting) {
+    const Unheard unheard;
+    const HitRecord& hit = meeting.hit;
+    meeting.point = point_at(node.ray, hit.distance);
+    if (node.role == RayRole::shadow) {
+        return;
+    }
+    if (options.step >= 5) {
+        meeting.mirrored = mirror(hit.ray_direction, hit.normal);
+    }
+    if (options.step >= 8 && hit.fill.transmittance > 0.0F) {
+        const float index = hit.fill.index_of_refraction > 0.0F ? hit.fill.index_of_refraction : 1.0F;
+        meeting.refracted = refract(hit.ray_direction, hit.normal, hit.from_outside ? 1.0F / index : index);
+    }
+}
+
+}  // namespace raysteps

@@ -1,0 +1,57 @@
+#pragma once
+// Small scenes for the tests of this folder.
+#include <memory>
+
+#include "core/cone.hpp"
+#include "core/sphere.hpp"
+#include "core/triangle.hpp"
+#include "inspect/inspect_pixel.hpp"
+
+namespace raysteps::testing {
+
+inline const Fill k_matte{{0.8F, 0.7F, 0.2F}, 0.9F, 0.0F, 1.0F, 0.0F, 1.0F};
+inline const Fill k_mirror{{0.5F, 0.5F, 0.9F}, 0.4F, 0.6F, 30.0F, 0.0F, 1.0F};
+inline const Fill k_glass{{1.0F, 1.0F, 1.0F}, 0.1F, 0.1F, 50.0F, 0.8F, 1.5F};
+
+/// A floor, a mirror ball, a glass ball and a cone, with a lamp on either side.
+inline Scene small_scene() {
+    Scene scene;
+    scene.camera.from = {0.0F, 1.0F, 6.0F};
+    scene.camera.width = 24;
+    scene.camera.height = 18;
+    scene.background = {0.1F, 0.2F, 0.3F};
+    scene.lights = {{{4.0F, 5.0F, 3.0F}, k_white}, {{-4.0F, 3.0F, 2.0F}, Color(0.5F)}};
+    const glm::vec3 back_left{-5.0F, -1.0F, -5.0F};
+    const glm::vec3 front_right{5.0F, -1.0F, 5.0F};
+    scene.add(std::make_unique<Triangle>(back_left, glm::vec3(-5.0F, -1.0F, 5.0F), front_right, k_matte));
+    scene.add(std::make_unique<Triangle>(back_left, front_right, glm::vec3(5.0F, -1.0F, -5.0F), k_matte));
+    scene.add(std::make_unique<Sphere>(glm::vec3(-1.1F, 0.0F, 0.0F), 1.0F, k_mirror));
+    scene.add(std::make_unique<Sphere>(glm::vec3(1.1F, 0.0F, 0.0F), 1.0F, k_glass));
+    scene.add(std::make_unique<Cone>(Cone::Ring{{0.0F, -1.0F, 1.5F}, 0.4F}, Cone::Ring{{0.0F, 0.0F, 1.5F}, 0.0F},
+                                     Cone::Visible::both, k_matte));
+    return scene;
+}
+
+/// A mirror ball straight ahead of a camera in a row of small matte balls.
+inline Scene one_mirror() {
+    Scene scene;
+    scene.camera.from = {0.0F, 0.0F, 5.0F};
+    scene.camera.width = 9;
+    scene.camera.height = 9;
+    scene.lights = {{{0.0F, 0.0F, 9.0F}, k_white}};
+    scene.add(std::make_unique<Sphere>(glm::vec3(0.0F), 1.0F, k_mirror));
+    for (int i = 0; i < 40; ++i) {
+        const float x = -4.0F + 0.2F * static_cast<float>(i);
+        scene.add(std::make_unique<Sphere>(glm::vec3(x, -3.0F, 0.0F), 0.09F, k_matte));
+    }
+    return scene;
+}
+
+inline PixelRecord inspected(const Scene& scene, Acceleration kind, const StepOptions& options, int x, int y) {
+    const auto accelerator = make_accelerator(kind, scene.surfaces());
+    return inspect_pixel(scene, *accelerator, kind, options, x, y);
+}
+
+inline StepOptions options_of(int step, int depth = 5) { return {step, View::color, depth}; }
+
+}  // namespace raysteps::testing

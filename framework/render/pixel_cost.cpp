@@ -1,0 +1,35 @@
+#include "render/pixel_cost.hpp"
+
+#include <chrono>
+
+#include "core/stats.hpp"
+
+namespace raysteps {
+
+std::uint64_t cost_of(const PixelCost& pixel, CostKind kind) {
+    switch (kind) {
+        case CostKind::tests:
+            return pixel.surface_tests;
+        case CostKind::boxes:
+            return pixel.box_tests;
+        case CostKind::depth:
+            return pixel.deepest_ray;
+        case CostKind::time:
+            break;
+    }
+    return pixel.nanoseconds;
+}
+
+Color measured_color(StepTracer& tracer, const Ray& ray, PixelCost& cost) {
+    using Clock = std::chrono::steady_clock;
+    const Stats before = thread_stats();
+    const Clock::time_point start = Clock::now();
+    const Color color = tracer.primary_color(ray);
+    const auto spent = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
+    const Stats& after = thread_stats();
+    cost = {after.surface_tests - before.surface_tests, after.box_tests - before.box_tests,
+            static_cast<std::uint64_t>(tracer.deepest_ray()), static_cast<std::uint64_t>(spent.count())};
+    return color;
+}
+
+}  // namespace raysteps

@@ -1,0 +1,68 @@
+#include "view/strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "render/tiny_font.hpp"
+#include "render/work_map.hpp"
+#include "view/exposure.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr Rgb8 k_paper{16, 16, 20};
+constexpr Rgb8 k_ink{230, 230, 230};
+constexpr Rgb8 k_groove{70, 70, 80};
+constexpr Rgb8 k_knob{253, 140, 32};
+constexpr int k_gap = 3;  // lengths in dots of the font
+constexpr int k_slider_height = 8;
+constexpr int k_groove_height = 2;
+constexpr int k_knob_width = 4;
+
+std::string factor_text(float stops) {
+    char text[16];
+    static_cast<void>(std::snprintf(text, sizeof(text), "%.3g", static_cast<double>(exposure_factor(stops))));
+    std::string shown = text;
+    std::replace(shown.begin(), shown.end(), ',', '.');  // some locales
+    return "x" + shown;
+}
+
+}  // namespace
+
+float Slider::place(float x) const { return (x - static_cast<float>(left)) / static_cast<float>(width); }
+
+Slider slider_in(int width) {
+    const int dot = legend_dot(width);
+    const int edge = (k_gap + k_knob_width / 2) * dot;
+    return {edge, (2 * k_gap + k_letter_height) * dot, std::max(1, width - 2 * edge), k_slider_height * dot};
+}
+
+Image status_strip(int width, const std::string& status) {
+    const int dot = legend_dot(width);
+    Image strip(width, legend_height(width));
+    fill(strip, 0, 0, strip.width(), strip.height(), k_paper);
+    draw_text(strip, k_gap * dot, k_gap * dot, status, k_ink, dot);
+    return strip;
+}
+
+Image exposure_strip(int width, const std::string& status, float stops) {
+    const int dot = legend_dot(width);
+    Image strip = status_strip(width, status);
+    const Slider slider = slider_in(width);
+    const int groove_top = slider.top + (slider.height - k_groove_height * dot) / 2;
+    fill(strip, slider.left, groove_top, slider.width, k_groove_height * dot, k_groove);
+    const int middle = slider.left + slider.width / 2;
+    fill(strip, middle, slider.top + dot, dot, slider.height - 2 * dot, k_groove);
+    const int knob = slider.left + static_cast<int>(std::lround(slider_place(stops) * static_cast<float>(slider.width)));
+    fill(strip, knob - k_knob_width * dot / 2, slider.top, k_knob_width * dot, slider.height, k_knob);
+    const int text_top = slider.top + slider.height + k_gap * dot;
+    const std::string factor = factor_text(stops);
+    draw_text(strip, k_gap * dot, text_top, "exposure", k_ink, dot);
+    fill(strip, strip.width() - k_gap * dot - text_width(factor, dot) - dot, text_top, text_width(factor, dot) + dot,
+         k_letter_height * dot, k_paper);
+    draw_text(strip, strip.width() - k_gap * dot - text_width(factor, dot), text_top, factor, k_ink, dot);
+    return strip;
+}
+
+}  // namespace raysteps

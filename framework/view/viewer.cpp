@@ -1,0 +1,206 @@
+#include "view/viewer.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include "io/ppm.hpp"
+#include "render/acceleration_choice.hpp"
+#include "view/content.hpp"
+#include "view/pixel_asker.hpp"
+#include "view/window.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr double k_frame_seconds = 1.0 / 30.0;  // while something is going on
+constexpr double k_idle_seconds = 0.2;
+constexpr std::chrono::milliseconds k_patience{1000};  // with a step that does not end, when the window closes
+
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+}
+
+/// A name in the current folder that is free: three-spheres-1.ppm
+std::filesystem::path free_name(const std::string& scene) {
+    const std::string stem = std::filesystem::path(scene).stem().string();
+    for (int number = 1;; ++number) {
+        std::filesystem::path name = stem + "-" + std::to_string(number) + ".ppm";
+        if (!std::filesystem::exists(name)) {
+            return name;
+        }
+    }
+}
+
+class Viewer {
+public:
+    Viewer(Scene& scene, const ViewerOptions& options)
+        : options_(options),
+          structures_(scene),
+          progressive_(scene, structures_, options.threads),
+          asker_(scene, structures_, options.scene),
+          controls_({scene.camera, options.step, options.acceleration, std::nullopt, 0.0F}),
+          window_(name(), scene.camera.width, content_height(scene.camera), !options.screenshot.empty(), events()) {}
+
+    void run() {
+        progressive_.start(controls_.shot());
+        while (!window_.is_closing() && !done_) {
+            controls_.set_layout(window_.layout());
+            window_.wait(is_idle() ? k_idle_seconds : k_frame_seconds);
+            obey(controls_.take_events());
+            refresh();
+            print_answer();
+        }
+        leave();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    [[nodiscard]] std::string name() const { return std::filesystem::path(options_.scene).filename().string(); }
+
+    WindowEvents events() {
+        return {[this](char character) { controls_.key(character); },
+                [this](const Point& place, Button button, bool shift) { controls_.press(place, button, shift); },
+                [this](const Point& place) { controls_.move(place); },
+                [this](const Point& place) { controls_.release(place); },
+                [this](float notches) { controls_.wheel(notches); }};
+    }
+
+    [[nodiscard]] bool is_idle() const {
+        const Progressed progressed = progressive_.progressed();
+        return progressed.finished && progressed.version == shown_ && !redraw_ && asker_.is_idle();
+    }
+
+    void obey(const Controls::Events& events) {
+        if (events.new_shot) {
+            progressive_.start(controls_.shot());
+        }
+        redraw_ = redraw_ || events.new_look;
+        if (events.click) {
+            asker_.ask(controls_.shot(), *events.click, controls_.camera_moved());
+        }
+        if (events.save) {
+            save();
+        }
+        done_ = done_ || events.quit;
+    }
+
+    /// Shows what is new.
+    void refresh() {
+        const Progressed progressed = progressive_.progressed();
+        redraw_ = window_.take_damage() || redraw_;
+        const Clock::time_point begun = Clock::now();
+        if ((progressed.version == shown_ && !redraw_) || begun < earliest_) {
+            return;
+        }
+        shown_ = progressed.version;
+        redraw_ = false;
+        const std::string status = status_of(progressed);
+        copy_what_is_shown();
+        const Image image = content(frame_, controls_.settings(), status);
+        window_.set_title(name() + ", " + status);
+        if (progressed.finished && !completed_) {
+            completed_ = true;
+            complete(image);
+        } else {
+            window_.show(image);
+        }
+        report(progressed.problem);
+        const Clock::time_point ended = Clock::now();
+        earliest_ = ended + (ended - begun);
+    }
+
+    void report(const std::string& problem) {
+        if (!problem.empty() && !options_.screenshot.empty()) {
+            throw std::runtime_error("this picture cannot be made: " + problem);
+        }
+        if (!problem.empty() && problem != problem_) {
+            std::fprintf(stderr, "view: this picture cannot be made: %s\n", problem.c_str());
+        }
+        problem_ = problem;
+    }
+
+    void copy_what_is_shown() {
+        if (controls_.settings().map) {
+            progressive_.copy_costs(frame_);
+        } else {
+            progressive_.copy_colors(frame_);
+        }
+    }
+
+    [[nodiscard]] std::string status_of(const Progressed& progressed) const {
+        const Shot shot = controls_.shot();
+        const std::string made = progressed.problem.empty()
+                                     ? std::to_string(std::lround(std::floor(100.0 * progressed.share))) + "%"
+                                     : "failed, see the terminal";
+        return "step " + std::to_string(shot.step.step) + "  " + std::string(acceleration_name(shot.acceleration)) +
+               "  " + made;
+    }
+
+    /// Once, when the first picture is complete.
+    void complete(const Image& image) {
+        if (options_.click) {
+            asker_.ask(controls_.shot(), *options_.click, controls_.camera_moved());
+        }
+        if (options_.screenshot.empty()) {
+            window_.show(image);
+            return;
+        }
+        write_ppm(without_strip(window_.show_and_read(image), controls_.settings().camera), options_.screenshot);
+        while (!asker_.idle_within(k_patience)) {
+        }
+        print_answer();
+        done_ = true;
+    }
+
+    void save() {
+        try {
+            const std::filesystem::path path = free_name(options_.scene);
+            copy_what_is_shown();
+            const Image image = content(frame_, controls_.settings(), "");
+            const bool map = controls_.settings().map.has_value();
+            write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
+            say("saved " + path.string() + "\n");
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "view: %s\n", error.what());
+        }
+    }
+
+    void print_answer() {
+        if (const std::optional<std::string> text = asker_.answer()) {
+            say(*text);
+        }
+    }
+
+    void leave() {
+        if (!progressive_.stop(k_patience) || !asker_.idle_within(k_patience)) {
+            std::fputs("view: a step did not come to an end, and was left\n", stderr);
+            std::_Exit(0);  // a thread that hangs cannot be joined
+        }
+    }
+
+    ViewerOptions options_;
+    Structures structures_;
+    Progressive progressive_;
+    PixelAsker asker_;
+    Controls controls_;
+    Window window_;
+    Frame frame_;
+    std::uint64_t shown_ = 0;     ///< version of the picture
+    Clock::time_point earliest_;  ///< of the next look at a large picture, so that hands find time between two
+    std::string problem_;
+    bool redraw_ = true;
+    bool completed_ = false;
+    bool done_ = false;
+};
+
+}  // namespace
+
+void run_viewer(Scene& scene, const ViewerOptions& options) { Viewer(scene, options).run(); }
+
+}  // namespace raysteps

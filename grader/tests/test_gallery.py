@@ -1,0 +1,104 @@
+"""Which scenes the gallery shows, what it makes of a student's steps, and the page that comes out."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import MakeSubmission, Sources
+from rich.console import Console
+
+from raysteps.commands.gallery import command
+from raysteps.commands.gallery.mine import MySteps
+from raysteps.commands.gallery.scenes import CHOSEN, shown_scenes
+from raysteps.commands.gallery.words import about_scene, what_is_new
+from raysteps.common.errors import UsageError
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.programs.rendering import reference_picture
+from raysteps.submission.intake import take_in
+
+_SIZE = "24x16"
+
+
+def _run(project: Project, *words: str) -> int:
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    return command.run(project, parser.parse_args(words), Console(width=150))
+
+
+def test_every_step_has_words_of_its_own(steps: list[Step]) -> None:
+    words = [what_is_new(step) for step in steps]
+    assert len(set(words)) == len(steps)
+    assert all(word != step.title for word, step in zip(words, steps, strict=True))
+
+
+def test_scenes_are_found_by_name_and_by_file(project: Project, tmp_path: Path) -> None:
+    assert [scene.name for scene in shown_scenes(project, [])] == list(CHOSEN)
+    file = tmp_path / "my-own.nff"
+    file.write_text("# A ball in the dark: nothing else.\n# More words.\nv\n")
+    found = shown_scenes(project, ["glass", str(file), "glass"])
+    assert [(scene.name, scene.title) for scene in found] == [("glass", "Glass"), ("my-own", "My own")]
+    assert found[1].words == "A ball in the dark"
+    assert about_scene("empty", tmp_path / "nowhere.nff") == ("Empty", "")
+    with pytest.raises(
+        UsageError, match=r"--scene nowhere: there is no such scene; expected an NFF file or one of .*glass"
+    ):
+        shown_scenes(project, ["nowhere"])
+
+
+@pytest.mark.parametrize("size", ["640", "8x8", "640x9999", "axb"])
+def test_a_size_that_makes_no_sense_is_refused(
+    project: Project, tmp_path: Path, size: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        _run(project, "--out", str(tmp_path), "--size", size)
+    assert ended.value.code == 2
+    assert "expected WxH in pixels" in capsys.readouterr().err
+
+
+def test_a_scene_that_cannot_be_read_is_the_users_mistake(project: Project, kit: BuiltKit, tmp_path: Path) -> None:
+    scene = tmp_path / "bad.nff"
+    scene.write_text("nonsense\n")
+    with pytest.raises(UsageError, match=r"bad\.nff"):
+        _run(project, "--out", str(tmp_path / "out"), "--scene", str(scene), "--size", _SIZE)
+
+
+def test_a_page_is_made_of_the_kits_own_scene(
+    project: Project, kit: BuiltKit, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert _run(project, "--out", str(tmp_path), "--scene", "three-spheres", "--size", _SIZE) == 0
+    page = (tmp_path / "index.html").read_text("utf-8")
+    assert "Three spheres" in page
+    assert page.count("data:image/png") > len(kit.steps)
+    assert "three-spheres: step 09" in capsys.readouterr().err
+
+
+def test_steps_that_cannot_be_shown_are_notes_and_the_others_are_shown(
+    project: Project,
+    kit: BuiltKit,
+    steps: list[Step],
+    solved: Sources,
+    unsolved: Sources,
+    make_submission: MakeSubmission,
+    tmp_path: Path,
+) -> None:
+    camera, intersection, phong, shadows = (step.id for step in steps[:4])
+    sources = {
+        camera: solved[camera],
+        intersection: "int nonsense",
+        phong: unsolved[phong],
+        shadows: solved[shadows],
+    }
+    submission = take_in(make_submission("ann", sources), steps)
+    (scene,) = shown_scenes(project, ["three-spheres"])
+    mine = MySteps(kit, submission, tmp_path / "build", lambda words: None)
+    shots = [mine.shot(step, scene, _SIZE) for step in steps[:5]]
+    assert [shot.pixels is not None for shot in shots] == [True, False, False, True, False]
+    assert shots[1].note.startswith("It does not build: intersection.cpp:1")
+    assert shots[2].note == "Step 03 is not started: phong_shading.cpp is still the stub."
+    assert shots[3].note == "The reference stands in for 02 and 03."
+    expected = reference_picture(kit, scene.path, ("--step", "4", "--size", _SIZE))
+    assert np.array_equal(shots[3].pixels, expected)  # type: ignore[arg-type]
+    assert mine.efforts(scene) == {}

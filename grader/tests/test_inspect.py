@@ -1,0 +1,248 @@
+"""What `inspect` accepts, how it ends, and when two records are the same."""
+
+import argparse
+import copy
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rich.console import Console
+
+from raysteps.cli import main
+from raysteps.commands.inspect.command import add_arguments, compare
+from raysteps.commands.inspect.command import run as start
+from raysteps.commands.inspect.parting import find_parting
+from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
+from raysteps.commands.inspect.values import Record
+from raysteps.common.errors import UsageError
+from raysteps.common.process import run
+from raysteps.common.schemas import complaint, read_schema
+from raysteps.kit.building import release_tree
+from raysteps.kit.manifest import read_steps
+from raysteps.kit.project import Project
+from raysteps.programs.pictures import read_ppm
+
+SIZE = ("--size", "40x30")
+Change = Callable[[Record], None]
+
+
+@pytest.fixture(scope="session")
+def program(project: Project) -> Path:
+    return build_inspect(project, "reference", lambda text: None)
+
+
+@pytest.fixture(scope="session")
+def raytrace(project: Project) -> Path:
+    tree = release_tree(project)
+    with tree.locked():
+        assert tree.build(["raytrace-reference"]).code == 0
+    return tree.program("raytrace-reference")
+
+
+def wish(project: Project, scene: str, x: int, y: int, step: int = 8, *options: str) -> Wish:
+    path = project.scenes / "lessons" / f"{scene}.nff"
+    return Wish(str(path), str(x), str(y), step, (*SIZE, *options))
+
+
+@pytest.fixture(scope="session")
+def record(project: Project, program: Path) -> Record:
+    """A pixel on a mirror, in which another ball is seen."""
+    found = inspect(program, wish(project, "three-spheres", 24, 15)).record
+    assert found is not None
+    return found
+
+
+def script(folder: Path, text: str) -> Path:
+    path = folder / "inspect-mine"
+    path.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+    path.chmod(0o755)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["scene.nff", "1", "2"], "scene.nff: expected a scene, found no file"),
+        (["scene.nff", "one", "2"], "X: expected a pixel, a whole number from 0 on, found 'one'"),
+        (["scene.nff", "1", "-2"], "Y: expected a pixel, a whole number from 0 on, found '-2'"),
+        (["scene.nff", "1", "2", "--step", "10"], "there is no step '10'"),
+        (["scene.nff", "1", "2", "--impl", "reference", "--against", "reference"], "expected your own steps"),
+    ],
+)
+def test_what_cannot_be_inspected_is_said(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", *words]) == 2
+    assert says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ((40, 3), "expected X from 0 to 39 and Y from 0 to 29"),
+        ((3, 3, 8, "--depth", "0"), "--depth: expected a whole number"),
+        ((3, 3, 8, "--accel", "wide"), "expected none, boxes, octree or bvh"),
+    ],
+)
+def test_the_program_refuses_too(project: Project, program: Path, options: tuple[Any, ...], says: str) -> None:
+    with pytest.raises(UsageError, match=says.replace(".", r"\.")):
+        inspect(program, wish(project, "three-spheres", *options))
+
+
+def test_a_scene_that_is_none_is_named(project: Project, program: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "scene.nff"
+    scene.write_text("s 0 0 zero 1\n", encoding="utf-8")
+    with pytest.raises(UsageError, match=r"scene\.nff:1"):
+        inspect(program, Wish(str(scene), "1", "1", 8))
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("kill -SEGV $$", "crashed (SIGSEGV)"),
+        ("sleep 30", "did not come to an end"),
+        ("exit 7", "gave up with exit code 7"),
+        ("exit 0", "left no record"),
+    ],
+)
+def test_how_a_program_of_a_student_may_end(tmp_path: Path, text: str, says: str) -> None:
+    ended = inspect(script(tmp_path, text), Wish("scene.nff", "1", "2", 8), seconds=0.5)
+    assert says in ended.problem
+    assert ended.record is None
+
+
+def test_the_last_step_that_still_works_is_found(tmp_path: Path) -> None:
+    program = script(tmp_path, 'test "$5" -lt 5 || kill -SEGV $$')
+    assert last_good_step(program, Wish("scene.nff", "1", "2", 8)) == 4
+
+
+@pytest.mark.parametrize("scene", ["acne-corner", "cones", "glass", "inside-sphere", "many-spheres", "overexposed"])
+def test_a_pixel_has_the_bytes_and_the_counts_of_the_picture(
+    project: Project, program: Path, raytrace: Path, tmp_path: Path, scene: str
+) -> None:
+    plan = [(1, "none"), (2, "boxes"), (3, "none"), (4, "octree"), (5, "boxes"), (7, "octree"), (8, "none"), (9, "bvh")]
+    schema = read_schema("raysteps.commands", "inspect/inspect.schema.json")
+    for at, (step, accel) in enumerate(plan):
+        x, y = (7 * at + 9) % 40, (11 * at + 13) % 30
+        found = inspect(program, wish(project, scene, x, y, step, "--accel", accel)).record
+        assert found is not None
+        assert at % 3 or complaint(found, schema) == ""
+        words: list[str | Path] = [raytrace, project.scenes / "lessons" / f"{scene}.nff", *SIZE, "--step", str(step)]
+        words += ["--accel", accel, "--crop", f"{x},{y},1,1", "-o", tmp_path / "a.ppm", "--stats", tmp_path / "a.json"]
+        assert run(words, seconds=60).code == 0
+        stats = json.loads((tmp_path / "a.json").read_text())
+        assert found["bytes"] == read_ppm(tmp_path / "a.ppm")[0, 0].tolist()
+        assert found["counts"]["surface_tests"] == stats["surface_tests"]
+        assert found["counts"]["box_tests"] == stats["box_tests"]
+        assert found["rays"] == {kind: stats["rays"][kind] for kind in ("eye", "shadow", "reflect", "refract")}
+
+
+def jitter(value: Any, share: float) -> Any:
+    """All numbers with a fraction, each a little off, now up and now down."""
+    if isinstance(value, dict):
+        return {key: part if key in ("bytes", "fill") else jitter(part, share) for key, part in value.items()}
+    if isinstance(value, list):
+        return [jitter(part, share if at % 2 else -share) for at, part in enumerate(value)]
+    return value * (1 + share) if isinstance(value, float) else value
+
+
+def test_rounding_is_no_difference(record: Record) -> None:
+    assert find_parting(record, record) is None
+    assert find_parting(jitter(record, 3e-6), record) is None
+
+
+def test_other_boxes_and_more_tests_are_no_difference(project: Project, program: Path, record: Record) -> None:
+    for accel in ("none", "boxes", "bvh"):
+        other = inspect(program, wish(project, "three-spheres", 24, 15, 8, "--accel", accel)).record
+        assert other is not None
+        assert other["counts"] != record["counts"]
+        assert find_parting(other, record) is None
+
+
+def _frame(record: Record) -> None:
+    record["frame"]["up"] = [0, 0, 1]
+
+
+def _never_asked(record: Record) -> None:
+    record["rays"]["eye"] = 0
+
+
+def _normal(record: Record) -> None:
+    record["ray"]["hit"]["normal"] = [2 * value for value in record["ray"]["hit"]["normal"]]
+
+
+def _shadow(record: Record) -> None:
+    light = record["ray"]["lights"][1]
+    light["lit"] = not light["lit"]
+    record["ray"]["direct"] = [9, 9, 9]
+
+
+def _sum(record: Record) -> None:
+    record["ray"]["direct"] = [0, 0, 0]
+
+
+def _mirrored(record: Record) -> None:
+    bounce = record["ray"]["bounces"][0]
+    bounce["direction"] = record["ray"]["hit"]["mirrored"] = [0, 1, 0]
+
+
+def _deep(record: Record) -> None:
+    record["ray"]["bounces"][0]["color"] = [0.5, 0.5, 0.5]
+
+
+def _tone(record: Record) -> None:
+    record["mapped"] = [1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("change", "place", "function", "words"),
+    [
+        (_frame, ("frame",), "view_frame", "the camera's axis `up`"),
+        (_never_asked, ("eye", "hit"), "trace", "the eye ray: yours never asks what it meets"),
+        (_normal, ("eye", "normal"), "Sphere::intersect", "the normal is"),
+        (_shadow, ("eye", "light2"), "is_lit", "shadow ray to light 2: yours is"),
+        (_sum, ("eye", "direct"), "shade", "the sum over the lights is (0, 0, 0)"),
+        (_mirrored, ("eye", "reflect", "ray"), "mirror", "the reflected ray, depth 2: yours goes towards (0, 1, 0)"),
+        (_deep, ("eye", "reflect", "color"), "trace", "the reflected ray, depth 2: the colour of the ray is"),
+        (_tone, ("mapped",), "tone_map", "tone mapping"),
+    ],
+)
+def test_the_first_difference_is_named(
+    project: Project, record: Record, change: Change, place: tuple[str, ...], function: str, words: str
+) -> None:
+    mine = copy.deepcopy(record)
+    change(mine)
+    parting = find_parting(mine, record)
+    assert parting is not None
+    assert (parting.place, parting.function) == (place, function)
+    assert words in parting.words
+    for width in (60, 160):
+        console = Console(width=width, record=True, file=io.StringIO())
+        assert compare(project, Inspected(record=mine), Inspected(record=record), console) == 1
+        text = console.export_text()
+        marked = [line for line in text.splitlines() if line.lstrip().startswith(">")]
+        assert len(marked) == (2 if width == 60 else 1)
+        assert f"Look at {function}" in text
+
+
+def test_two_that_agree_are_told_so(project: Project, record: Record) -> None:
+    console = Console(width=160, record=True, file=io.StringIO())
+    assert compare(project, Inspected(record=record), Inspected(record=record), console) == 0
+    assert "No difference" in console.export_text()
+
+
+def test_steps_that_are_not_started_are_told_so_before_anything_is_built(
+    project: Project, unsolved: dict[str, str], tmp_path: Path
+) -> None:
+    steps = read_steps(project)
+    for step in steps:
+        (tmp_path / "steps" / step.path).parent.mkdir(parents=True)
+        (tmp_path / "steps" / step.path).write_text(unsolved[step.id], encoding="utf-8")
+        manifest = (project.steps / step.id / "step.toml").read_text(encoding="utf-8")
+        (tmp_path / "steps" / step.id / "step.toml").write_text(manifest, encoding="utf-8")
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    scene = str(project.scenes / "lessons" / "three-spheres.nff")
+    with pytest.raises(UsageError, match="your steps are not started"):
+        start(Project(tmp_path), parser.parse_args([scene, "1", "2"]), Console(file=io.StringIO()))

@@ -1,0 +1,101 @@
+"""`inspect --against reference` marks the right place for known mistakes, and none for other right solutions."""
+
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from inspect_programs import Workshop, open_workshop
+
+from raysteps.commands.inspect.parting import find_parting
+from raysteps.commands.inspect.programs import Wish, inspect
+from raysteps.common.process import run
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.mistakes.alternatives import read_alternatives
+from raysteps.mistakes.catalogue import read_mutants, reference_source
+from raysteps.programs.pictures import Pixels, read_ppm
+
+_SIZE = ("--size", "64x48")
+# step, mistake, scene; then the line that is marked, and the function that it points to
+_MISTAKES = [
+    ("01", "y-counts-up", "three-spheres", ("eye", "ray"), "primary_ray"),
+    ("02", "radius-not-squared", "three-spheres", ("eye", "hit"), "Sphere::intersect"),
+    ("02", "last-hit", "three-spheres", ("eye", "hit"), "closest_hit"),
+    ("03", "coloured-highlight", "three-spheres", ("eye", "terms1"), "specular"),
+    ("04", "no-threshold", "three-spheres", ("eye", "light1"), "shadow_ray"),
+    ("04", "blocked-from-behind-the-light", "acne-corner", ("eye", "light1"), "is_lit"),
+    ("05", "one-bounce-only", "three-spheres", ("eye", "reflect", "color"), "trace"),
+    ("06", "sphere-by-its-centre", "many-spheres", ("eye", "hit"), "Sphere::overlaps"),
+    ("07", "byte-cut-off", "overexposed", ("bytes",), "to_byte"),
+    ("08", "snell-upside-down", "glass", ("eye", "refract", "ray"), "refract"),
+]
+_ALTERNATIVES = {"02": "three-spheres", "04": "acne-corner", "05": "facing-mirrors", "08": "glass"}
+_PIXELS = [(x, y) for x in (9, 23, 31, 44, 58) for y in (14, 24, 37)]
+
+
+@pytest.fixture(scope="module")
+def workshop(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Workshop:
+    return open_workshop(project, tmp_path_factory.mktemp("inspect"))
+
+
+def _scene(project: Project, name: str) -> str:
+    return str(project.scenes / "lessons" / f"{name}.nff")
+
+
+def _picture(program: Path, scene: str, step: Step, target: Path) -> Pixels:
+    words: list[str | Path] = [program, scene, *_SIZE, "--step", str(step.index), "-o", target, "--quiet"]
+    outcome = run(words, seconds=60)
+    assert outcome.code == 0, outcome.stderr
+    return read_ppm(target)
+
+
+def _worst_pixel(mine: Pixels, reference: Pixels) -> tuple[int, int]:
+    apart = np.abs(mine.astype(int) - reference.astype(int)).sum(axis=2)
+    y, x = np.unravel_index(apart.argmax(), apart.shape)
+    assert apart[y, x] > 0
+    return int(x), int(y)
+
+
+@pytest.mark.slow
+def test_the_place_of_a_mistake_is_marked(project: Project, steps: list[Step], workshop: Workshop) -> None:
+    def marked(case: tuple[str, str, str, tuple[str, ...], str]) -> tuple[object, ...]:
+        number, mistake, lesson, _, _ = case
+        (step,) = (step for step in steps if step.number == number)
+        (mutant,) = (mutant for mutant in read_mutants(project, step) if mutant.id == mistake)
+        name, scene = f"{number}-{mistake}", _scene(project, lesson)
+        built = workshop.compile(step, mutant.applied(reference_source(project, step)), name)
+        pictures = [
+            _picture(program, scene, step, workshop.folder / f"{name}-{at}.ppm")
+            for at, program in enumerate((workshop.link("raytrace", step, built, name), workshop.reference("raytrace")))
+        ]
+        x, y = _worst_pixel(pictures[0], pictures[1])
+        wish = Wish(scene, str(x), str(y), step.index, _SIZE)
+        mine = inspect(workshop.link("inspect", step, built, name), wish).record
+        reference = inspect(workshop.reference("inspect"), wish).record
+        assert mine is not None
+        assert reference is not None
+        assert mine["bytes"] == pictures[0][y, x].tolist()
+        parting = find_parting(mine, reference)
+        assert parting is not None, name
+        return (number, mistake, lesson, parting.place, parting.function)
+
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(marked, _MISTAKES)) == _MISTAKES
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", _ALTERNATIVES)
+def test_another_right_solution_is_no_difference(
+    project: Project, steps: list[Step], workshop: Workshop, number: str
+) -> None:
+    (step,) = (step for step in steps if step.number == number)
+    alternative = read_alternatives(project, step)[0]
+    built = workshop.compile(step, alternative.source, f"right-{number}")
+    program = workshop.link("inspect", step, built, f"right-{number}")
+    for x, y in _PIXELS:
+        wish = Wish(_scene(project, _ALTERNATIVES[number]), str(x), str(y), 8, _SIZE)
+        mine, reference = inspect(program, wish).record, inspect(workshop.reference("inspect"), wish).record
+        assert mine is not None
+        assert reference is not None
+        assert find_parting(mine, reference) is None, (x, y)

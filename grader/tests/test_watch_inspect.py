@@ -1,0 +1,68 @@
+"""The key `i`: into the pixel that is most wrong."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from course_fakes import printed, text
+from watch_fakes import result_of
+
+from raysteps.commands.watch import actions
+from raysteps.commands.watch.actions import Actions
+from raysteps.commands.watch.showing import Showing
+from raysteps.commands.watch.view import View
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+
+_COMMAND = "./raysteps inspect scenes/lessons/three-spheres.nff 5 3 --step 1 --size 160x120 --against reference"
+
+
+class LentKeyboard:
+    """Says when somebody else has the terminal."""
+
+    def __init__(self, log: list[str]) -> None:
+        self._log = log
+
+    @contextmanager
+    def lent(self) -> Iterator[None]:
+        self._log.append("lent")
+        yield
+        self._log.append("back")
+
+
+def _press(project: Project, step: Step, source: str, out: Path, log: list[str]) -> str:
+    """What is printed."""
+    view = View(step, "idle", result=asdict(result_of(step, source, out, full=False)), out=out, complete=True)
+    session: Any = SimpleNamespace(project=project, view=view, showing=Showing(printed()), keyboard=LentKeyboard(log))
+    session.look = session.go_to = session.check = None
+    Actions(session).press("i")
+    return text(session.showing.console)
+
+
+def test_where_nothing_is_wrong(project: Project, steps: list[Step], tmp_path: Path) -> None:
+    assert _press(project, steps[0], "int right;", tmp_path, []).startswith("No picture is wrong")
+
+
+def test_a_kit_without_inspect_says_the_command(
+    project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(actions, "can_inspect", lambda: False)
+    assert _press(project, steps[0], "// wrong", tmp_path, []) == _COMMAND + "\n"
+
+
+def test_it_runs_while_the_keys_rest(
+    project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log: list[str] = []
+
+    def run(_project: Project, words: Sequence[str]) -> None:
+        log.append(" ".join(words))
+
+    monkeypatch.setattr(actions, "can_inspect", lambda: True)
+    monkeypatch.setattr(actions, "run_inspect", run)
+    assert _press(project, steps[0], "// wrong", tmp_path, log) == _COMMAND + "\n"
+    assert log == ["lent", _COMMAND.removeprefix("./raysteps "), "back"]
