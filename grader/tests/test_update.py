@@ -11,6 +11,7 @@ from rich.console import Console
 
 from raysteps.commands import update as command
 from raysteps.common.errors import UsageError
+from raysteps.common.files import write_bytes
 from raysteps.kit.project import Project
 from raysteps.students import updating
 from raysteps.students.listing import PLACE, Listed, Release, encoded, mark, read_release
@@ -112,7 +113,7 @@ def test_a_stub_that_nobody_touched_is_replaced(tmp_path: Path, newer: Path) -> 
 def test_interrupted_at_any_file_and_called_again(
     mine: Path, newer: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real = updating.write_bytes
+    real = write_bytes
     ended = False
     for most in range(12):
         root = tmp_path / f"try{most}"

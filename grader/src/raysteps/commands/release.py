@@ -13,7 +13,7 @@ from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
 from raysteps.release.leaks.finding import Leak, find_leaks
 from raysteps.release.leaks.secrets import gather
-from raysteps.release.making import first_steps, release
+from raysteps.release.making import first_steps, release, usable
 
 _MOST_SHOWN = 20
 
@@ -50,6 +50,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if "\n" in arguments.course or not arguments.course.strip():
         raise UsageError("--course: expected a name of one line")
     out = arguments.out.resolve()
+    usable(out)
     with console.status("starting") as status:
         say = progress(console, status)
         kit = build_kit(project, say)

@@ -25,7 +25,7 @@ _ROOT = {
     "raysteps.py",
 }
 _FOLDERS = {".devcontainer", ".vscode", "cmake", "framework", "scenes"}
-_DOCS = {
+_DOCS = {  # what a student looks up
     "formats.md",
     "inspect.md",
     "maps.md",
@@ -33,7 +33,7 @@ _DOCS = {
     "view.md",
     "watch.md",
     "windows.md",
-}  # what a student looks up
+}
 # The framework's own tests need a reference; the judge's worker, the wide trees and the rays of the SPD answer what
 # steps ask.
 _NOT_FOR_STUDENTS = re.compile(

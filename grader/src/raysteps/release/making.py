@@ -13,7 +13,7 @@ from raysteps.release.contents import kit_contents
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
 from raysteps.release.pages_of_kit import pyproject, readme
-from raysteps.students.listing import PLACE, Listed, Release, encoded, mark, read_release
+from raysteps.students.listing import PLACE, Listed, Owner, Release, encoded, mark, read_release
 
 _EXECUTABLE = {"raysteps"}
 _NOT_OURS = (".git", ".venv", "build")  # may lie in a release that somebody keeps under version control
@@ -45,7 +45,7 @@ def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Releas
     files = []
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         name = path.relative_to(folder).as_posix()
-        owner = "student" if name in own else "kit"
+        owner: Owner = "student" if name in own else "kit"
         files.append(Listed(name, mark(path.read_bytes()), owner, name in _EXECUTABLE))
     return Release(course, kit.fingerprint.split()[0], tuple(step.id for step in steps), tuple(files))
 

@@ -8,12 +8,22 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 
 ENTRIES = ("raysteps.__main__", "raysteps.students_cli")
-# A module that goes to students may import these inside of a function, for the case that the kit has solutions.
+# They know answers, or formulas of the steps. A module that goes to students may import these inside of a function, for
+# the case that the kit has solutions.
 NEVER = (
     "raysteps.classroom",
     "raysteps.cli",
     "raysteps.commands.demo",
+    "raysteps.commands.gallery",
     "raysteps.commands.grade",
+    "raysteps.commands.inspect.blame",
+    "raysteps.commands.inspect.expected",
+    "raysteps.commands.inspect.parting",
+    "raysteps.commands.inspect.parting_hit",
+    "raysteps.commands.inspect.parting_lights",
+    "raysteps.commands.inspect.parting_rays",
+    "raysteps.commands.inspect.side_by_side",
+    "raysteps.commands.inspect.verdict",
     "raysteps.commands.leaderboard",
     "raysteps.commands.release",
     "raysteps.commands.replay",
@@ -56,7 +66,8 @@ def _started(node: ast.AST, package: str) -> Iterator[str]:
     if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.fullmatch(r"\w+\.py", node.value):
         yield f"{package}.{node.value.removesuffix('.py')}"
     if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
-        yield from (f"{package}.{word.value}" for word in node.args if isinstance(word, ast.Constant))
+        words = [word.value for word in node.args if isinstance(word, ast.Constant)]
+        yield from (f"{package}.{word}" for word in words if isinstance(word, str))
 
 
 def _imports(path: Path, package: str) -> Iterator[tuple[str, bool]]:

@@ -1,11 +1,10 @@
 """A newer release to take files from: a folder or a zip, perhaps with one outer folder."""
 
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
 
 from raysteps.common.errors import UsageError
 from raysteps.students.listing import PLACE, Listed, Release, mark, parse
@@ -14,18 +13,12 @@ _MOST_BYTES = 256 << 20  # of one file
 _EXPECTED = "expected a release of the kit: a folder or a zip with .raysteps/release.json in it"
 
 
-class Reader(Protocol):
-    """Gives the bytes of a file of the release."""
-
-    def __call__(self, path: str) -> bytes: ...
-
-
 @dataclass(frozen=True)
 class Source:
     """The list of the files, and the files."""
 
     release: Release
-    read: Reader
+    read: Callable[[str], bytes]
 
     def data(self, file: Listed) -> bytes:
         """Checked: half a download must not become half a kit."""

@@ -10,11 +10,8 @@ from rich.markup import escape
 
 from raysteps.commands.inspect.html import write_page
 from raysteps.commands.inspect.pair import Difference
-from raysteps.commands.inspect.parting import find_parting
 from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
-from raysteps.commands.inspect.side_by_side import print_trees
 from raysteps.commands.inspect.values import Record
-from raysteps.commands.inspect.verdict import print_verdict
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.formats import encoded, write_out
@@ -141,6 +138,11 @@ def _write_html(
 
 def compare(project: Project, mine: Inspected, reference: Inspected, console: Console, html: Path | None = None) -> int:
     """Both trees, and the first place where they part."""
+    # What knows the formulas of the steps is not for students.
+    from raysteps.commands.inspect.parting import find_parting
+    from raysteps.commands.inspect.side_by_side import print_trees
+    from raysteps.commands.inspect.verdict import print_verdict
+
     assert mine.record is not None
     if reference.record is None:
         raise UsageError(f"the reference's program {reference.problem}")
