@@ -17,9 +17,9 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
         raysteps_add_test(test-reference-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects>)
         raysteps_add_test(test-isolated-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${number})
         add_test(NAME test-isolated-${number} COMMAND test-isolated-${number})
-    else()  # between the student's own steps; later ones are stubs, so that they break nothing here
-        raysteps_add_test(test-mine-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${up_to})
-        add_test(NAME test-mine-${number} COMMAND test-mine-${number})
+    else()  # among the student's own steps; later ones are stubs, so that they break nothing here
+        raysteps_add_test(test-isolated-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${up_to})
+        add_test(NAME test-isolated-${number} COMMAND test-isolated-${number})
     endif()
 endforeach()
 if(NOT RAYSTEPS_MODEL STREQUAL "reference")

@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-import shlex
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from raysteps.commands.check import clear
 from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.files import one_at_a_time
+from raysteps.common.systems import own_command, typed
 from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
 from raysteps.kit.kit_building import build_kit
@@ -39,7 +39,8 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
 
     def again(case: str) -> str:
-        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+        words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
+        return f"{own_command()} {typed(words)}"
 
     sandbox = find_sandbox(require=wish.require_sandbox)
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()

@@ -37,6 +37,11 @@ class Description:
     worker: list[Path]  # nothing in a students' kit
     absent: list[Path]  # stand-ins for steps that the kit does not have
     tests: dict[str, list[Path]]
+    driver: str = "gnu"  # or "msvc": whose words the compiler takes
+
+    @property
+    def is_msvc(self) -> bool:
+        return self.driver == "msvc"
 
     @property
     def more_includes(self) -> list[Path]:
@@ -72,6 +77,7 @@ def read_description(path: Path) -> Description:
             worker=_paths(table["worker"]),
             absent=_paths(table["absent"]),
             tests={number: _paths(objects) for number, objects in table["tests"].items()},
+            driver=str(table.get("driver", "gnu")),
         )
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise GraderFault(f"{path}: not what CMake writes for the grader: {error}") from error

@@ -32,7 +32,7 @@ _DOCS = {  # what a student looks up
     "pages.md",
     "view.md",
     "watch.md",
-    "windows.md",
+    "where-students-work.md",
 }
 # The framework's own tests need a reference; the judge's worker, the wide trees and the rays of the SPD answer what
 # steps ask.
@@ -88,4 +88,7 @@ def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dic
         stub = pristine_stub(project, step).encode()
         files[f"steps/{step.path.as_posix()}"] = files[f"grader/stubs/{step.path.as_posix()}"] = stub
     files |= absent_files(project, absent)
+    workflow = project.root / "course" / "github-workflow.yml"
+    if workflow.is_file():
+        files[".github/workflows/check.yml"] = _readable(workflow)
     return files | _overlay(Path(__file__).parent / "overlay")

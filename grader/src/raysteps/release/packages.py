@@ -7,7 +7,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 
-ENTRIES = ("raysteps.__main__", "raysteps.students_cli")
+ENTRIES = ("raysteps.__main__", "raysteps.setting_up.command", "raysteps.students_cli")
 # They know answers, or formulas of the steps. A module that goes to students may import these inside of a function, for
 # the case that the kit has solutions.
 NEVER = (

@@ -47,8 +47,8 @@ def diffuse(hit: Record, light: Record, source: Record) -> list[float]:
 def _power(base: float, exponent: float) -> float:
     """As std::pow: a cosine of a normal that is too long may have no end when it is raised to a shine."""
     try:
-        return base**exponent
-    except OverflowError:
+        return math.pow(base, exponent)
+    except (OverflowError, ValueError):
         return math.inf
 
 
