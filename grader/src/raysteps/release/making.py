@@ -12,10 +12,11 @@ from raysteps.kit.manifest import Step
 from raysteps.release.contents import kit_contents
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
-from raysteps.release.pages_of_kit import pyproject, readme
+from raysteps.release.pages_of_kit import pyproject, readme, tasks
 from raysteps.students.listing import PLACE, Listed, Owner, Release, encoded, mark, read_release
 
 _EXECUTABLE = {"raysteps"}
+_TASKS = ".vscode/tasks.json"
 _NOT_OURS = (".git", ".venv", "build")  # may lie in a release that somebody keeps under version control
 
 Leaks = Callable[[Path], bool]
@@ -56,6 +57,8 @@ def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -
     files = kit_contents(kit.project, steps, absent)
     files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)
+    if _TASKS in files:
+        files[_TASKS] = tasks(files[_TASKS])
     add_pictures(files, kit.project.root)
     unlink_missing(files)
     for name, data in files.items():

@@ -1,4 +1,4 @@
-"""The text files that a students' kit has of its own: README.md and the package's pyproject.toml."""
+"""The text files that a students' kit has of its own: README.md, the package's pyproject.toml and an editor's tasks."""
 
 import json
 import tomllib
@@ -28,6 +28,13 @@ def readme(course: str, steps: list[Step]) -> bytes:
     for name, text in words.items():
         template = template.replace(f"@{name}@", text)
     return template.encode()
+
+
+def tasks(text: bytes) -> bytes:
+    """Of an editor; without the task that tests the whole kit."""
+    table = json.loads(text)
+    table["tasks"] = [task for task in table["tasks"] if task.get("args") != ["test"]]
+    return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 
 def pyproject(text: str) -> bytes:
