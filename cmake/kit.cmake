@@ -38,9 +38,9 @@ set(tests_json "")
 foreach(step IN LISTS RAYSTEPS_STEPS)
     raysteps_split_step(${step} number name)
     if(RAYSTEPS_SEAL)
-        set(object "${PROJECT_BINARY_DIR}/steps/${number}-reference.o")
+        set(object "${PROJECT_BINARY_DIR}/steps/${number}-${RAYSTEPS_MODEL}.o")
     else()
-        set(object "$<TARGET_OBJECTS:step-${number}-reference-raw>")
+        set(object "$<TARGET_OBJECTS:step-${number}-${RAYSTEPS_MODEL}-raw>")
     endif()
     list(APPEND steps_json "\"${number}\": \"${object}\"")
     list(APPEND tests_json "\"${number}\": [\"$<JOIN:$<TARGET_OBJECTS:test-${number}-objects>,\", \">\"]")
@@ -59,6 +59,14 @@ endif()
 set(wide "")
 if(TARGET raysteps-wide)
     set(wide "\"$<TARGET_OBJECTS:raysteps-wide-offer>\", \"$<TARGET_FILE:raysteps-wide>\", \"$<TARGET_FILE:hwy::hwy>\"")
+endif()
+set(worker "")
+if(TARGET worker-app)
+    set(worker "\"$<JOIN:$<TARGET_OBJECTS:worker-app>,\", \">\"")
+endif()
+set(absent "")
+if(TARGET raysteps-absent)
+    set(absent "\"$<JOIN:$<TARGET_OBJECTS:raysteps-absent>,\", \">\"")
 endif()
 set(driver gnu)  # whose words the compiler takes
 if(MSVC)
@@ -89,7 +97,8 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
   \"catch2\": [${catch2}],
   \"raytrace\": [\"$<JOIN:$<TARGET_OBJECTS:raytrace-app>,\", \">\"],
   \"wide\": [${wide}],
-  \"worker\": [\"$<JOIN:$<TARGET_OBJECTS:worker-app>,\", \">\"],
+  \"worker\": [${worker}],
+  \"absent\": [${absent}],
   \"tests\": {
     ${tests_json}
   }
@@ -98,14 +107,19 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
 
 # All that kit.json names.
 add_custom_target(kit)
-add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app worker-app)
+add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app)
+foreach(part worker-app raysteps-absent)
+    if(TARGET ${part})
+        add_dependencies(kit ${part})
+    endif()
+endforeach()
 if(TARGET raysteps-wide)
     add_dependencies(kit raysteps-wide raysteps-wide-offer)
 endif()
 foreach(step IN LISTS RAYSTEPS_STEPS)
     raysteps_split_step(${step} number name)
-    add_dependencies(kit step-${number}-reference-raw test-${number}-objects)
+    add_dependencies(kit step-${number}-${RAYSTEPS_MODEL}-raw test-${number}-objects)
     if(RAYSTEPS_SEAL)
-        add_dependencies(kit step-${number}-reference)
+        add_dependencies(kit step-${number}-${RAYSTEPS_MODEL})
     endif()
 endforeach()

@@ -1,5 +1,9 @@
 # raytrace, linked with every choice of steps that a student or the grader needs.
-add_library(raytrace-app OBJECT apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp)
+set(sources apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp)
+if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/spd_report.cpp")  # a students' kit does without
+    list(APPEND sources apps/spd_report.cpp)
+endif()
+add_library(raytrace-app OBJECT ${sources})
 target_link_libraries(raytrace-app PRIVATE raysteps-flags raysteps-strict)
 
 # name, then the numbers of the steps that are mine
@@ -15,8 +19,10 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
     list(APPEND numbers ${number})
 endforeach()
 raysteps_add_raytrace(raytrace-mine ${numbers})
-raysteps_add_raytrace(raytrace-reference)
-raysteps_link_wide(raytrace-reference)
+if(RAYSTEPS_MODEL STREQUAL "reference")
+    raysteps_add_raytrace(raytrace-reference)
+    raysteps_link_wide(raytrace-reference)
+endif()
 
 # inspect, the life of one pixel.
 add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp)
@@ -29,7 +35,9 @@ function(raysteps_add_inspect name)
 endfunction()
 
 raysteps_add_inspect(inspect-mine ${numbers})
-raysteps_add_inspect(inspect-reference)
+if(RAYSTEPS_MODEL STREQUAL "reference")
+    raysteps_add_inspect(inspect-reference)
+endif()
 
 # view, a window on a scene.
 if(RAYSTEPS_WINDOW)
@@ -46,12 +54,16 @@ if(RAYSTEPS_WINDOW)
     endfunction()
 
     raysteps_add_view(view-mine ${numbers})
-    raysteps_add_view(view-reference)
+    if(RAYSTEPS_MODEL STREQUAL "reference")
+        raysteps_add_view(view-reference)
+    endif()
 endif()
 
 # worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
-add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
-            apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp
-            apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_trees.cpp apps/worker_values.cpp
-            apps/worker_words.cpp)
-target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
+if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/worker.cpp")  # a students' kit has no judge
+    add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
+                apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp
+                apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_trees.cpp apps/worker_values.cpp
+                apps/worker_words.cpp)
+    target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
+endif()

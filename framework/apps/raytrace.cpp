@@ -4,7 +4,6 @@
 
 #include "apps/options.hpp"
 #include "apps/run_program.hpp"
-#include "apps/spd_report.hpp"
 #include "apps/stats_json.hpp"
 #include "core/threads.hpp"
 #include "io/arguments.hpp"
@@ -14,8 +13,14 @@
 #include "io/terminal.hpp"
 #include "io/write_file.hpp"
 #include "render/acceleration_choice.hpp"
-#include "render/spd.hpp"
 #include "render/work_map.hpp"
+#if __has_include("render/spd.hpp")
+#include "apps/spd_report.hpp"
+#include "render/spd.hpp"
+#define RAYSTEPS_SPD 1
+#else
+#define RAYSTEPS_SPD 0  // a students' kit: the rays of the SPD are made much as those of step 01
+#endif
 
 namespace {
 
@@ -33,11 +38,17 @@ void check_crop(const Rect& crop, const Camera& camera) {
     }
 }
 
+#if RAYSTEPS_SPD
 void print_spd_counts(const Scene& scene, const RaytraceOptions& options) {
     const auto accelerator = make_accelerator(acceleration_of(options), scene.surfaces());
     const Stats stats = count_spd_rays(scene, *accelerator, default_threads());
     std::fputs(spd_report(display_name(path_of(options.scene).stem()), stats).c_str(), stdout);
 }
+#else
+void print_spd_counts(const Scene&, const RaytraceOptions&) {
+    throw UsageError("--spd: expected the whole kit; a students' kit does not count by the rules of the SPD");
+}
+#endif
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
     RenderOptions render_options{{options.step, options.view, options.depth},

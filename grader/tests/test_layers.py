@@ -83,7 +83,7 @@ def test_steps_know_core_and_earlier_contracts(project: Project, room: str) -> N
 
 _PACKAGES = (
     "setting_up", "common", "pages", "kit", "sandbox", "submission", "results", "programs", "judge", "mistakes",
-    "diagnosis", "grading", "reports", "classroom", "exports", "commands", "upkeep",
+    "diagnosis", "grading", "reports", "classroom", "exports", "students", "release", "commands", "upkeep",
 )  # fmt: skip
 _IMPORT = re.compile(r"^\s*(?:from|import) raysteps\.(\w+)", re.MULTILINE)
 

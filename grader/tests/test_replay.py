@@ -10,12 +10,12 @@ from conftest import MakeSubmission, Sources
 from rich.console import Console
 
 from raysteps import cli
-from raysteps.commands.check_and_grade import clear
+from raysteps.commands.check import clear
 from raysteps.commands.replay import replay
 from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
-from raysteps.judge.case_files import CaseFile, place_of, read_case, write_case
+from raysteps.judge.case_files import CaseFile, read_case, write_case
 from raysteps.judge.feedback import Feedback
 from raysteps.judge.functions import Case
 from raysteps.judge.generators import functions_of
@@ -26,6 +26,7 @@ from raysteps.judge.tokens import Garbled
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
+from raysteps.results.case_places import place_of
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.submission.intake import take_in
 

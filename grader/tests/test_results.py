@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.commands.check_and_grade import exit_code
+from raysteps.commands.check import exit_code
 from raysteps.common.errors import GraderFault
 from raysteps.results.document import validate, write_document
 from raysteps.results.model import ImageResult, Results, StepResult, TestResult

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.commands.check_and_grade import clear
+from raysteps.commands.check import clear
 from raysteps.commands.demo import complain_about
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder

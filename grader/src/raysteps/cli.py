@@ -1,27 +1,26 @@
 """The commands of ./raysteps."""
 
 import argparse
-import os
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
 
 from raysteps.classroom import command as classroom
-from raysteps.commands import report_page
-from raysteps.commands.check_and_grade import Wish, check, exit_code, grade
+from raysteps.commands import release, report_page
+from raysteps.commands.check import check, exit_code
 from raysteps.commands.course import command as course
 from raysteps.commands.demo import demo
+from raysteps.commands.ending import EXITS, console_here, ended
 from raysteps.commands.gallery import command as gallery
+from raysteps.commands.grade import Wish, grade
 from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
 from raysteps.commands.render import render
 from raysteps.commands.replay import replay
 from raysteps.commands.view import view
 from raysteps.commands.watch import command as watch
-from raysteps.common.errors import RaystepsError
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
 from raysteps.kit.manifest import choose, read_steps
@@ -31,10 +30,6 @@ from raysteps.upkeep import dev
 from raysteps.upkeep.bench import command as bench
 from raysteps.upkeep.figures import command as figures
 from raysteps.upkeep.selftest import selftest
-
-_NO_TERMINAL = 10_000  # columns
-_EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
-130 interrupted"""
 
 
 def _above_0(word: str) -> int:
@@ -47,7 +42,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="raysteps",
         description="A ray tracer in nine graded steps.",
-        epilog=_EXITS,
+        epilog=EXITS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
@@ -86,6 +81,7 @@ def _parser() -> argparse.ArgumentParser:
     report_page.add_arguments(commands.add_parser("report", help="make report.html of results that are there already"))
     classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
     leaderboard.add_arguments(commands.add_parser("leaderboard", help="rank submissions by counted work"))
+    release.add_arguments(commands.add_parser("release", help="make the repository that students get"))
     exports.add_arguments(commands.add_parser("export", help="for Gradescope, Classroom 50, Canvas and others"))
 
     add = commands.add_parser("demo", help="one picture per step, and two sample submissions graded")
@@ -130,6 +126,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return classroom.run(project, arguments, console)
         case "leaderboard":
             return leaderboard.run(project, arguments, console)
+        case "release":
+            return release.run(project, arguments, console)
         case "export":
             return exports.run(project, arguments, console)
         case "demo":
@@ -146,34 +144,14 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return dev.run(project, arguments, console)
 
 
-def _console() -> Console:
-    """As wide as the terminal; where there is none, lines are not broken."""
-    return Console() if sys.stdout.isatty() else Console(width=_NO_TERMINAL)
-
-
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code."""
-    words = list(sys.argv[1:] if argv is None else argv)
-    parser = _parser()
-    if not words:
-        parser.print_help(sys.stderr)
-        return 2
-    console = _console()
-    try:
+
+    def run(words: Sequence[str]) -> int:
         if words[0] == "render":
-            return render(here(), words[1:])
+            return render(here(), list(words[1:]))
         if words[0] == "view":
-            return view(here(), words[1:])
-        return _run(parser.parse_args(words), console)
-    except RaystepsError as error:
-        print(f"raysteps: {error}", file=sys.stderr)
-        return error.exit_code
-    except KeyboardInterrupt:
-        print("raysteps: interrupted", file=sys.stderr)
-        return 130
-    except Exception:
-        if os.environ.get("RAYSTEPS_DEBUG"):
-            raise
-        Console(stderr=True).print_exception(max_frames=4)
-        print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
-        return 4
+            return view(here(), list(words[1:]))
+        return _run(_parser().parse_args(words), console_here())
+
+    return ended(run, _parser(), argv)

@@ -11,12 +11,12 @@ from typing import Any
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.spreadsheet import Cell, csv_bytes
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
-from raysteps.judge.case_files import FOLDER as CASES
 from raysteps.judge.feedback import withhold
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import here
 from raysteps.reports import class_report
 from raysteps.reports.student import REPORT, try_student_page
+from raysteps.results.case_places import FOLDER as CASES
 
 SUBMISSIONS = "submissions"
 _TABLES = ("results.csv", "class.json")

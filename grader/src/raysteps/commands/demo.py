@@ -6,7 +6,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.commands.check_and_grade import Wish, grade
+from raysteps.commands.grade import Wish, grade
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import usable_folder
 from raysteps.common.process import run

@@ -12,7 +12,7 @@ from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
-from raysteps.kit.project import Project
+from raysteps.kit.project import Project, here
 from raysteps.programs.pictures import PictureError, read_ppm, write_png
 
 
@@ -30,6 +30,8 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
             rest.append(word)
     if impl not in ("mine", "reference"):
         raise UsageError(f"--impl: expected mine or reference, found '{impl}'")
+    if impl == "reference" and not here().has_reference:
+        raise UsageError("--impl reference: a students' kit has none; pictures made with it lie in reference/")
     return impl, rest
 
 

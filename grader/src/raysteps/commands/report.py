@@ -15,6 +15,8 @@ from raysteps.results.work import Work
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
+_TOGETHER = "together: the step's first picture with your own steps before it, as far as they are right"
+_VISIBLE = "tests and pictures with your own steps before each; your course may test hidden inputs, too"
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 
 
@@ -126,14 +128,15 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
             console.print(f"  together  {escape(result.cumulative.message)}")
 
 
-def print_table(console: Console, results: Results) -> None:
-    """One row per step and the total."""
+def print_table(console: Console, results: Results, *, visible_only: bool = False) -> None:
+    """One row per step and the total. `visible_only`: there is no judge, as in a students' kit."""
     table = Table(title=escape(results.submission), title_justify="left")
-    for heading in ("step", "status", "points", "tests", "pictures", "hidden", "together"):
+    headings = ["step", "status", "visible points" if visible_only else "points", "tests", "pictures"]
+    for heading in headings if visible_only else [*headings, "hidden", "together"]:
         table.add_column(heading)
     for result in results.steps:
         ran = bool(result.tests or result.images)
-        table.add_row(
+        row = [
             result.id,
             _status(result),
             _points(result),
@@ -141,14 +144,14 @@ def print_table(console: Console, results: Results) -> None:
             f"{sum(image.passed for image in result.images)}/{len(result.images)}" if ran else "",
             f"{sum(item.passed for item in result.hidden)}/{len(result.hidden)}" if result.hidden else "",
             "yes" if result.cumulative.passed else "no",
-        )
+        ]
+        table.add_row(*row[: len(table.columns)])
     console.print(table)
-    console.print(
-        "together: the step's first picture with your own steps before it, as far as they are right", style="dim"
-    )
+    console.print(_VISIBLE if visible_only else _TOGETHER, style="dim", soft_wrap=True)
     total = results.to_json()["total"]
     bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
-    console.print(f"{number(total['points'])} points of {number(total['max'])}{bonus}")
+    kind = "points of the visible part, of" if visible_only else "points of"
+    console.print(f"{number(total['points'])} {kind} {number(total['max'])}{bonus}")
 
 
 def print_isolation(console: Console, results: Results) -> None:

@@ -6,7 +6,6 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.classroom.page import class_source, remake_class_page
 from raysteps.commands.report import short_path
 from raysteps.common.errors import UsageError
 from raysteps.exports.reading import read_results
@@ -36,10 +35,18 @@ def _student_page(project: Project, place: Path) -> Path:
         raise UsageError(f"{path.parent}: the report cannot be written there: {error.strerror or error}") from error
 
 
+def _class_page(place: Path) -> Path | None:
+    """None where no class was graded."""
+    from raysteps.classroom.page import class_source, remake_class_page  # students have none
+
+    source = class_source(place)
+    return remake_class_page(source) if source is not None else None
+
+
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Writes report.html beside the results of a submission, class.html beside those of a class."""
     place: Path = arguments.place
-    source = class_source(place)
-    page = remake_class_page(source) if source is not None else _student_page(project, place)
+    page = _class_page(place) if project.has_reference else None
+    page = page or _student_page(project, place)
     console.print(f"Report: {escape(short_path(page.resolve()))}", soft_wrap=True, highlight=False)
     return 0

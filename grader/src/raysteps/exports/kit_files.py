@@ -39,7 +39,7 @@ def _belongs(place: PurePosixPath) -> bool:
     return not any(part in _TOOLS or part.startswith(".") or part.endswith(_TOOL_ENDINGS) for part in parts)
 
 
-def _from_git(root: Path) -> list[PurePosixPath] | None:
+def tracked_places(root: Path) -> list[PurePosixPath] | None:
     """What git tracks, and new files that it does not ignore; None where there is no git."""
     if not (root / ".git").exists():
         return None
@@ -64,7 +64,7 @@ def _from_folders(root: Path) -> Iterator[PurePosixPath]:
 def kit_files(project: Project) -> list[KitFile]:
     """Sorted by place; links are not followed."""
     root = project.root
-    places = _from_git(root)
+    places = tracked_places(root)
     if places is None:
         places = list(_from_folders(root))
     found = [KitFile(place, root / place) for place in sorted(set(places)) if _belongs(place)]

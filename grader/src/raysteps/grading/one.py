@@ -7,14 +7,15 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.grading.grader import StepGrader, Work
+from raysteps.grading.compiling import compile_steps
+from raysteps.grading.grader import JudgedGrader
 from raysteps.grading.scoring import is_right
 from raysteps.grading.settings import Settings
+from raysteps.grading.step_grader import StepGrader, Work
 from raysteps.judge.feedback import withhold
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.programs.limits import limits_of
-from raysteps.programs.student_build import Compiled, StudentBuild
 from raysteps.results.document import write_document
 from raysteps.results.model import Results, StepResult, Timing
 from raysteps.sandbox.counting import Counted
@@ -24,19 +25,6 @@ from raysteps.submission.intake import Submission
 
 def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
-
-
-def _compile(work: Work, chosen: list[Step], pool: ThreadPoolExecutor) -> dict[str, Compiled]:
-    """Each chosen step that was started."""
-    sources = {step: work.source(step) for step in chosen}
-    started = [(step, source) for step, source in sources.items() if source is not None]
-
-    def compile_one(item: tuple[Step, str]) -> Compiled:
-        step, source = item
-        build = StudentBuild(work.kit, work.sandbox, work.folder)
-        return build.compile(step, source.encode(), limits_of(step, work.settings.limits))
-
-    return {step.id: compiled for (step, _), compiled in zip(started, pool.map(compile_one, started), strict=True)}
 
 
 def grade_one(
@@ -51,17 +39,19 @@ def grade_one(
     start = time.monotonic()
     counted = Counted(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = Work(kit, submission, settings, counted, Path(folder), out, say)
+        work = Work(kit, submission, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
         with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
             say("building the steps")
-            compiled = _compile(work, chosen, pool)
+            compiled = compile_steps(work, chosen, pool, settings.limits)
 
             def grade(grader: StepGrader) -> StepResult:
                 say(f"checking {grader.step.id}")
                 return grader.grade()
 
-            graders = [StepGrader(work, step, limits_of(step, settings.limits), compiled) for step in chosen]
+            graders = [
+                JudgedGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
+            ]
             right = {result.id for result in pool.map(grade, graders) if is_right(result)}
             steps = list(pool.map(lambda grader: grader.finish(right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))

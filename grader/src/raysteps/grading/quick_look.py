@@ -2,11 +2,15 @@
 
 import tempfile
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.text import listed
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
+from raysteps.grading.compiling import compile_steps
+from raysteps.grading.own_grader import own_steps
+from raysteps.grading.step_grader import Work
 from raysteps.grading.visible_images import Gallery, judge
 from raysteps.grading.visible_tests import run_tests
 from raysteps.kit.built_kit import BuiltKit, Kind
@@ -18,13 +22,15 @@ from raysteps.programs.rendering import reference_picture
 from raysteps.programs.student_build import Program, StudentBuild
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.task import Sandbox
+from raysteps.submission.intake import take_in
 
 Tell = Callable[[StepResult], None]
 
 
 @dataclass(frozen=True)
 class QuickLook:
-    """One step between steps of the reference, without the judge. `tell` hears of each part when it is done."""
+    """One step between steps of the reference, in a students' kit between the student's own; without the judge. `tell`
+    hears of each part when it is done."""
 
     kit: BuiltKit
     step: Step
@@ -46,7 +52,7 @@ class QuickLook:
             result.build_log = build_log(compiled.ran)
             if compiled.binary is None:
                 return _does_not_build(result, why_not_built(self.kit, self.step, compiled, source))
-            return self._run(build, compiled.binary, result)
+            return self._run(build, compiled.binary, result, Path(folder))
 
     def _not_started(self, result: StepResult) -> StepResult:
         """The reference's pictures are shown all the same: that is where it goes."""
@@ -60,11 +66,21 @@ class QuickLook:
             result.images.append(image)
         return result
 
-    def _run(self, build: StudentBuild, binary: Path, result: StepResult) -> StepResult:
+    def _around(self, binary: Path, folder: Path) -> list[Path]:
+        """In a students' kit the student's own steps stand before this one."""
+        if self.kit.has_reference:
+            return [binary]
+        work = Work(self.kit, take_in(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out)
+        with ThreadPoolExecutor() as pool:
+            earlier = [step for step in self.kit.steps if step.index < self.step.index]
+            return [*own_steps(work, self.step, compile_steps(work, earlier, pool, {})), binary]
+
+    def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path) -> StepResult:
         limits = limits_of(self.step, {})
+        binaries, alone = self._around(binary, folder), self.kit.has_reference
 
         def program(kind: Kind) -> Program | None:
-            found, ran = build.program(kind, self.step, [binary], limits)
+            found, ran = build.program(kind, self.step, binaries, limits, together=not alone)
             if found is None and ran is not None:
                 result.build_log = (result.build_log + "\n" + build_log(ran)).strip()
                 _does_not_build(result, link_message(ran))

@@ -1,7 +1,6 @@
 """A single case in a file, to be asked again: cases/NN-function.json beside results.json."""
 
 import json
-import re
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -10,8 +9,8 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import printable
+from raysteps.results.case_places import FOLDER
 
-FOLDER = "cases"
 SCHEMA = "raysteps/case/v1"
 _LARGEST = 1 << 20  # bytes
 
@@ -29,12 +28,6 @@ class CaseFile:
     given: str
     expected: str
     actual: str
-
-
-def place_of(number: str, function: str) -> str:
-    """Below the folder of results.json: one file for each function of a step."""
-    name = re.sub(r"[^a-z0-9]+", "-", function.lower()).strip("-")
-    return f"{FOLDER}/{number}-{name}.json"
 
 
 def write_case(path: Path, case: CaseFile) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import shorten
-from raysteps.judge.case_files import CaseFile, place_of, write_case
+from raysteps.judge.case_files import CaseFile, write_case
 from raysteps.judge.choices import Choice, Recorder
 from raysteps.judge.functions import Group, seed_of
 from raysteps.judge.generators import functions_of
@@ -14,6 +14,7 @@ from raysteps.judge.patience import Patience
 from raysteps.judge.shrinking import Shrinker
 from raysteps.judge.worker_client import Ask
 from raysteps.kit.manifest import Step
+from raysteps.results.case_places import place_of
 
 LONGEST = 2000  # characters of an input or an answer in words
 _PATIENCE = 8.0  # seconds that a student's worker runs for the examples of a step

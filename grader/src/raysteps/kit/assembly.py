@@ -6,6 +6,7 @@ from pathlib import Path
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.systems import executable
 from raysteps.kit.description import Description
+from raysteps.kit.given_tests import Tests, read_given_tests
 from raysteps.kit.linking import (
     dynamic_list,
     interpreter_of,
@@ -41,6 +42,7 @@ class Assembly:
         self._core = self._copy(description.libraries["core"])
         self._others = [self._copy(description.libraries[name]) for name in ("testing", "render", "io")]
         self._others += description.catch2
+        self._others += [self._copy(path) for path in description.absent]
 
     def run(self) -> None:
         """Everything, in order."""
@@ -54,6 +56,13 @@ class Assembly:
         for step in self._steps:
             self._add_step(step)
         self._write_known()
+        tests = self._add_programs() if self._project.has_reference else self._add_own_programs()
+        tools = self._description.seal
+        loader = None if tools is None else interpreter_of(tools.readelf, next((self._folder / "bin").iterdir()))
+        write_json(self._folder / "facts.json", {"interpreter": loader, "tests": tests})
+
+    def _add_programs(self) -> Tests:
+        """Around each step by itself, and around all up to one."""
         raytrace = [self._copy(path) for path in self._description.raytrace]
         worker = [self._copy(path) for path in self._description.worker]
         more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
@@ -61,7 +70,7 @@ class Assembly:
             self._link_reference(kind, [*objects, *more] if kind == "raytrace" else objects)
             for step in self._steps:
                 self._add_program(f"{kind}-isolated-{step.number}", objects, [step])
-        tests: dict[str, dict[str, list[str]]] = {}
+        tests: Tests = {}
         for at, step in enumerate(self._steps, start=1):
             self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
             objects = [self._copy(path) for path in self._description.tests[step.number]]
@@ -69,9 +78,16 @@ class Assembly:
             self._add_program(f"test-isolated-{step.number}", objects, [step])
             cases = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
             tests[step.id] = {name: sorted(tags) for name, tags in cases.items()}
-        tools = self._description.seal
-        loader = None if tools is None else interpreter_of(tools.readelf, self._folder / "bin" / "raytrace")
-        write_json(self._folder / "facts.json", {"interpreter": loader, "tests": tests})
+        return tests
+
+    def _add_own_programs(self) -> Tests:
+        """In a students' kit: all steps up to one are the student's, and those after it are stubs."""
+        raytrace = [self._copy(path) for path in self._description.raytrace]
+        for at, step in enumerate(self._steps, start=1):
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
+            objects = [self._copy(path) for path in self._description.tests[step.number]]
+            self._add_program(f"test-cumulative-{step.number}", objects, self._steps[:at])
+        return read_given_tests(self._project)
 
     def _write_known(self) -> None:
         """Every name that the kit defines, to tell what is not for a step from what is nowhere."""

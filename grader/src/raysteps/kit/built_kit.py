@@ -40,6 +40,11 @@ class BuiltKit:
         return self.folder / "pictures"
 
     @property
+    def has_reference(self) -> bool:
+        """In a students' kit stubs stand where the reference's steps would."""
+        return self.project.has_reference
+
+    @property
     def answers(self) -> Path:
         """Answers of the reference to the judge, kept from run to run."""
         return self.folder / "answers"

@@ -34,7 +34,8 @@ class Description:
     catch2: list[Path]
     raytrace: list[Path]
     wide: list[Path]  # what the reference's raytrace is linked with beside that; nothing where Highway is missing
-    worker: list[Path]
+    worker: list[Path]  # nothing in a students' kit
+    absent: list[Path]  # stand-ins for steps that the kit does not have
     tests: dict[str, list[Path]]
     driver: str = "gnu"  # or "msvc": whose words the compiler takes
 
@@ -74,6 +75,7 @@ def read_description(path: Path) -> Description:
             raytrace=_paths(table["raytrace"]),
             wide=_paths(table["wide"]),
             worker=_paths(table["worker"]),
+            absent=_paths(table["absent"]),
             tests={number: _paths(objects) for number, objects in table["tests"].items()},
             driver=str(table.get("driver", "gnu")),
         )

@@ -15,7 +15,9 @@ _SOURCES = {
     "scenes": r".*\.(nff|py)",
     "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml)",
     "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
-    "grader/src": r"raysteps/(?!(commands|exports|pages|reports|setting_up|upkeep)/).*\.(py|json)",
+    "grader/stubs": r".*\.cpp",
+    "reference": r".*\.(png|json)",
+    "grader/src": r"raysteps/(?!(commands|exports|pages|release|reports|setting_up|students|upkeep)/).*\.(py|json)",
 }
 
 

@@ -27,7 +27,7 @@ def build_kit(project: Project, say: Say = lambda text: None) -> BuiltKit:
         mark = fingerprint(project)
         folder = project.build / "kit" / mark
         if not (folder / "kit.json").is_file():
-            say("building the framework, the references and the tests")
+            say(f"building the framework{', the references' if project.has_reference else ''} and the tests")
             _build(project, steps, folder)
         if fingerprint(project) == mark:
             os.utime(folder)

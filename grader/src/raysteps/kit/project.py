@@ -32,6 +32,16 @@ class Project:
         return self.root / "grader" / "stubs"
 
     @property
+    def given(self) -> Path:
+        """In a students' kit: the reference's pictures, and the names of its tests."""
+        return self.root / "reference"
+
+    @property
+    def has_reference(self) -> bool:
+        """A students' kit has no solutions."""
+        return self.solutions.is_dir()
+
+    @property
     def build(self) -> Path:
         return self.root / "build"
 

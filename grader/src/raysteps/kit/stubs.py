@@ -35,6 +35,31 @@ def _stub_lines(region: _Region, step: Step, where: str) -> list[str]:
     return lines
 
 
+@dataclass(frozen=True)
+class MarkedRegion:
+    """What students write themselves: a function, or without a name a helper of the solution."""
+
+    name: str | None
+    line: int
+    body: list[str]
+
+
+def solution_regions(solution: str) -> list[MarkedRegion]:
+    """The marked regions, without what the stub is made of."""
+    found: list[MarkedRegion] = []
+    region: MarkedRegion | None = None
+    for number, line in enumerate(solution.splitlines(), start=1):
+        begin = _BEGIN.match(line)
+        if begin is not None:
+            region = MarkedRegion(begin.group(2), number, [])
+            found.append(region)
+        elif _END.match(line):
+            region = None
+        elif region is not None and not _MARKER.match(line):
+            region.body.append(line)
+    return found
+
+
 def make_stub(solution: str, step: Step) -> str:
     """The student's starting point: every named region becomes a TODO, unnamed regions vanish."""
     where = f"solutions/{step.path.as_posix()}"

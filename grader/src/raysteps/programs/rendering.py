@@ -12,6 +12,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import run
 from raysteps.kit.built_kit import BuiltKit
+from raysteps.programs.given_pictures import given_picture, given_work
 from raysteps.programs.pictures import PictureError, Pixels, parse_ppm, read_ppm
 from raysteps.programs.student_build import Program
 from raysteps.results.work import Work, read_work
@@ -68,7 +69,9 @@ def _stats_beside(picture: Path) -> Path:
 
 
 def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
-    """Rendered at the first call; a reference that cannot is the kit's fault."""
+    """Rendered at the first call; a reference that cannot is the kit's fault. A students' kit has it ready."""
+    if not kit.has_reference:
+        return given_picture(kit, scene, args)
     path = _kept(kit, scene, args)
     if _stats_beside(path).is_file():
         with contextlib.suppress(PictureError):
@@ -90,6 +93,8 @@ def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixe
 
 def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
     """What the same picture costs the reference."""
+    if not kit.has_reference:
+        return given_work(kit, scene, args)
     reference_picture(kit, scene, args)
     path = _stats_beside(_kept(kit, scene, args))
     work = read_work(path.read_bytes())

@@ -6,6 +6,7 @@ from typing import Any
 from raysteps.common import systems
 from raysteps.common.systems import own_command
 from raysteps.kit.manifest import ImageCase, Step
+from raysteps.kit.project import Project, here
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
@@ -13,6 +14,11 @@ _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arg
 def check_command(step_id: str) -> str:
     """Checks one's own step."""
     return f"{own_command()} check {step_id[:2]}"
+
+
+def beside_reference(project: Project) -> tuple[str, ...]:
+    """The words that show a pixel's record beside the reference's, where there is one."""
+    return ("--against", "reference") if project.has_reference else ()
 
 
 def replay_command(case: str) -> str:
@@ -29,7 +35,7 @@ def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
     """After `./raysteps`: looks into a pixel of a picture."""
     pairs = zip(case.args[::2], case.args[1::2], strict=False)
     options = [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
-    return ["inspect", case.scene, str(x), str(y), *options, "--against", "reference"]
+    return ["inspect", case.scene, str(x), str(y), *options, *beside_reference(here())]
 
 
 def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:

@@ -45,7 +45,8 @@ class Room:
         if subprocess.run(words, check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
             raise CannotSetUp(f"{self.folder} cannot be made; the lines above say why")
         install = [str(self.python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e"]
-        wanted = f"{self._root / 'grader'}[dev]"
+        tests = (self._root / "grader" / "tests").is_dir()  # a students' kit has none
+        wanted = f"{self._root / 'grader'}{'[dev]' if tests else ''}"
         if subprocess.run([*install, wanted], check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
             raise CannotSetUp("the Python packages could not be installed; is there a network connection?")
         self._stamp.write_text(self._fingerprint(), encoding="utf-8")

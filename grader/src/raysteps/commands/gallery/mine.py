@@ -9,8 +9,7 @@ from raysteps.commands.gallery.scenes import Shown
 from raysteps.commands.gallery.shots import TREES, Effort, Shot, picture_args
 from raysteps.common.text import listed, shorten
 from raysteps.grading.build_messages import link_message, why_not_built
-from raysteps.grading.grader import Work
-from raysteps.grading.settings import Settings
+from raysteps.grading.step_grader import Work
 from raysteps.grading.visible_images import trouble
 from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.manifest import Step
@@ -33,7 +32,7 @@ class MySteps:
         self._kit = kit
         self._sandbox = OpenAir()
         self._build = StudentBuild(kit, self._sandbox, folder)
-        work = Work(kit, submission, Settings(), self._sandbox, folder, folder)
+        work = Work(kit, submission, self._sandbox, folder, folder)
         self._limits: dict[str, StepLimits] = {}
         self._binaries: dict[str, Path] = {}
         self._notes: dict[str, str] = {}

@@ -10,11 +10,8 @@ from rich.markup import escape
 
 from raysteps.commands.inspect.html import write_page
 from raysteps.commands.inspect.pair import Difference
-from raysteps.commands.inspect.parting import find_parting
 from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
-from raysteps.commands.inspect.side_by_side import print_trees
 from raysteps.commands.inspect.values import Record
-from raysteps.commands.inspect.verdict import print_verdict
 from raysteps.commands.render import build_program
 from raysteps.commands.unfinished import unfinished
 from raysteps.common.errors import UsageError
@@ -24,13 +21,15 @@ from raysteps.kit.building import release_tree
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project
 
+_MOST_SHOWN = 8  # step 09 draws the same picture
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which pixel of which picture, and whose steps."""
     parser.add_argument("scene", metavar="SCENE", help="such as scenes/lessons/three-spheres.nff")
     parser.add_argument("x", metavar="X", help="pixels from the left, from 0")
     parser.add_argument("y", metavar="Y", help="pixels from the top, from 0")
-    parser.add_argument("--step", default="8", metavar="N", help="with what the course has after step N, 1 to 9 (8)")
+    parser.add_argument("--step", metavar="N", help="with what the course has after step N (8, or the kit's last step)")
     parser.add_argument("--size", metavar="WxH", help="pixels of the picture (the scene's own)")
     parser.add_argument("--depth", metavar="D", help="longest chain of rays, the eye ray included (5)")
     parser.add_argument("--view", choices=["color", "normals"], help="what step 2 shows (color)")
@@ -51,7 +50,8 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
     for name, text in (("X", arguments.x), ("Y", arguments.y)):
         if not re.fullmatch(r"[0-9]{1,5}", text):
             raise UsageError(f"{name}: expected a pixel, a whole number from 0 on, found '{text}'")
-    (step,) = choose(read_steps(project), [arguments.step])
+    steps = read_steps(project)
+    (step,) = choose(steps, [arguments.step or str(min(_MOST_SHOWN, steps[-1].index))])
     options = [
         word
         for name in ("size", "depth", "view", "accel")
@@ -88,6 +88,8 @@ def _write_json(arguments: argparse.Namespace, inspected: Inspected, console: Co
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when the pixel could be followed and, where two are compared, they agree."""
     wish = _wish(project, arguments)
+    if (arguments.against or arguments.impl == "reference") and not project.has_reference:
+        raise UsageError("a students' kit has no reference to inspect; pictures made with it lie in reference/")
     if arguments.against and arguments.impl == "reference":
         raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
     if not Path(arguments.scene).is_file():
@@ -125,6 +127,11 @@ def _write_html(
 
 def compare(project: Project, mine: Inspected, reference: Inspected, console: Console, html: Path | None = None) -> int:
     """Both trees, and the first place where they part."""
+    # What knows the formulas of the steps is not for students.
+    from raysteps.commands.inspect.parting import find_parting
+    from raysteps.commands.inspect.side_by_side import print_trees
+    from raysteps.commands.inspect.verdict import print_verdict
+
     assert mine.record is not None
     if reference.record is None:
         raise UsageError(f"the reference's program {reference.problem}")

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from raysteps.commands.check_and_grade import check_steps
+from raysteps.commands.check import check_steps
 from raysteps.commands.course.standing import own_source
 from raysteps.common.errors import RaystepsError
 from raysteps.grading.quick_look import QuickLook

@@ -1,0 +1,91 @@
+"""Checks steps in a students' kit: visible tests and pictures, with the student's own steps before each."""
+
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.text import listed
+from raysteps.grading.compiling import compile_steps
+from raysteps.grading.own_grader import OwnGrader
+from raysteps.grading.scoring import is_right
+from raysteps.grading.step_grader import Work
+from raysteps.kit.built_kit import BuiltKit, Say
+from raysteps.kit.manifest import Step
+from raysteps.programs.given_pictures import given_path
+from raysteps.programs.limits import limits_of
+from raysteps.results.document import write_document
+from raysteps.results.model import Results, StepResult, Timing
+from raysteps.sandbox.counting import Counted
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.intake import Submission
+
+_TROUBLE = {
+    "not-started": "is not started: its stub does nothing, and that shows here too",
+    "does-not-build": "does not build: its stub stands in for it here, and that shows",
+}
+
+
+def blame(work: Work, step: Step, found: Mapping[str, StepResult]) -> list[str]:
+    """Earlier steps that are not right, and the pictures to compare with."""
+    wrong = [other for other in work.kit.steps if other.index < step.index and not is_right(found[other.id])]
+    if not wrong:
+        return []
+    first, *others = wrong
+    lines = [
+        f"Step {first.number} {_TROUBLE.get(found[first.id].status, 'is not right yet: its mistakes show here too')}."
+    ]
+    if others:
+        named = listed([other.number for other in others])
+        lines.append(f"Not right either, perhaps only because of it: {named}. Mend {first.number} first.")
+    root = work.kit.project.root
+    pictures = [given_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
+    lines.append(f"Compare with the reference's picture{'s' if len(pictures) > 1 else ''}: {listed(pictures)}.")
+    return lines
+
+
+def _check(work: Work, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]) -> dict[str, StepResult]:
+    """The chosen steps; the others only where something is wrong that they may have caused, and out of sight."""
+    found: dict[str, StepResult] = {}
+    with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
+        work.say("building the steps")
+        compiled = compile_steps(work, list(steps), pool, {})
+
+        def check(step: Step) -> StepResult:
+            shown = step in chosen
+            if shown:
+                work.say(f"checking {step.id}")
+            here = work if shown else replace(work, out=work.folder / "unseen")
+            return OwnGrader(here, step, limits_of(step, {}), compiled).check()
+
+        found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))
+        wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
+        rest = [step for step in steps if step.id not in found and any(step.index < other.index for other in wrong)]
+        found.update(zip([step.id for step in rest], pool.map(check, rest), strict=True))
+    for step in wrong:
+        found[step.id].messages[:0] = blame(work, step, found)
+    return found
+
+
+def check_own(
+    kit: BuiltKit, submission: Submission, chosen: list[Step], jobs: int, sandbox: Sandbox, out: Path, say: Say
+) -> Results:
+    """Writes out/results.json and out/pictures/. Points are those of the visible part."""
+    start = time.monotonic()
+    counted = Counted(sandbox)
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        work = Work(kit, submission, counted, Path(folder), out, say)
+        steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
+        found = _check(work, steps, jobs, chosen)
+    timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+    results = Results(
+        submission.name, [found[step.id] for step in chosen], 0, kit.fingerprint, counted.isolation, timing
+    )
+    try:
+        write_document(results.to_json(), out)
+    except OSError as error:
+        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+    return results

@@ -1,0 +1,1 @@
+"""Makes the repository that students get."""

@@ -1,0 +1,1 @@
+"""Looks for solutions where none may be."""

@@ -1,0 +1,146 @@
+"""What students get works by itself, in a folder of its own."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.process import Outcome, run
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.release.making import first_steps, release, usable, write_release
+from raysteps.release.packages import needed_modules
+
+_LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
+
+
+@pytest.fixture(scope="module")
+def released(kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("course") / "kit"
+    write_release(kit, first_steps("1-4", steps), "Graphics 101", folder)
+    return folder
+
+
+def _raysteps(root: Path, *words: str) -> Outcome:
+    """With the modules of the kit in that folder and no others."""
+    start = f"import sys; sys.path[0] = {str(root / 'grader' / 'src')!r}; sys.argv = ['raysteps', *{list(words)!r}]"
+    program = f"{start}; import runpy; runpy.run_module('raysteps', run_name='__main__', alter_sys=False)"
+    return run([sys.executable, "-c", program], seconds=900, cwd=root)
+
+
+def _solve(root: Path, steps: list[Step], solved: dict[str, str]) -> None:
+    for step in steps[:4]:
+        (root / "steps" / step.path).write_text(solved[step.id], encoding="utf-8")
+
+
+def test_only_the_chosen_steps_are_there(released: Path) -> None:
+    assert len(list(released.glob("steps/*/step.toml"))) == 4
+    assert sorted(path.name for path in (released / "framework/absent/steps").iterdir())[0] == "05-reflection"
+    assert not (released / "solutions").exists()
+    assert not list(released.rglob("mutants*"))
+    assert not list((released / "framework").rglob("*_test.cpp"))
+    assert "Graphics 101" in (released / "README.md").read_text(encoding="utf-8")
+    assert os.access(released / "raysteps", os.X_OK)
+
+
+def test_no_module_is_missing_and_none_knows_answers(released: Path) -> None:
+    source = released / "grader" / "src"
+    names = [".".join(path.relative_to(source).with_suffix("").parts) for path in sorted(source.rglob("*.py"))]
+    names = [
+        name.removesuffix(".__init__") for name in names if not name.endswith(("__main__", "keeper", "windows_keys"))
+    ]
+    assert "raysteps.grading.own" in names
+    knowing = {"judge", "mistakes", "diagnosis", "expected", "blame", "cli"}
+    assert not [name for name in names if knowing.intersection(name.split("."))]
+    code = f"import sys, importlib; sys.path[0] = {str(source)!r}\nfor name in {names!r}: importlib.import_module(name)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=released)
+    assert done.returncode == 0, done.stderr
+
+
+def test_no_link_leads_nowhere(released: Path) -> None:
+    pages = list(released.rglob("*.md"))
+    assert len(pages) > 4
+    for page in pages:
+        for link in _LINK.findall(page.read_text(encoding="utf-8")):
+            assert ":" in link or (page.parent / link).exists(), f"{page}: {link}"
+
+
+def test_a_module_for_students_that_needs_answers_is_found(tmp_path: Path) -> None:
+    room = tmp_path / "raysteps"
+    for name in ("", "judge", "commands"):
+        (room / name).mkdir(exist_ok=True)
+        (room / name / "__init__.py").write_text("")
+    (room / "judge" / "plan.py").write_text("")
+    (room / "students_cli.py").write_text("def later() -> None:\n    from raysteps.judge import plan\n")
+    assert [path.name for path in needed_modules(tmp_path)] == ["__init__.py", "students_cli.py"]
+    (room / "students_cli.py").write_text("from raysteps.judge import plan\n")
+    with pytest.raises(GraderFault, match="which students do not get"):
+        needed_modules(tmp_path)
+
+
+def test_the_steps_of_a_release_begin_at_the_first(steps: list[Step]) -> None:
+    assert [step.number for step in first_steps("1-3", steps)] == ["01", "02", "03"]
+    assert first_steps(None, steps) == steps
+    for text in ("2-4", "1-99", "x", "1-", "3-1"):
+        with pytest.raises(UsageError, match="--steps"):
+            first_steps(text, steps)
+
+
+def test_nothing_but_a_release_is_replaced(released: Path, tmp_path: Path) -> None:
+    (tmp_path / "thesis.txt").write_text("mine")
+    with pytest.raises(UsageError, match="is not empty"):
+        usable(tmp_path)
+    usable(released)
+    (released / "syllabus.md").write_text("mine")
+    with pytest.raises(UsageError, match=r"syllabus\.md: is not of the release"):
+        usable(released)
+    (released / "syllabus.md").unlink()
+
+
+def test_what_leaks_is_not_written(kit: BuiltKit, steps: list[Step], tmp_path: Path) -> None:
+    assert not release(kit, steps[:1], "Course", tmp_path / "kit", lambda folder: True, lambda text: None)
+    assert not list(tmp_path.iterdir())
+
+
+def _results(root: Path) -> dict[str, Any]:
+    document = json.loads((root / "build/check/results.json").read_text(encoding="utf-8"))
+    return {step["id"]: step for step in document["steps"]}
+
+
+@pytest.mark.slow
+def test_it_builds_and_checks_itself(released: Path, steps: list[Step], solved: dict[str, str]) -> None:
+    """One build. A broken step 02 shows in step 03, and is named there."""
+    _solve(released, steps, solved)
+    intersection = released / "steps" / steps[1].path
+    intersection.write_text(solved[steps[1].id].replace("return closest;", "return std::nullopt;"), encoding="utf-8")
+
+    said = _raysteps(released, "check", "03")
+    assert said.code == 1, said.stderr
+    assert "Step 02 is not right yet: its mistakes show here too." in said.stdout
+    assert "reference/03-phong-shading/balls-lit.png" in said.stdout
+    assert "points of the visible part" in said.stdout
+    phong = _results(released)["03-phong-shading"]
+    assert all(test["passed"] for test in phong["tests"])
+    assert not any(image["passed"] for image in phong["images"])
+    assert phong["max"] < steps[2].points
+
+    _solve(released, steps, solved)
+    assert _raysteps(released, "check").code == 0
+    assert {step["status"] for step in _results(released).values()} == {"passed"}
+
+    shadows = released / "steps" / steps[3].path
+    shadows.write_text("this is no C++", encoding="utf-8")
+    assert _raysteps(released, "check", "04").code == 3
+    assert _raysteps(released, "check", "03").code == 0, "a later step that does not build breaks nothing before it"
+
+    reset = _raysteps(released, "reset", "04", "--yes")
+    assert reset.code == 0, reset.stderr
+    assert shadows.read_bytes() == (released / "grader/stubs" / steps[3].path).read_bytes()
+    assert "Hint" in _raysteps(released, "hint", "2").stdout.title()
+    assert "students' kit" in _raysteps(released, "render", "x.nff", "-o", "x.png", "--impl", "reference").stderr
