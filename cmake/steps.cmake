@@ -4,9 +4,12 @@
 # sealed: only the functions that the reference of the same step offers stay visible. So helpers of the same name
 # in two of a student's files do not collide, and no step can replace a function of the framework or of another
 # step. Where the tools for that are missing (macOS, Windows, sanitizers) objects are linked as they are.
-set(RAYSTEPS_STEPS
-    01-camera-rays 02-intersection 03-phong-shading 04-shadows 05-reflection 06-octree 07-tone-mapping 08-refraction
-    09-bvh)
+
+# The steps are the folders of steps/ that hold a manifest, in the order of their numbers.
+file(GLOB RAYSTEPS_STEPS CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/steps"
+     "${PROJECT_SOURCE_DIR}/steps/[0-9][0-9]-*/step.toml")
+list(TRANSFORM RAYSTEPS_STEPS REPLACE "/step.toml$" "")
+list(SORT RAYSTEPS_STEPS)
 
 set(RAYSTEPS_SEAL OFF)
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT RAYSTEPS_SANITIZE AND CMAKE_LINKER AND CMAKE_OBJCOPY AND CMAKE_NM)

@@ -14,7 +14,7 @@ const char* const k_inspect_usage = R"(Usage: inspect SCENE.nff X Y [options]
 Prints the life of one pixel: its rays, the boxes and surfaces that they were tested against, and the light.
 X and Y count pixels from the top left corner, from 0.
 
-  --step N                with what the course has after step N, 1 to 9 (8)
+  --step N                with what the course has after step N, from 1 on (8)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels of the picture; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)

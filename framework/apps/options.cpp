@@ -12,7 +12,7 @@ namespace raysteps {
 const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [options]
 
   -o FILE                 the picture, as binary PPM
-  --step N                render with what the course has after step N, 1 to 9 (8)
+  --step N                render with what the course has after step N, from 1 on (8)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
@@ -36,6 +36,8 @@ const char* const k_raytrace_usage = R"(Usage: raytrace SCENE.nff -o OUT.ppm [op
 )";
 
 namespace {
+
+constexpr int k_last_step = RAYSTEPS_LAST_STEP;  // CMake knows the steps
 
 [[noreturn]] void complain(const std::string& option, const std::string& expected, const std::string& found) {
     throw UsageError(option + ": expected " + expected + ", found '" + found + "'");
@@ -122,7 +124,7 @@ const std::map<std::string, Setter>& options_with_value() {
     static const std::map<std::string, Setter> setters{
         {"-o", [](auto& o, const auto& text) { o.output = text; }},
         {"--stats", [](auto& o, const auto& text) { o.stats = text; }},
-        {"--step", [](auto& o, const auto& text) { o.step = number_between("--step", text, 1, 9); }},
+        {"--step", [](auto& o, const auto& text) { o.step = number_between("--step", text, 1, k_last_step); }},
         {"--depth", [](auto& o, const auto& text) { o.depth = number_between("--depth", text, 1, 1000); }},
         {"--threads", [](auto& o, const auto& text) { o.threads = number_between("--threads", text, 1, 1024); }},
         {"--view", [](auto& o, const auto& text) { o.view = parse_view(text); }},

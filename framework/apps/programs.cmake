@@ -1,5 +1,6 @@
 # raytrace, linked with every choice of steps that a student or the grader needs.
-add_library(raytrace-app OBJECT apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp)
+add_library(raytrace-app OBJECT apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp
+            ${RAYSTEPS_OWN_PICTURES})
 target_link_libraries(raytrace-app PRIVATE raysteps-flags raysteps-strict)
 
 # name, then the numbers of the steps that are mine
@@ -19,7 +20,7 @@ raysteps_add_raytrace(raytrace-reference)
 raysteps_link_wide(raytrace-reference)
 
 # inspect, the life of one pixel.
-add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp)
+add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp ${RAYSTEPS_OWN_PICTURES})
 target_link_libraries(inspect-app PRIVATE raysteps-flags raysteps-strict)
 
 function(raysteps_add_inspect name)
@@ -34,7 +35,8 @@ raysteps_add_inspect(inspect-reference)
 # view, a window on a scene.
 if(RAYSTEPS_WINDOW)
     file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")
-    add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources})
+    add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources}
+                ${RAYSTEPS_OWN_PICTURES})
     target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)
     target_compile_definitions(view-app PRIVATE GL_SILENCE_DEPRECATION)  # a Mac calls all of OpenGL deprecated
 
@@ -53,5 +55,5 @@ endif()
 add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
             apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp
             apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_trees.cpp apps/worker_values.cpp
-            apps/worker_words.cpp)
+            apps/worker_words.cpp ${RAYSTEPS_OWN_WORKERS})
 target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)

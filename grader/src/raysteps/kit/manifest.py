@@ -40,6 +40,7 @@ class Step:
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
+    left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
     def number(self) -> str:
@@ -98,6 +99,7 @@ def read_step(path: Path) -> Step:
             more_limits=tuple(
                 (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
             ),
+            left_out=bool(table.get("left_out", False)),
         )
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error
@@ -109,12 +111,25 @@ def read_step(path: Path) -> Step:
     return step
 
 
-def read_steps(project: Project) -> list[Step]:
-    """All steps, in order."""
+def read_all_steps(project: Project) -> list[Step]:
+    """All steps that are built, in order."""
     paths = sorted(project.steps.glob("[0-9][0-9]-*/step.toml"))
     if not paths:
         raise GraderFault(f"{project.steps} holds no step.toml")
-    return [read_step(path) for path in paths]
+    steps = [read_step(path) for path in paths]
+    numbers = [step.number for step in steps]
+    twice = next((step for step in steps if numbers.count(step.number) > 1), None)
+    if twice is not None:
+        raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
+    return steps
+
+
+def read_steps(project: Project) -> list[Step]:
+    """The steps of the course, in order: all but those that are left out."""
+    steps = [step for step in read_all_steps(project) if not step.left_out]
+    if not steps:
+        raise GraderFault(f"{project.steps}: every step.toml says `left_out = true`; a course needs a step")
+    return steps
 
 
 def choose(steps: list[Step], names: list[str]) -> list[Step]:
