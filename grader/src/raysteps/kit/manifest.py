@@ -40,6 +40,7 @@ class Step:
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
+    about: str = ""  # one or two sentences for the gallery
     left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
@@ -99,6 +100,7 @@ def read_step(path: Path) -> Step:
             more_limits=tuple(
                 (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
             ),
+            about=" ".join(str(table.get("about", "")).split()),
             left_out=bool(table.get("left_out", False)),
         )
     except (OSError, KeyError, TypeError, ValueError) as error:
