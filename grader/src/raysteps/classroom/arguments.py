@@ -25,7 +25,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
     add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
     add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
-    add("--late-policy", metavar="TOML", help="deadline, grace, percent per day, extensions; or `none` (that of course.toml)")
+    add(
+        "--late-policy",
+        metavar="TOML",
+        help="deadline, grace, percent per day, extensions; or `none`",
+    )
     add("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
     add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
     add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")

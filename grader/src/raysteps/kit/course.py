@@ -51,6 +51,6 @@ def read_course(project: Project) -> Course:
         raise UsageError(f"{path}: cannot be read as TOML: {error}") from error
     problem = complaint(table, read_schema("raysteps.kit", "course.schema.json"))
     if problem:
-        raise UsageError(f"{path}: {problem}; expected `seed = N` and `late_policy = \"FILE\"`, or one of them")
+        raise UsageError(f'{path}: {problem}; expected `seed = N` and `late_policy = "FILE"`, or one of them')
     policy = table.get("late_policy")
     return Course(path, table.get("seed"), None if policy is None else path.parent / policy)
