@@ -110,6 +110,14 @@ def test_a_step_that_is_left_out_is_built_and_not_part_of_the_course(copy: Proje
     assert len(read_all_steps(copy)) == 9
 
 
+def test_a_picture_that_cmake_would_not_find_is_refused(copy: Project) -> None:
+    _new(copy, "10-fog")
+    _change(copy, "10-fog", 'picture = "', "picture='")
+    _change(copy, "10-fog", 'fog_picture"', "fog_picture'")
+    with pytest.raises(GraderFault, match='expected a line like `picture = "fog_picture"`'):
+        read_steps(copy)
+
+
 def test_two_steps_with_one_number_are_the_kits_fault(copy: Project) -> None:
     shutil.copytree(copy.steps / "09-bvh", copy.steps / "09-fog")
     _change(copy, "09-fog", 'id = "09-bvh"', 'id = "09-fog"')

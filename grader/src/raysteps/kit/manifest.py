@@ -80,7 +80,8 @@ def _image(table: dict[str, Any]) -> ImageCase:
 def read_step(path: Path) -> Step:
     """Reads one manifest; a bad one is the kit's fault."""
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        table = tomllib.loads(text)
         weights = table["weights"]
         step = Step(
             id=str(table["id"]),
@@ -107,6 +108,8 @@ def read_step(path: Path) -> Step:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
+    if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
+        raise GraderFault(f'{path}: CMake reads this, too; expected a line like `picture = "fog_picture"`')
     weights_sum = step.weight_tests + step.weight_images + step.weight_hidden + step.weight_together
     if abs(weights_sum - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
         raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
