@@ -30,6 +30,7 @@ from raysteps.kit.project import Project, here
 from raysteps.programs.limits import parse_limits
 from raysteps.upkeep import dev
 from raysteps.upkeep.bench import command as bench
+from raysteps.upkeep.figures import command as figures
 from raysteps.upkeep.selftest import selftest
 
 _NO_TERMINAL = 10_000  # columns
@@ -94,6 +95,7 @@ def _parser() -> argparse.ArgumentParser:
     gallery.add_arguments(commands.add_parser("gallery", help="a page that walks through the steps in pictures"))
 
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
+    figures.add_arguments(commands.add_parser("figures", help="make the figures of the handouts"))
 
     add = commands.add_parser("test", help="test the kit itself")
     add.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
@@ -138,6 +140,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return gallery.run(project, arguments, console)
         case "bench":
             return bench.run(project, arguments, console)
+        case "figures":
+            return figures.run(project, arguments, console)
         case "test":
             return selftest(project, console, full=arguments.full)
         case _:

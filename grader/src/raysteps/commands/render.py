@@ -1,13 +1,14 @@
 """The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
 
 import re
-import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from raysteps.commands.unfinished import advice
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
@@ -33,7 +34,9 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
 
 
 def _first_error(output: str) -> str:
-    found = re.search(r"^.*(?:error: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M)
+    found = re.search(
+        r"^.*(?:error: |error [A-Z]+[0-9]+: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M
+    )
     return shorten(printable(found.group()), 300) if found else "see above"
 
 
@@ -64,15 +67,26 @@ def build_reference(tree: BuildTree, target: str) -> Path:
     return tree.program(target)
 
 
+def build_program(tree: BuildTree, name: str, impl: str) -> Path:
+    """NAME-mine or NAME-reference."""
+    return (build_mine if impl == "mine" else build_reference)(tree, f"{name}-{impl}")
+
+
 def run_raytrace(program: Path, args: list[str]) -> None:
     """Runs the program on this terminal, so that its progress bar shows."""
     code = subprocess.run([program, *args], check=False).returncode
-    if code < 0:
-        name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
+    name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_name
+    if name is not None:
         print(f"raysteps: {program.name} crashed ({name}) while it rendered", file=sys.stderr)
         raise SystemExit(1)
     if code != 0:
         raise SystemExit(code)
+
+
+def _wanted_step(args: list[str]) -> int:
+    """Of the picture; raytrace itself complains about what is no step."""
+    word = args[args.index("--step") + 1] if "--step" in args[:-1] else "8"
+    return int(word) if re.fullmatch("[0-9]{1,2}", word) else 0
 
 
 def render(project: Project, args: list[str]) -> int:
@@ -84,6 +98,9 @@ def render(project: Project, args: list[str]) -> int:
     program = (
         build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
     )
+    said = advice(project, _wanted_step(args)) if impl == "mine" and at < len(args) else ""
+    if said:
+        print(f"raysteps: {said}", file=sys.stderr)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
         run_raytrace(program, args)
         return 0

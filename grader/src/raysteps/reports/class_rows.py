@@ -1,24 +1,18 @@
 """The table of a class: what each row shows, and what it is sorted and found by."""
 
 import hashlib
+import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from raysteps.common.text import number, printable
+from raysteps.reports.words import STATUS_WORDS
 
 Document = Mapping[str, Any]
 Link = Callable[[str], str | None]
 
-STATUSES = {
-    "passed": "passed",
-    "partial": "partly right",
-    "failed": "wrong",
-    "not-started": "not started",
-    "does-not-build": "does not build",
-    "crashed": "crashed",
-    "timeout": "took too long",
-}
+STATUSES = {str(status): words for status, (words, _, _) in STATUS_WORDS.items()}
 _NO_POINTS = {"fault": "fault", "not-graded": "not graded"}
 
 
@@ -66,9 +60,10 @@ def _who(one: Document) -> tuple[str, str]:
 
 
 def _found_by(one: Document) -> str:
+    """As the page makes what is searched for: lower case without folding, and one code for each letter."""
     words = [one["name"], one["entry"]]
     words += [student[key] for student in one["students"] for key in ("id", "name", "email")]
-    return " ".join(dict.fromkeys(word for word in words if word)).casefold()
+    return unicodedata.normalize("NFC", " ".join(dict.fromkeys(word for word in words if word)).lower())
 
 
 def _cell(result: Document | None) -> Cell | None:

@@ -1,20 +1,35 @@
 """Commands that a report gives its reader to copy."""
 
-import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from raysteps.kit.manifest import Step
+from raysteps.common import systems
+from raysteps.common.systems import own_command
+from raysteps.kit.manifest import ImageCase, Step
+
+_OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
 
 def check_command(step_id: str) -> str:
     """Checks one's own step."""
-    return f"./raysteps check {step_id[:2]}"
+    return f"{own_command()} check {step_id[:2]}"
 
 
 def replay_command(case: str) -> str:
     """Asks a case again; its file lies beside the report."""
-    return f"./raysteps replay {shlex.quote(case)}"
+    return f"{own_command()} replay {systems.typed([case])}"
+
+
+def typed(words: Sequence[str]) -> str:
+    """As a person types it."""
+    return f"{own_command()} {systems.typed(words)}"
+
+
+def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
+    """After `./raysteps`: looks into a pixel of a picture."""
+    pairs = zip(case.args[::2], case.args[1::2], strict=False)
+    options = [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
+    return ["inspect", case.scene, str(x), str(y), *options, "--against", "reference"]
 
 
 def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
@@ -22,5 +37,5 @@ def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
     case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None
     if case is None or "{" in case.scene:
         return None
-    words = [shlex.quote(word) for word in case.args]
-    return " ".join(["./raysteps inspect", shlex.quote(case.scene), "{x} {y}", *words, "--against reference"])
+    start = systems.typed([case.scene])
+    return typed(inspect_words(case, 0, 0)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)

@@ -11,16 +11,18 @@ from rich.markup import escape
 from raysteps.commands.inspect.html import write_page
 from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.parting import find_parting
-from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
+from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
 from raysteps.commands.inspect.side_by_side import print_trees
 from raysteps.commands.inspect.values import Record
 from raysteps.commands.inspect.verdict import print_verdict
+from raysteps.commands.render import build_program
+from raysteps.commands.unfinished import unfinished
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.formats import encoded, write_out
-from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.building import release_tree
+from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project
-from raysteps.kit.stubs import unfinished_functions
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,19 +61,8 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
     return Wish(arguments.scene, arguments.x, arguments.y, step.index, tuple(options))
 
 
-def _unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
-    """Steps up to this one that hold functions nobody has written yet."""
-    left = []
-    for step in read_steps(project):
-        path = project.steps / step.path
-        if step.index <= upto and step.bonus <= (upto == step.index) and path.is_file():
-            functions = unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step)
-            left += [(step, functions)] if functions else []
-    return left
-
-
 def _say_unfinished(project: Project, wish: Wish) -> None:
-    left = _unfinished(project, wish.step)
+    left = unfinished(project, wish.step)
     if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
         file = f"steps/{left[0][0].path.as_posix()}"
         raise UsageError(
@@ -104,11 +95,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if arguments.impl == "mine":
         _say_unfinished(project, wish)
 
-    def say(text: str) -> None:
-        print(f"raysteps: {text}", file=sys.stderr, flush=True)
-
-    program = build_inspect(project, arguments.impl, say)
-    reference = build_inspect(project, "reference", say) if arguments.against else None
+    tree = release_tree(project)
+    program = build_program(tree, "inspect", arguments.impl)
+    reference = build_program(tree, "inspect", "reference") if arguments.against else None
     inspected = inspect(program, wish)
     if inspected.problem:
         _tell_problem(inspected, program, wish)
