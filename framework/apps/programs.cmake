@@ -3,7 +3,7 @@ set(sources apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp)
 if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/spd_report.cpp")  # a students' kit does without
     list(APPEND sources apps/spd_report.cpp)
 endif()
-add_library(raytrace-app OBJECT ${sources})
+add_library(raytrace-app OBJECT ${sources} ${RAYSTEPS_OWN_PICTURES})
 target_link_libraries(raytrace-app PRIVATE raysteps-flags raysteps-strict)
 
 # name, then the numbers of the steps that are mine
@@ -25,7 +25,7 @@ if(RAYSTEPS_MODEL STREQUAL "reference")
 endif()
 
 # inspect, the life of one pixel.
-add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp)
+add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp ${RAYSTEPS_OWN_PICTURES})
 target_link_libraries(inspect-app PRIVATE raysteps-flags raysteps-strict)
 
 function(raysteps_add_inspect name)
@@ -42,7 +42,8 @@ endif()
 # view, a window on a scene.
 if(RAYSTEPS_WINDOW)
     file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")
-    add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources})
+    add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources}
+                ${RAYSTEPS_OWN_PICTURES})
     target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)
     target_compile_definitions(view-app PRIVATE GL_SILENCE_DEPRECATION)  # a Mac calls all of OpenGL deprecated
 
@@ -64,6 +65,6 @@ if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/worker.cpp")  # a students' kit has 
     add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
                 apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp
                 apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_trees.cpp apps/worker_values.cpp
-                apps/worker_words.cpp)
+                apps/worker_words.cpp ${RAYSTEPS_OWN_WORKERS})
     target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
 endif()

@@ -12,7 +12,7 @@ const char* const k_view_usage = R"(Usage: view SCENE.nff [options]
 
 Shows the picture in a window while it is traced.
 
-  --step N                start with what the course has after step N, 1 to 9 (8)
+  --step N                start with what the course has after step N, from 1 on (8)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels of the picture; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)

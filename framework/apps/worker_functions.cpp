@@ -3,8 +3,13 @@
 namespace raysteps {
 namespace {
 
+FunctionTable& offered() {
+    static FunctionTable functions;
+    return functions;
+}
+
 FunctionTable all_functions() {
-    FunctionTable functions;
+    FunctionTable functions = offered();
     add_intersections(functions);
     add_light(functions);
     add_trees(functions);
@@ -12,6 +17,11 @@ FunctionTable all_functions() {
 }
 
 }  // namespace
+
+bool offer_function(std::string_view name, Function function) {
+    offered()[name] = function;
+    return true;
+}
 
 void answer_case(std::string_view function, Words& words, Answer& answer) {
     static const FunctionTable functions = all_functions();

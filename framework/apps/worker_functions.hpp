@@ -15,6 +15,10 @@ void add_intersections(FunctionTable& functions);
 void add_light(FunctionTable& functions);
 void add_trees(FunctionTable& functions);
 
+/// For solutions/NN-name/worker.cpp of a step that the kit does not know: offers a function before main begins. Always
+/// true.
+bool offer_function(std::string_view name, Function function);
+
 /// Asks the function of that name. Throws BadCase where there is none.
 void answer_case(std::string_view function, Words& words, Answer& answer);
 

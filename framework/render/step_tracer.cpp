@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/stats.hpp"
+#include "render/own_pictures.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"
@@ -83,9 +84,7 @@ Color StepTracer::surface_color(const HitRecord& hit) const {
     return options_.view == View::normals ? 0.5F * (hit.normal + 1.0F) : hit.fill.color;
 }
 
-Color StepTracer::primary_color(const Ray& ray) {
-    deepest_ = 0;
-    next_depth_ = 1;
+Color StepTracer::color_of(const Ray& ray) {
     if (options_.step == 1) {
         return 0.5F * (ray.direction + 1.0F);
     }
@@ -98,6 +97,15 @@ Color StepTracer::primary_color(const Ray& ray) {
         return scene_.background;
     }
     return options_.step == 2 ? surface_color(*hit) : local_light(*hit, 1);
+}
+
+Color StepTracer::primary_color(const Ray& ray) {
+    deepest_ = 0;
+    next_depth_ = 1;
+    const Color color = color_of(ray);
+    next_ = RayKind::eye;
+    next_depth_ = 1;
+    return with_own_pictures(*this, ray, color, options_.step);
 }
 
 }  // namespace raysteps

@@ -10,7 +10,7 @@ namespace raysteps {
 enum class View { color, normals };
 
 struct StepOptions {
-    int step = 8;  ///< 1 to 9; 9 shows what 8 shows
+    int step = 8;  ///< from 1 on; 9 shows what 8 shows, a later one what it makes of that
     View view = View::color;
     int max_ray_depth = 5;
 };
@@ -44,6 +44,7 @@ private:
     enum class RayKind { eye, shadow, reflect, refract };
 
     void count(bool hit);
+    [[nodiscard]] Color color_of(const Ray& ray);
     [[nodiscard]] const std::vector<Light>& lights_that_reach(const HitRecord& hit);
     [[nodiscard]] Color surface_color(const HitRecord& hit) const;
 

@@ -25,7 +25,9 @@ def test_every_link_within_the_kit_leads_somewhere(project: Project) -> None:
                 assert (document.parent / target).exists(), f"{document}: {target}"
 
 
-@pytest.mark.parametrize("command", ["dev check", "dev calibrate", "dev mistakes", "replay"])
+@pytest.mark.parametrize(
+    "command", ["dev check", "dev calibrate", "dev mistakes", "dev new", "export similarity", "replay"]
+)
 def test_the_commands_that_keep_grades_true_are_described(project: Project, command: str) -> None:
     texts = " ".join(document.read_text(encoding="utf-8") for document in _documents(project))
     assert f"./raysteps {command}" in texts

@@ -23,6 +23,7 @@ from raysteps.commands.view import view
 from raysteps.commands.watch import command as watch
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
+from raysteps.kit.course import read_course
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project, here
 from raysteps.programs.limits import parse_limits
@@ -69,7 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     add = commands.add_parser("grade", help="grade a submission: a folder, zip or tar")
     add.add_argument("submission", type=Path)
     add.add_argument("--out", type=Path, help="where results.json and the pictures go")
-    add.add_argument("--seed", type=int, default=1, metavar="N", help="of the hidden cases (1)")
+    add.add_argument("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
     add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only")
     add.add_argument(
         "--feedback", choices=["full", "diagnosis", "score"], default="full", help="what results.json tells"
@@ -101,7 +102,8 @@ def _parser() -> argparse.ArgumentParser:
 
 def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
     only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
-    settings = Settings(arguments.seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
+    seed = read_course(project).seed_or(arguments.seed)
+    settings = Settings(seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
     return Wish(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
 
 

@@ -9,8 +9,10 @@ from pathlib import Path
 from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.order import Order
 from raysteps.common.errors import UsageError
+from raysteps.kit.course import Course
 from raysteps.programs.limits import parse_limits
 
+_NO_COURSE = Course()
 _NONE = "none"  # instead of a file: without one, also where the last run had one
 
 
@@ -23,8 +25,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
     add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
     add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
-    add("--late-policy", metavar="TOML", help="deadline, grace, percent per day, extensions; or `none`")
-    add("--seed", type=int, default=1, help="of the hidden cases (1)")
+    add(
+        "--late-policy",
+        metavar="TOML",
+        help="deadline, grace, percent per day, extensions; or `none`",
+    )
+    add("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
     add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
     add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
     add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
@@ -51,7 +57,8 @@ def _file(word: str | None) -> Path | None:
     return None if word is None or word == _NONE else Path(word)
 
 
-def read_order(arguments: argparse.Namespace, grader: str) -> Order:
+def read_order(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> Order:
+    """What is not said is as course.toml says."""
     if arguments.folder is None:
         raise UsageError("grade-class: expected a folder of submissions (or --merge)")
     if arguments.jobs is not None and arguments.scheduler:
@@ -68,8 +75,8 @@ def read_order(arguments: argparse.Namespace, grader: str) -> Order:
         jobs,
         arguments.resume,
         tuple(arguments.only),
-        _file(arguments.late_policy),
-        arguments.seed,
+        course.late_policy if arguments.late_policy is None else _file(arguments.late_policy),
+        course.seed_or(arguments.seed),
         arguments.feedback,
         parse_limits(arguments.limit),
         arguments.require_sandbox,

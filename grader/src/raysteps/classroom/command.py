@@ -26,6 +26,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
 from raysteps.common.locks import try_lock
 from raysteps.common.systems import refuse_on_windows
+from raysteps.kit.course import read_course
 from raysteps.kit.project import Project
 
 __all__ = ["add_arguments", "run"]
@@ -119,7 +120,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
     if arguments.merge:
         refuse_beside_merge(arguments)
         return _merge(console, arguments.merge, arguments.out)
-    plan = make_plan(project, read_order(arguments, grader))
+    plan = make_plan(project, read_order(arguments, grader, read_course(project)))
     with _only_one(plan.order.out):
         meter = Meter(console, len(plan.mine()))
         for words in plan.given.said:

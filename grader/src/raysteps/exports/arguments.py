@@ -7,6 +7,7 @@ from pathlib import Path
 from raysteps.common.errors import UsageError
 from raysteps.exports.gradebook_command import add_gradebook_arguments
 from raysteps.exports.gradescope import VISIBILITIES
+from raysteps.exports.similarity import add_similarity_arguments
 
 _NUMBER = re.compile(r"[0-9]{1,18}")
 _MOST_MINUTES = 24 * 60
@@ -76,6 +77,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_results(add)
     _add_grading(add)
     add_gradebook_arguments(systems)
+    add_similarity_arguments(systems)
 
 
 def grading_words(arguments: argparse.Namespace) -> list[str]:

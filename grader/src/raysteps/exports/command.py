@@ -15,7 +15,9 @@ from raysteps.exports.hosted import Options, by_id
 from raysteps.exports.packaging import package
 from raysteps.exports.prairielearn import to_prairielearn
 from raysteps.exports.reading import read_results
+from raysteps.exports.similarity import export_similarity
 from raysteps.judge.feedback import withhold
+from raysteps.kit.course import read_course
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 
@@ -68,10 +70,15 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     """Runs `export` and returns its exit code."""
     if arguments.system in ("canvas", "moodle"):
         return fill_gradebook(project, arguments, console)
+    if arguments.system == "similarity":
+        return export_similarity(project, arguments)
     if arguments.run is not None:
         return _run_there(project, arguments)
     if arguments.results is not None:
         return _convert(project, arguments)
+    course = read_course(project)
+    if arguments.seed is None and course.seed is not None:
+        arguments.seed = str(course.seed)  # what is uploaded does not take course.toml along
     for path in package(project, arguments):
         print(f"raysteps: wrote {path}", file=sys.stderr)
     return 0

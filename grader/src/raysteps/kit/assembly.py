@@ -29,9 +29,12 @@ _FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "r
 class Assembly:
     """Makes bin/, include/, steps/ and facts.json."""
 
-    def __init__(self, project: Project, steps: list[Step], folder: Path, description: Description) -> None:
+    def __init__(
+        self, project: Project, steps: list[Step], course: list[Step], folder: Path, description: Description
+    ) -> None:
         self._project = project
         self._steps = steps
+        self._course = course  # those that students hand in; the reference stands for the others
         self._folder = folder
         self._description = description
         self._objects: dict[str, Path] = {}
@@ -68,11 +71,11 @@ class Assembly:
         more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
         for kind, objects in (("raytrace", raytrace), ("worker", worker)):
             self._link_reference(kind, [*objects, *more] if kind == "raytrace" else objects)
-            for step in self._steps:
+            for step in self._course:
                 self._add_program(f"{kind}-isolated-{step.number}", objects, [step])
         tests: Tests = {}
-        for at, step in enumerate(self._steps, start=1):
-            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
+        for at, step in enumerate(self._course, start=1):
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._course[:at])
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._link_reference(f"test-{step.number}", objects)
             self._add_program(f"test-isolated-{step.number}", objects, [step])

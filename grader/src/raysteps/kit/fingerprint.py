@@ -13,7 +13,7 @@ _SOURCES = {
     "framework": r".*\.(hpp|cpp|cmake|txt)",
     "cmake": r".*\.cmake",
     "scenes": r".*\.(nff|py)",
-    "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml)",
+    "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml|py)",
     "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
     "grader/stubs": r".*\.cpp",
     "reference": r".*\.(png|json)",

@@ -13,7 +13,7 @@ from raysteps.kit.building import release_tree, what_failed
 from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.description import read_description
 from raysteps.kit.fingerprint import fingerprint
-from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.manifest import Step, read_all_steps, read_steps
 from raysteps.kit.project import Project
 
 _KEPT = 3
@@ -66,7 +66,7 @@ def _build(project: Project, steps: list[Step], folder: Path) -> None:
                 shutil.rmtree(left, ignore_errors=True)
         new = Path(name) / "kit"
         new.mkdir()
-        Assembly(project, steps, new, read_description(tree.folder / "kit.json")).run()
+        Assembly(project, read_all_steps(project), steps, new, read_description(tree.folder / "kit.json")).run()
         shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
         shutil.rmtree(folder, ignore_errors=True)
         new.rename(folder)

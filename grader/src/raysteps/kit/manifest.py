@@ -40,6 +40,8 @@ class Step:
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
+    about: str = ""  # one or two sentences for the gallery
+    left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
     def number(self) -> str:
@@ -78,7 +80,8 @@ def _image(table: dict[str, Any]) -> ImageCase:
 def read_step(path: Path) -> Step:
     """Reads one manifest; a bad one is the kit's fault."""
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        table = tomllib.loads(text)
         weights = table["weights"]
         step = Step(
             id=str(table["id"]),
@@ -98,23 +101,40 @@ def read_step(path: Path) -> Step:
             more_limits=tuple(
                 (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
             ),
+            about=" ".join(str(table.get("about", "")).split()),
+            left_out=bool(table.get("left_out", False)),
         )
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise GraderFault(f"{path}: not a step manifest: {error}") from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
+    if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
+        raise GraderFault(f'{path}: CMake reads this, too; expected a line like `picture = "fog_picture"`')
     weights_sum = step.weight_tests + step.weight_images + step.weight_hidden + step.weight_together
     if abs(weights_sum - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
         raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
     return step
 
 
-def read_steps(project: Project) -> list[Step]:
-    """All steps, in order."""
+def read_all_steps(project: Project) -> list[Step]:
+    """All steps that are built, in order."""
     paths = sorted(project.steps.glob("[0-9][0-9]-*/step.toml"))
     if not paths:
         raise GraderFault(f"{project.steps} holds no step.toml")
-    return [read_step(path) for path in paths]
+    steps = [read_step(path) for path in paths]
+    numbers = [step.number for step in steps]
+    twice = next((step for step in steps if numbers.count(step.number) > 1), None)
+    if twice is not None:
+        raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
+    return steps
+
+
+def read_steps(project: Project) -> list[Step]:
+    """The steps of the course, in order: all but those that are left out."""
+    steps = [step for step in read_all_steps(project) if not step.left_out]
+    if not steps:
+        raise GraderFault(f"{project.steps}: every step.toml says `left_out = true`; a course needs a step")
+    return steps
 
 
 def choose(steps: list[Step], names: list[str]) -> list[Step]:

@@ -8,12 +8,14 @@ from raysteps.commands.progress import progress
 from raysteps.kit.project import Project
 from raysteps.upkeep import maintenance
 from raysteps.upkeep.calibration.command import calibrate
+from raysteps.upkeep.new_step import command as new_step
 from raysteps.upkeep.truth.command import check_truth
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds one command below `dev` for each thing to do."""
     commands = parser.add_subparsers(dest="what", required=True, metavar="WHAT")
+    new_step.add_arguments(commands)
     for name, made in (
         ("stubs", "the stubs in steps/ and grader/stubs/"),
         ("samples", "the samples in grader/samples/"),
@@ -40,6 +42,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Runs one of them."""
     match arguments.what:
+        case "new":
+            return new_step.run(project, arguments)
         case "stubs":
             return maintenance.stubs(project, check=arguments.check)
         case "samples":

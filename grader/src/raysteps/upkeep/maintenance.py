@@ -1,10 +1,13 @@
 """The commands `dev stubs`, `dev samples` and `dev mistakes`, for those who maintain the kit."""
 
+import shutil
+from pathlib import Path
+
 from raysteps.diagnosis.learning import known_mistakes
 from raysteps.judge.plan import read_plan
 from raysteps.kit.built_kit import Say
 from raysteps.kit.kit_building import build_kit
-from raysteps.kit.manifest import read_steps
+from raysteps.kit.manifest import read_all_steps, read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import outdated_stubs, write_stubs
 from raysteps.mistakes.catalogue import read_mutants
@@ -16,19 +19,21 @@ def stubs(project: Project, *, check: bool) -> int:
     """Makes the stubs, or tells which are out of date."""
     steps = read_steps(project)
     changed = (outdated_stubs if check else write_stubs)(project, steps)
-    return _tell([path.relative_to(project.root).as_posix() for path in changed], "dev stubs", check=check)
+    strays = _strays(project, [project.stubs], check=check)
+    return _tell(project, changed, strays, "dev stubs", check=check)
 
 
 def samples(project: Project, *, check: bool) -> int:
     """Makes the samples, or tells which are out of date."""
     changed = (outdated_samples if check else write_samples)(project, read_steps(project))
-    return _tell([path.relative_to(project.root).as_posix() for path in changed], "dev samples", check=check)
+    strays = _strays(project, [project.samples / name / "steps" for name in ("complete", "partial")], check=check)
+    return _tell(project, changed, strays, "dev samples", check=check)
 
 
 def mistakes(project: Project, say: Say, *, check: bool) -> int:
     """Makes the pages of docs/mistakes/, or tells which are out of date."""
     changed = (handbook.out_of_date if check else handbook.write)(project, say)
-    return _tell(changed, "dev mistakes", check=check)
+    return _tell(project, [project.root / name for name in changed], [], "dev mistakes", check=check)
 
 
 def learn(project: Project, say: Say) -> int:
@@ -39,10 +44,23 @@ def learn(project: Project, say: Say) -> int:
     return 0
 
 
-def _tell(changed: list[str], command: str, *, check: bool) -> int:
-    for name in changed:
+def _strays(project: Project, rooms: list[Path], *, check: bool) -> list[Path]:
+    """What was made for steps that are gone; removed, unless it is only to be told."""
+    known = {step.id for step in read_all_steps(project)}
+    found = [path for room in rooms for path in sorted(room.glob("[0-9][0-9]-*")) if path.name not in known]
+    for path in [] if check else found:
+        shutil.rmtree(path)
+    return found
+
+
+def _tell(project: Project, changed: list[Path], strays: list[Path], command: str, *, check: bool) -> int:
+    for path in changed:
+        name = path.relative_to(project.root).as_posix()
         if check:
             print(f"{name} differs from what the solutions generate; ./raysteps {command} makes it anew")
         else:
             print(f"{name} written")
-    return 1 if check and changed else 0
+    for path in strays:
+        name = path.relative_to(project.root).as_posix()
+        print(f"{name} belongs to no step; ./raysteps {command} removes it" if check else f"{name} removed")
+    return 1 if check and (changed or strays) else 0

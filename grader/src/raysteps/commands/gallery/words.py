@@ -56,7 +56,7 @@ _SCENES = {
 
 def what_is_new(step: Step) -> str:
     """One or two sentences."""
-    return _NEW.get(step.id, step.title)
+    return step.about or _NEW.get(step.id, step.title)
 
 
 def _first_sentence(scene: Path) -> str:

@@ -1,0 +1,87 @@
+"""`export similarity`: the sources of a class as JPlag reads them, to be compared with each other."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from raysteps.classroom.entries import list_entries
+from raysteps.classroom.names import name_entries
+from raysteps.common.errors import UsageError
+from raysteps.common.text import clean, count
+from raysteps.exports.archives import Member, as_zip, into_folder
+from raysteps.exports.formats import write_out
+from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import pristine_stub, same_code
+from raysteps.mistakes.catalogue import reference_source
+from raysteps.submission.intake import Submission, take_in
+
+BASE, ROOM = "base-code", "submissions"
+_REFERENCE = "_kit-reference"  # no submission's name begins with `_` and a letter
+
+
+def add_similarity_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
+    """A class, and where it goes."""
+    add = systems.add_parser("similarity", help="the sources of a class, to be compared by JPlag")
+    add.add_argument("folder", type=Path, metavar="CLASS", help="one folder, zip or tar per submission")
+    add.add_argument("--out", type=Path, required=True, metavar="FILE.zip|DIR", help="where they go")
+    add.add_argument("--steps", nargs="+", default=[], metavar="STEP", help="only these; all when none is given")
+    add.add_argument(
+        "--solutions", action="store_true", help="the kit's own solutions, too, as if somebody had handed them in"
+    )
+
+
+def _started(submission: Submission, stubs: dict[Step, str]) -> dict[Step, bytes]:
+    """What is more than the stub: who has not begun a step is like everybody who has not."""
+    found = {}
+    for step, stub in stubs.items():
+        data = submission.sources.get(step.id)
+        if data is not None and not same_code(data.decode("utf-8", "replace"), stub):
+            found[step] = data
+    return found
+
+
+def _of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> list[Member]:
+    entries = list_entries(folder, left_out).entries
+    names = name_entries([entry.label for entry in entries], {})
+    members = []
+    for entry in entries:
+        try:
+            started = _started(take_in(entry.path, every), stubs)
+            note = "" if started else "holds no step that was begun"
+        except UsageError as error:
+            started, note = {}, str(error).removeprefix(f"{entry.path}: ")
+        if note:
+            print(f"raysteps: {clean(entry.label)} is left out: {clean(note)}", file=sys.stderr)
+        name = names[entry.label]
+        members += [Member(f"{ROOM}/{name}/{step.path.as_posix()}", data) for step, data in started.items()]
+    return members
+
+
+def _of_kit(project: Project, chosen: list[Step]) -> list[Member]:
+    room = f"{ROOM}/{_REFERENCE}"
+    return [Member(f"{room}/{step.path.as_posix()}", reference_source(project, step).encode()) for step in chosen]
+
+
+def export_similarity(project: Project, arguments: argparse.Namespace) -> int:
+    """Writes the sources, and says how JPlag is called with them."""
+    every = read_steps(project)
+    stubs = {step: pristine_stub(project, step) for step in choose(every, arguments.steps)}
+    out: Path = arguments.out
+    members = _of_class(arguments.folder, every, stubs, [out])
+    handed_in = {member.name.split("/")[1] for member in members}
+    if len(handed_in) + (1 if arguments.solutions else 0) < 2:
+        raise UsageError(f"{arguments.folder}: holds {count(len(handed_in), 'submission')} with work; expected two")
+    members += _of_kit(project, list(stubs)) if arguments.solutions else []
+    members += [Member(f"{BASE}/{step.path.as_posix()}", stub.encode()) for step, stub in stubs.items()]
+    members.sort(key=lambda member: member.name)
+    if out.suffix.lower() == ".zip":
+        write_out(out, as_zip(members))
+        where = "in the folder that it is unpacked to"
+    else:
+        into_folder(members, out)
+        where = f"in {out}"
+    print(f"raysteps: wrote {count(len(handed_in), 'submission')} to {out}. Then, {where}:", file=sys.stderr)
+    print(f"java -jar jplag.jar -l cpp -bc {BASE} --result-file similarity {ROOM}", flush=True)
+    return 0
