@@ -30,6 +30,7 @@ from raysteps.programs.limits import parse_limits
 from raysteps.upkeep import dev
 from raysteps.upkeep.bench import command as bench
 from raysteps.upkeep.selftest import selftest
+from raysteps.upkeep.site import command as site
 
 _NO_TERMINAL = 10_000  # columns
 _EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
@@ -93,6 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     gallery.add_arguments(commands.add_parser("gallery", help="a page that walks through the steps in pictures"))
 
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
+    site.add_arguments(commands.add_parser("docs", help="the documents as a site that needs no network"))
 
     add = commands.add_parser("test", help="test the kit itself")
     add.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
@@ -136,6 +138,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return gallery.run(project, arguments, console)
         case "bench":
             return bench.run(project, arguments, console)
+        case "docs":
+            return site.run(project, arguments, console, _parser())
         case "test":
             return selftest(project, console, full=arguments.full)
         case _:

@@ -1,0 +1,64 @@
+"""Runs Sphinx on what was staged."""
+
+import io
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import UsageError
+
+_SETTINGS: dict[str, Any] = {
+    "extensions": ["furo", "myst_parser", "raysteps.upkeep.site.formulas"],
+    "project": "Raysteps",
+    "html_title": "Raysteps",
+    "html_theme": "furo",
+    "html_static_path": ["_static"],
+    "html_css_files": ["site.css"],
+    "html_copy_source": False,
+    "html_show_sourcelink": False,
+    "html_show_copyright": False,
+    "html_use_index": False,
+    "html_domain_indices": False,
+    "html_show_search_summary": False,  # would read other pages as files, which browsers forbid
+    "html_permalinks_icon": "#",
+    "html_theme_options": {"navigation_with_keys": False},
+    "highlight_language": "text",
+    "pygments_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+    "myst_enable_extensions": ["dollarmath"],
+    "myst_dmath_double_inline": True,
+    "myst_heading_anchors": 6,
+    "myst_url_schemes": ["http", "https", "mailto"],
+    "smartquotes": False,
+    "language": "en",
+}
+
+
+def build_site(stage: Path, out: Path, work: Path) -> list[str]:
+    """Writes the pages to `out` and returns what Sphinx complained about."""
+    try:
+        import furo  # noqa: F401 - the theme
+        import myst_parser  # noqa: F401
+        from sphinx.application import Sphinx
+        from sphinx.util.docutils import docutils_namespace
+    except ImportError as error:
+        raise UsageError(
+            f"the site is built with Sphinx, and {error.name} is not installed; install it with:\n"
+            "  .venv/bin/python -m pip install -e 'grader[docs]'"
+        ) from error
+    said = io.StringIO()
+    with docutils_namespace():
+        sphinx = Sphinx(
+            srcdir=stage,
+            confdir=None,
+            outdir=out,
+            doctreedir=work / "doctrees",
+            buildername="html",
+            confoverrides=dict(_SETTINGS),
+            status=None,
+            warning=said,
+            freshenv=True,
+        )
+        sphinx.build(force_all=True)
+    (out / ".nojekyll").touch()
+    (out / ".buildinfo").unlink(missing_ok=True)
+    return [line.replace(f"{stage}/", "") for line in said.getvalue().splitlines() if line.strip()]
