@@ -6,8 +6,8 @@ from typing import Any
 
 from raysteps.common.errors import UsageError
 
-_SETTINGS: dict[str, Any] = {
-    "extensions": ["furo", "myst_parser", "raysteps.upkeep.site.formulas"],
+SETTINGS: dict[str, Any] = {
+    "extensions": ["myst_parser", "raysteps.upkeep.site.formulas"],
     "project": "Raysteps",
     "html_title": "Raysteps",
     "html_theme": "furo",
@@ -31,6 +31,8 @@ _SETTINGS: dict[str, Any] = {
     "smartquotes": False,
     "language": "en",
 }
+# The theme's own settings are known only to settings that come from a file.
+_CONF = "from raysteps.upkeep.site.build import SETTINGS\n\nglobals().update(SETTINGS)\n"
 
 
 def build_site(stage: Path, out: Path, work: Path) -> list[str]:
@@ -45,15 +47,15 @@ def build_site(stage: Path, out: Path, work: Path) -> list[str]:
             f"the site is built with Sphinx, and {error.name} is not installed; install it with:\n"
             "  .venv/bin/python -m pip install -e 'grader[docs]'"
         ) from error
+    (stage / "conf.py").write_text(_CONF, encoding="utf-8")
     said = io.StringIO()
     with docutils_namespace():
         sphinx = Sphinx(
             srcdir=stage,
-            confdir=None,
+            confdir=stage,
             outdir=out,
             doctreedir=work / "doctrees",
             buildername="html",
-            confoverrides=dict(_SETTINGS),
             status=None,
             warning=said,
             freshenv=True,
