@@ -6,6 +6,8 @@ from typing import Any
 
 from raysteps.common.errors import UsageError
 
+_LIGHT = {name: "#9a4408" for name in ("color-brand-primary", "color-brand-content", "color-brand-visited")}
+_DARK = {name: "#f5a65b" for name in _LIGHT}
 SETTINGS: dict[str, Any] = {
     "extensions": ["myst_parser", "raysteps.upkeep.site.formulas"],
     "project": "Raysteps",
@@ -20,7 +22,11 @@ SETTINGS: dict[str, Any] = {
     "html_domain_indices": False,
     "html_show_search_summary": False,  # would read other pages as files, which browsers forbid
     "html_permalinks_icon": "#",
-    "html_theme_options": {"navigation_with_keys": False},
+    "html_theme_options": {
+        "navigation_with_keys": False,
+        "light_css_variables": {**_LIGHT, "color-code-background": "#f1efea"},
+        "dark_css_variables": {**_DARK, "color-code-background": "#26292e"},
+    },
     "highlight_language": "text",
     "pygments_style": "a11y-high-contrast-light",
     "pygments_dark_style": "a11y-high-contrast-dark",

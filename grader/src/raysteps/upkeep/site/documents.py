@@ -7,11 +7,12 @@ from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 
 COMMANDS_PAGE = Path("docs/commands.md")  # made from the command line itself, so not in the repository
+MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
-    ("For students", ("students",)),
-    ("For instructors", ("instructors", "class", "exports", "release", "windows")),
+    ("For students", ("students", "where-students-work")),
+    ("For instructors", ("instructors", "class", "exports", "release", "update")),
     ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages", "handouts", "figures")),
-    ("Reference", ("commands", "formats", "spd", "benchmarks")),
+    ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),
     ("How it works", ("architecture", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration")),
 )
 
@@ -29,10 +30,11 @@ def front_page() -> Path:
     return Path("README.md")
 
 
-def _mistakes(project: Project) -> tuple[Path, ...]:
-    folder = Path("docs/mistakes")
-    names = sorted(path.name for path in (project.root / folder).glob("*.md") if path.name != "README.md")
-    return (folder / "README.md", *(folder / name for name in names))
+def below(project: Project, page: Path) -> tuple[Path, ...]:
+    """The pages that unfold below one of the menu: those of each step's mistakes."""
+    if page != MISTAKES:
+        return ()
+    return tuple(sorted(page.parent / path.name for path in (project.root / page.parent).glob("[0-9]*.md")))
 
 
 def sections(project: Project) -> list[Section]:
@@ -48,11 +50,10 @@ def sections(project: Project) -> list[Section]:
     reference = next(section for section in made if section.title == "Reference")
     made[made.index(reference)] = Section(reference.title, (*reference.pages, Path("scenes/README.md")))
     made.insert(1, Section("The steps", handouts))
-    made.insert(2, Section("Mistakes that students make", _mistakes(project)))
     return [section for section in made if section.pages]
 
 
 def documents(project: Project) -> list[Path]:
     """All that are written by hand, from the repository on."""
     pages = [page for section in sections(project) for page in section.pages if page != COMMANDS_PAGE]
-    return [front_page(), *pages]
+    return [front_page(), *pages, *(child for page in pages for child in below(project, page))]

@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 
 from raysteps.kit.project import Project
-from raysteps.upkeep.site.documents import COMMANDS_PAGE, Section, documents, front_page, sections
+from raysteps.upkeep.site.documents import COMMANDS_PAGE, below, documents, front_page, sections
 from raysteps.upkeep.site.links import is_elsewhere, split
 from raysteps.upkeep.site.markdown import Block, with_tags, with_targets
 from raysteps.upkeep.site.shell import is_shell
@@ -19,12 +19,17 @@ def _tag(block: Block) -> str:
     return "sh" if is_shell(block) else block.tag or "text"
 
 
-def _menu(parts: list[Section]) -> str:
-    trees = []
-    for part in parts:
-        pages = "\n".join(str(page.with_suffix("").as_posix()) for page in part.pages)
-        trees.append(f"```{{toctree}}\n:hidden:\n:caption: {part.title}\n\n{pages}\n```")
-    return "\n\n".join(trees)
+def _tree(options: str, pages: tuple[Path, ...]) -> str:
+    lines = "\n".join(f"/{page.with_suffix('').as_posix()}" for page in pages)
+    return f"\n\n```{{toctree}}\n:hidden:\n{options}\n{lines}\n```\n"
+
+
+def _menu(project: Project, document: Path) -> str:
+    """What Sphinx learns the menu from."""
+    if document == front_page():
+        return "".join(_tree(f":caption: {part.title}\n", part.pages) for part in sections(project))
+    children = below(project, document)
+    return _tree("", children) if children else ""
 
 
 class _Stage:
@@ -66,8 +71,8 @@ def stage(project: Project, folder: Path, commands: str, *, gallery: bool) -> No
     """Fills the folder. `commands` is the text of the page of commands; `gallery` is whether the site has its page."""
     made = _Stage(project, folder)
     for document in documents(project):
-        more = f"\n\n{_menu(sections(project))}\n" if document == front_page() else ""
-        made.put(document, _OPEN_GALLERY if gallery and document == Path("docs/gallery.md") else more)
+        is_gallery = gallery and document == Path("docs/gallery.md")
+        made.put(document, _OPEN_GALLERY if is_gallery else _menu(project, document))
     made.write(COMMANDS_PAGE, commands)
     static = folder / "_static"
     static.mkdir()
