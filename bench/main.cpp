@@ -9,6 +9,7 @@
 #include "bench/render_bench.hpp"
 #include "bench/scale_bench.hpp"
 #include "bench/structures.hpp"
+#include "io/arguments.hpp"
 #include "io/read_error.hpp"
 
 namespace {
@@ -60,7 +61,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     try {
-        return run({argv + 1, argv + argc});
+        return run(utf8_arguments(argc, argv));
     } catch (const ReadError& error) {
         std::fprintf(stderr, "%s\n", error.what());
     } catch (const bench::UsageError& error) {

@@ -5,6 +5,7 @@
 #include "bench/arguments.hpp"
 #include "bench/spread.hpp"
 #include "bench/stopwatch.hpp"
+#include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/nff_writer.hpp"
 #include "io/read_file.hpp"
@@ -24,7 +25,7 @@ std::filesystem::path only_scene(const Arguments& arguments) {
     if (arguments.words().size() != 1) {
         throw UsageError("expected one scene");
     }
-    return arguments.words().front();
+    return path_of(arguments.words().front());
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "bench/render_bench.hpp"
 
 #include <array>
-#include <filesystem>
 #include <stdexcept>
 
 #include "bench/agreement.hpp"
@@ -13,7 +12,9 @@
 #include "bench/structures.hpp"
 #include "bench/workload.hpp"
 #include "core/threads.hpp"
+#include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
+#include "io/read_file.hpp"
 
 namespace raysteps::bench {
 
@@ -82,7 +83,7 @@ struct Race {
 
 Workload read_workload(const Wish& wish) {
     Workload workload;
-    workload.scene = read_nff(std::filesystem::path(wish.scene));
+    workload.scene = read_nff(path_of(wish.scene));
     workload.scene.camera.width = wish.size;
     workload.scene.camera.height = wish.size;
     workload.options.max_ray_depth = wish.depth;
@@ -166,7 +167,7 @@ std::string report(const Wish& wish, const Race& race) {
     const Workload& workload = race.workload;
     Json json;
     json.begin_object().field("schema", std::string("raysteps/bench-rays/v1"));
-    json.field("scene", std::filesystem::path(wish.scene).stem().string());
+    json.field("scene", display_name(path_of(wish.scene).stem()));
     json.field("surfaces", static_cast<std::uint64_t>(workload.scene.surfaces().size()));
     json.field("size", static_cast<std::uint64_t>(wish.size)).field("depth", static_cast<std::uint64_t>(wish.depth));
     json.field("every", static_cast<std::uint64_t>(wish.every));

@@ -7,9 +7,28 @@ target_link_libraries(raysteps-flags INTERFACE Threads::Threads)
 
 add_library(raysteps-strict INTERFACE)  # for the kit's own code; a student's warnings stay warnings
 
+# M_PI, which students like, and no macros called min and max.
+set(RAYSTEPS_DEFINITIONS "")
+if(WIN32)
+    set(RAYSTEPS_DEFINITIONS NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+endif()
+target_compile_definitions(raysteps-flags INTERFACE ${RAYSTEPS_DEFINITIONS})
+
+# Chains of rays are as long as --depth says, and Windows gives a program an eighth of the stack that others give it. A
+# MinGW program brings its libraries, so that it runs wherever it is started.
+set(RAYSTEPS_LINK_OPTIONS "")
 if(MSVC)
-    target_compile_options(raysteps-flags INTERFACE /W4 /utf-8 /fp:precise /wd4324)  # alignas may pad
-    target_compile_definitions(raysteps-flags INTERFACE NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+    set(RAYSTEPS_LINK_OPTIONS /STACK:8388608)
+elseif(MINGW)
+    set(RAYSTEPS_LINK_OPTIONS -static -Wl,--stack,8388608)
+elseif(WIN32)  # clang++ with the libraries of Visual Studio
+    set(RAYSTEPS_LINK_OPTIONS -Wl,/STACK:8388608)
+endif()
+target_link_options(raysteps-flags INTERFACE ${RAYSTEPS_LINK_OPTIONS})
+
+if(MSVC)
+    # alignas may pad (4324)
+    target_compile_options(raysteps-flags INTERFACE /W4 /permissive- /Zc:__cplusplus /utf-8 /fp:precise /wd4324)
     if(RAYSTEPS_WERROR)
         target_compile_options(raysteps-strict INTERFACE /WX)
     endif()

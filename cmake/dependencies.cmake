@@ -1,7 +1,12 @@
 # Each library from the system when it is there, else fetched at a pinned commit.
 include(FetchContent)
+if(CMAKE_CROSSCOMPILING)
+    include(header_libraries)
+endif()
 
-find_package(glm CONFIG QUIET)
+if(NOT TARGET glm::glm)
+    find_package(glm CONFIG QUIET)
+endif()
 if(NOT TARGET glm::glm)
     message(STATUS "GLM is not installed: fetching 1.0.1")
     FetchContent_Declare(glm GIT_REPOSITORY https://github.com/g-truc/glm.git
@@ -10,7 +15,9 @@ if(NOT TARGET glm::glm)
 endif()
 target_link_libraries(raysteps-flags INTERFACE glm::glm)
 
-find_package(Catch2 QUIET)
+if(NOT TARGET Catch2::Catch2)
+    find_package(Catch2 QUIET)
+endif()
 if(NOT TARGET Catch2::Catch2)
     message(STATUS "Catch2 is not installed: fetching 3.7.1")
     FetchContent_Declare(Catch2 GIT_REPOSITORY https://github.com/catchorg/Catch2.git

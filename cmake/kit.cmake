@@ -18,11 +18,17 @@ endif()
 foreach(architecture IN LISTS CMAKE_OSX_ARCHITECTURES)
     list(APPEND system_flags -arch ${architecture})
 endforeach()
-list(APPEND compile_flags ${system_flags} -Wno-unused-parameter -fno-lto -fdiagnostics-color=never)
+if(MSVC)
+    list(APPEND compile_flags /nologo /wd4100)  # parameters that a student does not use yet
+else()
+    list(APPEND compile_flags ${system_flags} -Wno-unused-parameter -fno-lto -fdiagnostics-color=never)
+endif()
+list(TRANSFORM RAYSTEPS_DEFINITIONS PREPEND "-D" OUTPUT_VARIABLE definitions)
+list(APPEND compile_flags ${definitions})
 list(JOIN compile_flags " " compile_flags)
 separate_arguments(compile_flags)
 list(JOIN compile_flags "\", \"" compile_flags)
-set(link_flags ${CMAKE_EXE_LINKER_FLAGS} ${CMAKE_THREAD_LIBS_INIT} ${system_flags})
+set(link_flags ${CMAKE_EXE_LINKER_FLAGS} ${CMAKE_THREAD_LIBS_INIT} ${system_flags} ${RAYSTEPS_LINK_OPTIONS})
 list(JOIN link_flags " " link_flags)
 separate_arguments(link_flags)
 list(JOIN link_flags "\", \"" link_flags)
@@ -54,6 +60,10 @@ set(wide "")
 if(TARGET raysteps-wide)
     set(wide "\"$<TARGET_OBJECTS:raysteps-wide-offer>\", \"$<TARGET_FILE:raysteps-wide>\", \"$<TARGET_FILE:hwy::hwy>\"")
 endif()
+set(driver gnu)  # whose words the compiler takes
+if(MSVC)
+    set(driver msvc)
+endif()
 set(seal_json null)
 if(RAYSTEPS_SEAL)
     set(seal_json "{\"nm\": \"${CMAKE_NM}\", \"readelf\": \"${CMAKE_READELF}\"}")
@@ -61,6 +71,7 @@ endif()
 
 file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
   \"compiler\": \"${CMAKE_CXX_COMPILER}\",
+  \"driver\": \"${driver}\",
   \"compiler_version\": \"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}\",
   \"compile_flags\": [\"${compile_flags}\"],
   \"system_includes\": [\"$<JOIN:$<TARGET_PROPERTY:glm::glm,INTERFACE_INCLUDE_DIRECTORIES>,\", \">\"],

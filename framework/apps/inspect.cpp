@@ -1,11 +1,11 @@
 // inspect: the life of one pixel, with the steps that the program was linked with.
 #include <cstdio>
-#include <filesystem>
 
 #include "apps/inspect_options.hpp"
 #include "inspect/inspect_json.hpp"
 #include "inspect/inspect_pixel.hpp"
 #include "inspect/inspect_text.hpp"
+#include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/write_file.hpp"
 #include "render/acceleration_choice.hpp"
@@ -17,7 +17,7 @@ using namespace raysteps;
 constexpr int k_exit_usage = 2;  // bad arguments, bad scene, or a file that cannot be written
 
 void run(const InspectOptions& options) {
-    Scene scene = read_nff(std::filesystem::path(options.picture.scene));
+    Scene scene = read_nff(path_of(options.picture.scene));
     if (options.picture.size) {
         scene.camera.width = options.picture.size->width;
         scene.camera.height = options.picture.size->height;
@@ -29,7 +29,7 @@ void run(const InspectOptions& options) {
     PixelRecord record = inspect_pixel(scene, *accelerator, acceleration, step, options.x, options.y);
     record.scene = options.picture.scene;
     if (!options.json.empty()) {
-        write_file(options.json, inspect_json(record));
+        write_file(path_of(options.json), inspect_json(record));
     }
     if (!options.picture.quiet) {
         std::fputs(inspect_text(record).c_str(), stdout);
@@ -40,7 +40,7 @@ void run(const InspectOptions& options) {
 
 int main(int argc, char** argv) {
     try {
-        const InspectOptions options = parse_inspect_options({argv + 1, argv + argc});
+        const InspectOptions options = parse_inspect_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
             std::fputs(k_inspect_usage, stdout);
             return 0;

@@ -1,16 +1,17 @@
 // raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "apps/options.hpp"
 #include "apps/spd_report.hpp"
 #include "apps/stats_json.hpp"
-#include "apps/terminal.hpp"
 #include "core/threads.hpp"
+#include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/ppm.hpp"
 #include "io/read_error.hpp"
+#include "io/read_file.hpp"
+#include "io/terminal.hpp"
 #include "io/write_file.hpp"
 #include "render/acceleration_choice.hpp"
 #include "render/spd.hpp"
@@ -37,7 +38,7 @@ void check_crop(const Rect& crop, const Camera& camera) {
 void print_spd_counts(const Scene& scene, const RaytraceOptions& options) {
     const auto accelerator = make_accelerator(acceleration_of(options), scene.surfaces());
     const Stats stats = count_spd_rays(scene, *accelerator, default_threads());
-    std::fputs(spd_report(std::filesystem::path(options.scene).stem().string(), stats).c_str(), stdout);
+    std::fputs(spd_report(display_name(path_of(options.scene).stem()), stats).c_str(), stdout);
 }
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
@@ -49,17 +50,17 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
                                  options.map.has_value()};
     const Rendering rendering = render(scene, render_options);
     if (!options.stats.empty()) {
-        write_file(options.stats, stats_json(rendering, scene.surfaces().size()));
+        write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
     }
     write_ppm(options.map ? work_map(rendering.costs, *options.map, options.map_scale) : rendering.image,
-              options.output);
+              path_of(options.output));
 }
 
 void run(const RaytraceOptions& options) {
     if (options.threads > 0) {
         set_default_threads(options.threads);
     }
-    Scene scene = read_nff(std::filesystem::path(options.scene));
+    Scene scene = read_nff(path_of(options.scene));
     if (options.size) {
         scene.camera.width = options.size->width;
         scene.camera.height = options.size->height;
@@ -79,7 +80,7 @@ void run(const RaytraceOptions& options) {
 
 int main(int argc, char** argv) {
     try {
-        const RaytraceOptions options = parse_options({argv + 1, argv + argc});
+        const RaytraceOptions options = parse_options(utf8_arguments(argc, argv));
         if (options.help) {
             std::fputs(k_raytrace_usage, stdout);
             return 0;

@@ -1,10 +1,10 @@
 // view: a window on a scene, with the steps that the program was linked with.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "apps/view_options.hpp"
 #include "core/threads.hpp"
+#include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/read_error.hpp"
 #include "view/viewer.hpp"
@@ -37,7 +37,7 @@ void run(const ViewOptions& options) {
     if (picture.threads > 0) {
         set_default_threads(picture.threads);
     }
-    Scene scene = read_nff(std::filesystem::path(picture.scene));
+    Scene scene = read_nff(path_of(picture.scene));
     if (picture.size) {
         scene.camera.width = picture.size->width;
         scene.camera.height = picture.size->height;
@@ -56,7 +56,7 @@ void run(const ViewOptions& options) {
 
 int main(int argc, char** argv) {
     try {
-        const ViewOptions options = parse_view_options({argv + 1, argv + argc});
+        const ViewOptions options = parse_view_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
             std::fputs(k_view_usage, stdout);
             return 0;

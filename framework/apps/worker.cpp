@@ -67,6 +67,7 @@ void answer_all(const std::vector<std::string>& lines, PrivateOutput& output) {
 int main() {
     try {
         PrivateOutput output;
+        read_stdin_as_bytes();
         answer_all(read_lines(stdin), output);
         return 0;
     } catch (const std::exception& error) {

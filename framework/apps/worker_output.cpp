@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #ifdef _WIN32
+#include <fcntl.h>
 #include <io.h>
 #else
 #include <unistd.h>
@@ -14,6 +15,7 @@ namespace {
 #ifdef _WIN32
 std::FILE* copy_of_stdout() {
     const int copy = _dup(1);
+    _setmode(copy, _O_BINARY);  // each line ends with one character
     _dup2(2, 1);
     return copy < 0 ? nullptr : _fdopen(copy, "wb");
 }
@@ -26,6 +28,12 @@ std::FILE* copy_of_stdout() {
 #endif
 
 }  // namespace
+
+void read_stdin_as_bytes() {
+#ifdef _WIN32
+    _setmode(0, _O_BINARY);
+#endif
+}
 
 PrivateOutput::PrivateOutput() : file_(copy_of_stdout()) {
     if (file_ == nullptr) {

@@ -5,6 +5,9 @@
 
 namespace raysteps {
 
+/// On Windows, stdin would end at a byte 26 and lose bytes 13: from now on it is read as it is.
+void read_stdin_as_bytes();
+
 /// Takes the real stdout away, so that what a step prints goes to stderr and never between the answers.
 class PrivateOutput {
 public:

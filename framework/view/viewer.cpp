@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "io/arguments.hpp"
 #include "io/ppm.hpp"
+#include "io/read_file.hpp"
 #include "render/acceleration_choice.hpp"
 #include "view/content.hpp"
 #include "view/pixel_asker.hpp"
@@ -27,9 +29,9 @@ void say(const std::string& text) {
 
 /// A name in the current folder that is free: three-spheres-1.ppm
 std::filesystem::path free_name(const std::string& scene) {
-    const std::string stem = std::filesystem::path(scene).stem().string();
+    const std::string stem = display_name(path_of(scene).stem());
     for (int number = 1;; ++number) {
-        std::filesystem::path name = stem + "-" + std::to_string(number) + ".ppm";
+        std::filesystem::path name = path_of(stem + "-" + std::to_string(number) + ".ppm");
         if (!std::filesystem::exists(name)) {
             return name;
         }
@@ -61,7 +63,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    [[nodiscard]] std::string name() const { return std::filesystem::path(options_.scene).filename().string(); }
+    [[nodiscard]] std::string name() const { return display_name(path_of(options_.scene).filename()); }
 
     WindowEvents events() {
         return {[this](char character) { controls_.key(character); },
@@ -151,7 +153,8 @@ private:
             window_.show(image);
             return;
         }
-        write_ppm(without_strip(window_.show_and_read(image), controls_.settings().camera), options_.screenshot);
+        write_ppm(without_strip(window_.show_and_read(image), controls_.settings().camera),
+                  path_of(options_.screenshot));
         while (!asker_.idle_within(k_patience)) {
         }
         print_answer();
@@ -165,7 +168,7 @@ private:
             const Image image = content(frame_, controls_.settings(), "");
             const bool map = controls_.settings().map.has_value();
             write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
-            say("saved " + path.string() + "\n");
+            say("saved " + display_name(path) + "\n");
         } catch (const std::exception& error) {
             std::fprintf(stderr, "view: %s\n", error.what());
         }

@@ -28,6 +28,18 @@ def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Ste
 
 
 @pytest.mark.parametrize(
+    ("output", "place"),
+    [
+        ("C:\\kit\\core\\ray.hpp:3:1: error: x\nC:\\Users\\Jo B\\shadows.cpp:4:11: error: nope\n", "4:11: nope"),
+        ("shadows.cpp\nC:\\Jo B\\shadows.cpp(4): error C2065: 'nope': undeclared\n", "4: C2065: 'nope': undeclared"),
+    ],
+)
+def test_places_as_windows_writes_them(shadows: Step, output: str, place: str) -> None:
+    message = compile_message(shadows, SOURCE, ran(output))
+    assert message.startswith(f"It does not build: shadows.cpp:{place}\n    3 | int one;\n    4 | int two = nope;\n")
+
+
+@pytest.mark.parametrize(
     ("said", "expected"),
     [
         (ran("/in/0/kit/core/ray.hpp:3:1: error: in a header"), "It does not build: ray.hpp:3:1: in a header"),
@@ -61,6 +73,21 @@ def test_a_place_beyond_the_source_is_no_trouble(shadows: Step) -> None:
 def test_a_missing_function_is_named() -> None:
     output = "/usr/bin/ld: tracer.cpp:(.text+0x1): undefined reference to `raysteps::shadow_ray(int)'\n"
     assert link_message(ran(output)).startswith("It does not build: raysteps::shadow_ray(int) is missing.")
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        (
+            'x.obj : error LNK2019: unresolved external symbol "bool __cdecl raysteps::f(int)" (?f) referenced',
+            "missing",
+        ),
+        ('y.obj : error LNK2005: "int __cdecl raysteps::f(int)" (?f@@YA) already defined in x.obj', "defined twice"),
+    ],
+)
+def test_microsofts_linker_is_understood(said: str, told: str) -> None:
+    message = link_message(Ran(Outcome(1, False, said, "", 1.0), {}, 1.0, ""))
+    assert "raysteps::f(int) is " + told in message
 
 
 def test_a_step_that_reaches_for_what_is_not_its_own() -> None:

@@ -23,7 +23,7 @@ def _page(folder: Path) -> Path:
         [
             submission("ann", {_FIRST: result(10, 10), _SECOND: result(9, 20)}, mistakes={_SECOND: [_UNIT]}),
             submission("bob", {_FIRST: result(10, 10), _SECOND: result(0, 20, "crashed")}, late=late, final=8),
-            submission("script", {_FIRST: result(2, 10)}, students=[student(_SCRIPT, "4711", "x@example.edu")]),
+            submission("script", {_FIRST: result(2, 10)}, students=[student(_SCRIPT, "4711", "José.Groß@example.edu")]),
             submission("dot", {_FIRST: result(8, 10)}, inconsistent={_FIRST: ["dot says that it is right"]}),
             missing("eve", "fault", fault="eve is in the way"),
         ],
@@ -77,6 +77,10 @@ def test_search_status_and_marks_filter(open_page: OpenPage, tmp_path: Path) -> 
     page.fill("#search", "4711 EXAMPLE")
     assert _names(page) == [_SCRIPT]
     assert page.inner_text("#shown") == "1 of 5 submissions"
+    page.fill("#search", "none")
+    assert _names(page) == []
+    page.fill("#search", "JOSE\u0301 Groß")  # an accent of its own, as macOS writes it
+    assert _names(page) == [_SCRIPT]
     page.click("text=Show all")
     page.select_option("#step", "1")
     assert _names(page) == ["ann", "bob"]

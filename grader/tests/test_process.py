@@ -43,3 +43,12 @@ def test_a_child_that_holds_the_pipe_does_not_hold_the_grader() -> None:
     outcome = _python(code)
     assert outcome.stdout == "done\n"
     assert time.monotonic() - start < 6
+
+
+def test_windows_tells_crashes_by_large_exit_codes() -> None:
+    def name(code: int) -> str | None:
+        return Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_name
+
+    assert name(0xC0000005) == "SIGSEGV"
+    assert name(0xC0000017) == "exception 0xc0000017"
+    assert name(255) is None

@@ -138,3 +138,12 @@ def test_pages_that_were_closed_make_room(server: PageServer, board: Board) -> N
 def test_a_port_that_is_taken(board: Board, server: PageServer) -> None:
     with pytest.raises(UsageError, match=f"--port {server.port}: the page cannot be served there"):
         PageServer(board, str, server.port)
+
+
+def test_who_stops_and_begins_again_gets_the_same_port(board: Board, server: PageServer) -> None:
+    answer = _ask(server, _path(server) + "events")
+    server.close()
+    assert b'"over":true' in answer.read()
+    again = PageServer(board, str, server.port)
+    assert again.port == server.port
+    again.close()

@@ -97,6 +97,16 @@ TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays][v
     CHECK(tall.half_width == about(1.0 / 3.0));
 }
 
+TEST_CASE("view_frame: the handout's worked example", "[01-camera-rays][view_frame][part]") {
+    const ViewFrame frame = view_frame(straight_camera(4, 2));
+    CHECK_THAT(frame.forward, IsNear({0.0F, 0.0F, -1.0F}));
+    CHECK_THAT(frame.right, IsNear({1.0F, 0.0F, 0.0F}));
+    CHECK_THAT(frame.up, IsNear({0.0F, 1.0F, 0.0F}));
+    INFO("90 degrees: half_height = tan(45 degrees) = 1; 4 x 2 pixels: half_width = 1 * 4 / 2 = 2");
+    CHECK(frame.half_height == about(1.0));
+    CHECK(frame.half_width == about(2.0));
+}
+
 TEST_CASE("view_frame: three unit vectors at right angles for any camera", "[01-camera-rays][view_frame][part]") {
     Random random;
     INFO(random);

@@ -40,6 +40,18 @@ TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection
     CHECK(hit->from_outside);
 }
 
+TEST_CASE("Triangle: the handout's worked example", "[02-intersection][Triangle::intersect][part]") {
+    const Triangle triangle({0.0F, 0.0F, 0.0F}, {4.0F, 0.0F, 0.0F}, {0.0F, 4.0F, 0.0F}, Fill{});
+    const std::optional<HitRecord> hit = triangle.intersect({{-2.0F, 1.0F, 4.0F}, {0.6F, 0.0F, -0.8F}});
+    INFO("the plane is met at (16 * -4) / (16 * -0.8) = 5, at (1, 1, 0); its three sides are 4, 8 and 4");
+    REQUIRE(hit.has_value());
+    CHECK(hit->distance == about(5.0));
+    CHECK_THAT(hit->position, IsNear({1.0F, 1.0F, 0.0F}));
+    CHECK_THAT(hit->normal, IsNear({0.0F, 0.0F, 1.0F}));
+    INFO("4 farther to the right it is (5, 1, 0), on the outer side of bc");
+    CHECK_FALSE(triangle.intersect({{2.0F, 1.0F, 4.0F}, {0.6F, 0.0F, -0.8F}}).has_value());
+}
+
 TEST_CASE("Triangle: seen from behind the normal turns towards the ray",
           "[02-intersection][Triangle::intersect][part]") {
     const Ray up{{0.25F, 0.25F, -3.0F}, {0.0F, 0.0F, 1.0F}};

@@ -75,6 +75,19 @@ TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows][is_lit]
     CHECK(scene.rays.size() >= 2);
 }
 
+TEST_CASE("is_lit: the handout's worked example", "[04-shadows][is_lit][part]") {
+    const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
+    const Light light{{4.0F, 2.0F, 4.0F}, k_white};
+    const Sphere before = ball({3.1F, 2.0F, 2.8F}, 0.5F);
+    const Sphere behind = ball({4.6F, 2.0F, 4.8F}, 0.5F);
+    FakeCaster dark = scene_of({&before, &behind});
+    FakeCaster bright = scene_of({&behind});
+    INFO("the light is 5 away along (0.6, 0, 0.8); a ball from 3 to 4 is in the way");
+    CHECK_FALSE(is_lit(dark, hit, light));
+    INFO("a ball from 5.5 to 6.5 is behind the light");
+    CHECK(is_lit(bright, hit, light));
+}
+
 TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows][is_lit][part]") {
     const Sphere blocker = ball({0.0F, 0.0F, 5.0F}, 1.0F);
     FakeCaster scene = scene_of({&blocker});

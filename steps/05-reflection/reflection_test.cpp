@@ -129,6 +129,16 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     CHECK(tracer.shaded[0].depth + tracer.shaded[1].depth == 3);
 }
 
+TEST_CASE("trace: the handout's worked example", "[05-reflection][trace][part]") {
+    FakeTracer tracer;
+    tracer.max_depth = 3;
+    between_mirrors(tracer, 0.5F, k_white);
+    INFO("depth 3: 1; depth 2: 1 + 0.5 * 1; depth 1: 1 + 0.5 * 1.5");
+    CHECK_THAT(trace(tracer, k_eye_ray, 3), IsNear(Color(1.0F)));
+    CHECK_THAT(trace(tracer, k_eye_ray, 2), IsNear(Color(1.5F)));
+    CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear(Color(1.75F)));
+}
+
 TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-reflection][trace][part]") {
     const float ks = 0.5F;
     for (const int max_depth : {1, 2, 3, 5}) {

@@ -77,6 +77,16 @@ TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mappi
     CHECK(byte(0.6F / 255.0F) == 1);
 }
 
+TEST_CASE("tone_map and to_byte: the handout's worked example", "[07-tone-mapping][tone_map][to_byte][part]") {
+    const Color shown = tone_map({3.0F, 1.5F, 0.25F});
+    INFO("3/4, 1.5/2.5 and 0.25/1.25");
+    CHECK_THAT(shown, IsNear({0.75F, 0.6F, 0.2F}));
+    INFO("times 255: 191.25, 153 and 51");
+    CHECK(byte(shown.r) == 191);
+    CHECK(byte(shown.g) == 153);
+    CHECK(byte(shown.b) == 51);
+}
+
 TEST_CASE("to_byte: every byte comes back", "[07-tone-mapping][to_byte][part]") {
     for (int expected = 0; expected <= 255; ++expected) {
         CAPTURE(expected);

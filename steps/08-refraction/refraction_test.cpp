@@ -62,6 +62,19 @@ TEST_CASE("refract: out of glass the ray bends away from the normal", "[08-refra
     CHECK_THAT(*out, IsNear({0.75F, 0.0F, -0.661438F}));
 }
 
+TEST_CASE("refract: the handout's worked example", "[08-refraction][refract][part]") {
+    const std::optional<glm::vec3> in = refract({0.6F, 0.0F, -0.8F}, k_up, 1.0F / 1.5F);
+    INFO("into glass: the sine 0.6 becomes 0.6 / 1.5 = 0.4, the cosine sqrt(1 - 0.16) = 0.9165");
+    REQUIRE(in.has_value());
+    CHECK_THAT(*in, IsNear({0.4F, 0.0F, -0.916515F}));
+    INFO("the same way back out: 0.4 * 1.5 = 0.6");
+    const std::optional<glm::vec3> out = refract({0.4F, 0.0F, -0.916515F}, k_up, 1.5F);
+    REQUIRE(out.has_value());
+    CHECK_THAT(*out, IsNear({0.6F, 0.0F, -0.8F}));
+    INFO("0.8 * 1.5 = 1.2: no angle has such a sine");
+    CHECK_FALSE(refract({0.8F, 0.0F, -0.6F}, k_up, 1.5F).has_value());
+}
+
 TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction][refract][part]") {
     INFO("index 1.5: the critical angle is asin(1 / 1.5) = 41.81 degrees");
     CHECK(refract(downwards(41.0F), k_up, 1.5F).has_value());

@@ -29,6 +29,7 @@ from raysteps.kit.project import Project, here
 from raysteps.programs.limits import parse_limits
 from raysteps.upkeep import dev
 from raysteps.upkeep.bench import command as bench
+from raysteps.upkeep.figures import command as figures
 from raysteps.upkeep.selftest import selftest
 from raysteps.upkeep.site import command as site
 
@@ -95,6 +96,7 @@ def _parser() -> argparse.ArgumentParser:
 
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
     site.add_arguments(commands.add_parser("docs", help="the documents as a site that needs no network"))
+    figures.add_arguments(commands.add_parser("figures", help="make the figures of the handouts"))
 
     add = commands.add_parser("test", help="test the kit itself")
     add.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
@@ -140,6 +142,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return bench.run(project, arguments, console)
         case "docs":
             return site.run(project, arguments, console, _parser())
+        case "figures":
+            return figures.run(project, arguments, console)
         case "test":
             return selftest(project, console, full=arguments.full)
         case _:

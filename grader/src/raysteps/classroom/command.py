@@ -1,7 +1,6 @@
 """The command `grade-class`."""
 
 import argparse
-import fcntl
 from collections.abc import Container, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -25,6 +24,8 @@ from raysteps.classroom.session import Runner, Session
 from raysteps.classroom.summary import print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
+from raysteps.common.locks import try_lock
+from raysteps.common.systems import refuse_on_windows
 from raysteps.kit.project import Project
 
 __all__ = ["add_arguments", "run"]
@@ -36,13 +37,11 @@ def _only_one(out: Path) -> Iterator[None]:
     usable_folder(out)
     with (out / LOCK).open("a") as file:
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise UsageError(
-                f"{out}: another grade-class is writing there; wait for it, or name another --out"
-            ) from error
+            is_ours = try_lock(file.fileno())
         except OSError:
-            pass  # a file system without locks
+            is_ours = True  # a file system without locks
+        if not is_ours:
+            raise UsageError(f"{out}: another grade-class is writing there; wait for it, or name another --out")
         yield
 
 
@@ -116,6 +115,7 @@ def _merge(console: Console, folders: list[Path], out: Path) -> int:
 def run(project: Project, arguments: argparse.Namespace, console: Console, *, grader: str = KIT_GRADER) -> int:
     """0 when all were graded, whatever their points; 4 when the grader failed with one, or when a merge leaves some
     that are not graded yet; 130 when interrupted."""
+    refuse_on_windows("grade-class")
     if arguments.merge:
         refuse_beside_merge(arguments)
         return _merge(console, arguments.merge, arguments.out)

@@ -8,7 +8,8 @@ import sys
 import time
 from pathlib import Path
 
-from raysteps.sandbox.processes import descendants
+if sys.platform != "win32":
+    from raysteps.sandbox.processes import descendants
 
 _LONGEST_SECONDS = 30
 

@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-import shlex
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from raysteps.commands.progress import progress
 from raysteps.commands.report import print_details, print_files, print_isolation, print_table, short_path
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, usable_folder
+from raysteps.common.systems import own_command, typed
 from raysteps.grading.one import grade_one
 from raysteps.grading.settings import Settings
 from raysteps.judge.case_files import FOLDER as CASES
@@ -127,7 +127,8 @@ def grade(project: Project, wish: Wish, console: Console) -> Results:
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
     def again(case: str) -> str:
-        return shlex.join(["./raysteps", "replay", short_path(out / case), "--submission", str(wish.submission)])
+        words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
+        return f"{own_command()} {typed(words)}"
 
     if wish.details:
         print_details(console, results, kit.steps, out, again)

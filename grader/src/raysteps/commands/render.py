@@ -1,13 +1,13 @@
 """The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
 
 import re
-import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
@@ -33,7 +33,9 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
 
 
 def _first_error(output: str) -> str:
-    found = re.search(r"^.*(?:error: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M)
+    found = re.search(
+        r"^.*(?:error: |error [A-Z]+[0-9]+: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M
+    )
     return shorten(printable(found.group()), 300) if found else "see above"
 
 
@@ -67,8 +69,8 @@ def build_reference(tree: BuildTree, target: str) -> Path:
 def run_raytrace(program: Path, args: list[str]) -> None:
     """Runs the program on this terminal, so that its progress bar shows."""
     code = subprocess.run([program, *args], check=False).returncode
-    if code < 0:
-        name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
+    name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_name
+    if name is not None:
         print(f"raysteps: {program.name} crashed ({name}) while it rendered", file=sys.stderr)
         raise SystemExit(1)
     if code != 0:

@@ -1,16 +1,28 @@
 """Writes files so that nobody ever sees half of one."""
 
-import fcntl
 import json
 import os
 import re
+import sys
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+import time
 from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
+from raysteps.common.locks import one_at_a_time
+
+__all__ = [
+    "forget_unfinished",
+    "one_at_a_time",
+    "open_regular",
+    "usable_folder",
+    "write_bytes",
+    "write_if_changed",
+    "write_json",
+]
+
+_PATIENCE_SECONDS = 2.0
 
 
 def usable_folder(path: Path) -> None:
@@ -23,13 +35,24 @@ def usable_folder(path: Path) -> None:
         raise UsageError(f"{path}: results cannot be written there: {error.strerror or error}") from error
 
 
-@contextmanager
-def one_at_a_time(lock: Path) -> Iterator[None]:
-    """Waits until nobody else holds the lock."""
-    lock.parent.mkdir(parents=True, exist_ok=True)
-    with lock.open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield
+def open_regular(path: Path) -> int:
+    """Opens a file to read its bytes: no link is followed and no pipe waited for where the system can do without."""
+    wanted = ("O_BINARY", "O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC")
+    return os.open(path, os.O_RDONLY | sum(getattr(os, name, 0) for name in wanted))
+
+
+def _replace(temporary: Path, path: Path) -> None:
+    """On Windows a file cannot be replaced while somebody, such as a virus scanner, has it open."""
+    until = time.monotonic() + _PATIENCE_SECONDS
+    while True:
+        try:
+            temporary.replace(path)
+        except PermissionError:
+            if sys.platform != "win32" or time.monotonic() > until:
+                raise
+            time.sleep(0.05)
+        else:
+            return
 
 
 def write_bytes(path: Path, data: bytes) -> None:
@@ -41,7 +64,7 @@ def write_bytes(path: Path, data: bytes) -> None:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
         temporary.chmod(0o644)
-        temporary.replace(path)
+        _replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise

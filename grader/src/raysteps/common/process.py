@@ -1,7 +1,5 @@
 """Runs a program that is trusted, with a time limit and a cap on what it may say. Others run in a sandbox."""
 
-import os
-import selectors
 import signal
 import subprocess
 import time
@@ -9,7 +7,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.common.families import apart, end_all
+from raysteps.common.pipes import PipeReader
+
 _MEGABYTE = 1 << 20
+_LOOK_EVERY = 0.2
+_LEFT_BEHIND_SECONDS = 1.0  # for what is still in the pipes of a program that has ended
+# How Windows tells what ended a program: the names that the same trouble has elsewhere.
+_WINDOWS_ENDINGS = {
+    0xC0000005: "SIGSEGV",
+    0xC000001D: "SIGILL",
+    0xC0000094: "SIGFPE",
+    0xC00000FD: "SIGSEGV, the stack is full: a recursion without end?",
+    0xC0000374: "SIGABRT, the heap is damaged",
+    0xC0000409: "SIGABRT",
+    0xC000013A: "SIGINT",
+}
+_FIRST_WINDOWS_ENDING = 0xC0000000
 
 
 @dataclass(frozen=True)
@@ -25,6 +39,8 @@ class Outcome:
     @property
     def signal_name(self) -> str | None:
         """Such as SIGSEGV, when a signal ended the program."""
+        if self.code >= _FIRST_WINDOWS_ENDING and not self.timed_out:
+            return _WINDOWS_ENDINGS.get(self.code, f"exception {self.code:#010x}")
         if self.timed_out or self.code >= 0:
             return None
         try:
@@ -33,45 +49,19 @@ class Outcome:
             return f"signal {-self.code}"
 
 
-def _kill_group(pid: int) -> None:
-    try:
-        os.killpg(pid, signal.SIGKILL)
-    except (ProcessLookupError, PermissionError):
-        return
-
-
-def _drain(process: "subprocess.Popen[bytes]", deadline: float, cap: int) -> tuple[bool, bytes, bytes]:
-    """Reads both pipes until they close, the program is gone for a second, or time is up."""
-    assert process.stdout is not None
-    assert process.stderr is not None
-    kept = {process.stdout: bytearray(), process.stderr: bytearray()}
-    ended_at: float | None = None
-    with selectors.DefaultSelector() as selector:
-        for opened in kept:
-            selector.register(opened, selectors.EVENT_READ)
-        while selector.get_map():
-            now = time.monotonic()
-            if now > deadline and process.poll() is None:
-                return True, bytes(kept[process.stdout]), bytes(kept[process.stderr])
-            if ended_at is None and process.poll() is not None:
-                ended_at = now
-                _kill_group(process.pid)
-            if ended_at is not None and now > ended_at + 1:
-                break
-            for key, _ in selector.select(min(0.2, max(0.0, deadline - now))):
-                pipe = key.fileobj
-                assert not isinstance(pipe, int)
-                data = os.read(key.fd, 65536)
-                if not data:
-                    selector.unregister(pipe)
-                for known, buffer in kept.items():
-                    if known is pipe:
-                        buffer += data[: max(0, cap - len(buffer))]
+def _has_ended_in_time(process: "subprocess.Popen[bytes]", pipes: Sequence[PipeReader], deadline: float) -> bool:
+    """Waits until the pipes are closed and the program is gone, or only the program, or until time is up."""
+    for pipe in pipes:
+        while not pipe.is_at_end(min(_LOOK_EVERY, deadline - time.monotonic())):
+            if process.poll() is not None:
+                return True
+            if time.monotonic() > deadline:
+                return False
     try:
         process.wait(max(0.0, deadline - time.monotonic()))
     except subprocess.TimeoutExpired:
-        return True, bytes(kept[process.stdout]), bytes(kept[process.stderr])
-    return False, bytes(kept[process.stdout]), bytes(kept[process.stderr])
+        return False
+    return True
 
 
 def run(
@@ -81,7 +71,7 @@ def run(
     cwd: Path | None = None,
     cap: int = _MEGABYTE,
 ) -> Outcome:
-    """Runs the words of a command, never a shell; kills its whole process group in the end."""
+    """Runs the words of a command, never a shell; kills whatever it started in the end."""
     start = time.monotonic()
     process = subprocess.Popen(
         [str(word) for word in command],
@@ -89,18 +79,16 @@ def run(
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        start_new_session=True,
+        **apart(),
     )
-    with process:
-        try:
-            timed_out, out, err = _drain(process, start + seconds, cap)
-        finally:
-            _kill_group(process.pid)
-            code = process.wait()
-    return Outcome(
-        code=code,
-        timed_out=timed_out,
-        stdout=out.decode("utf-8", "replace"),
-        stderr=err.decode("utf-8", "replace"),
-        seconds=time.monotonic() - start,
-    )
+    pipes = [PipeReader(process.stdout, cap), PipeReader(process.stderr, cap)]
+    try:
+        in_time = _has_ended_in_time(process, pipes, start + seconds)
+    finally:
+        end_all(process)
+        code = process.wait()
+    until = time.monotonic() + _LEFT_BEHIND_SECONDS
+    for pipe in pipes:
+        pipe.is_at_end(until - time.monotonic())
+    out, err = (pipe.bytes().decode("utf-8", "replace") for pipe in pipes)
+    return Outcome(code, timed_out=not in_time, stdout=out, stderr=err, seconds=time.monotonic() - start)

@@ -1,6 +1,7 @@
 """What a failed build says to a student: the first real error in the student's own file, and the lines around it."""
 
 import re
+from dataclasses import dataclass
 
 from raysteps.common.text import listed, printable, shorten
 from raysteps.kit.built_kit import BuiltKit
@@ -9,17 +10,45 @@ from raysteps.programs.student_build import Compiled
 from raysteps.sandbox.task import Ran
 
 _ERROR = re.compile(
-    r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$", re.M
+    r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
+    re.M,
 )
-_MISSING = re.compile(r"undefined reference to [`'](?P<name>.+?)'|undefined symbol: (?P<other>\S.*)")
-_TWICE = re.compile(r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)")
+_MICROSOFT_ERROR = re.compile(
+    r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
+)
+_MISSING = re.compile(
+    r"undefined reference to [`'](?P<name>.+?)'|(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
+)
+_TWICE = re.compile(
+    r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"
+    r"|LNK2005: \"?(?P<theirs>[^\"\n]+?)\"?(?: \([^)\n]*\))? already defined"
+)
 _MOST_LOG = 64_000
+_DRIVE, _PART = r"(?:\b[A-Za-z]:)?", r"[/\\][^\s:/\\]+"
+
+
+@dataclass(frozen=True)
+class _Error:
+    file: str
+    line: int
+    column: int  # 0: not told
+    text: str
 
 
 def build_log(ran: Ran) -> str:
     """All that the compiler said, as text that cannot steer a terminal, and without the grader's folders."""
-    text = re.sub(r"(?:/[^\s:/]+)*/include/(core|steps)/", r"\1/", printable(ran.outcome.stderr + ran.outcome.stdout))
-    return shorten(re.sub(r"(?:/[^\s:/]+)+/(\w+\.cpp\b)", r"\1", text).strip(), _MOST_LOG)
+    text = printable(ran.outcome.stderr + ran.outcome.stdout)
+    text = re.sub(rf"{_DRIVE}(?:{_PART})*[/\\]include[/\\](core|steps)[/\\]", r"\1/", text)
+    return shorten(re.sub(rf"{_DRIVE}(?:{_PART})+[/\\](\w+\.cpp\b)", r"\1", text).strip(), _MOST_LOG)
+
+
+def _errors(output: str) -> list[_Error]:
+    """As GCC and Clang write them, or else as Microsoft's compiler does, which knows no columns."""
+    found = list(_ERROR.finditer(output)) or list(_MICROSOFT_ERROR.finditer(output))
+    return [
+        _Error(re.split(r"[/\\]", one["path"])[-1], int(one["line"]), int(one["column"] or 0), one["text"])
+        for one in found
+    ]
 
 
 def _context(source: str, line: int, column: int) -> str:
@@ -28,7 +57,7 @@ def _context(source: str, line: int, column: int) -> str:
     shown = []
     for number in range(max(1, line - 1), min(len(lines), line + 1) + 1):
         shown.append(f"{number:5} | {shorten(printable(lines[number - 1]), 160)}")
-        if number == line and column <= 160:
+        if number == line and 0 < column <= 160:
             shown.append(f"      | {' ' * (column - 1)}^")
     return "\n".join(shown)
 
@@ -39,14 +68,13 @@ def compile_message(step: Step, source: str, ran: Ran) -> str:
         return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
     if ran.stopped == "memory":
         return "It does not build: the compiler needed more memory than it may have."
-    output = printable(ran.outcome.stderr)
-    errors = list(_ERROR.finditer(output))
-    own = [error for error in errors if error["path"].rpartition("/")[2] == step.file]
+    output = printable(ran.outcome.stderr or ran.outcome.stdout)
+    errors = _errors(output)
+    own = [error for error in errors if error.file == step.file]
     for error in own or errors:
-        line, column = int(error["line"]), int(error["column"])
-        name = error["path"].rpartition("/")[2]
-        text = f"It does not build: {name}:{line}:{column}: {shorten(error['text'], 300)}"
-        return f"{text}\n{_context(source, line, column)}" if own else text
+        place = f"{error.file}:{error.line}" + (f":{error.column}" if error.column else "")
+        text = f"It does not build: {place}: {shorten(error.text, 300)}"
+        return f"{text}\n{_context(source, error.line, error.column)}" if own else text
     telling = [line for line in output.splitlines() if re.search("error:|terminated|Error", line)]
     said = shorten(telling[-1] if telling else output.strip().rpartition("\n")[2], 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
@@ -79,10 +107,10 @@ def link_message(ran: Ran) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:
         return "It does not build: the linker took too long."
-    missing = _MISSING.search(printable(ran.outcome.stderr))
-    twice = _TWICE.search(printable(ran.outcome.stderr))
+    said = printable(ran.outcome.stderr + ran.outcome.stdout)  # Microsoft's linker complains on stdout
+    missing, twice = _MISSING.search(said), _TWICE.search(said)
     if twice is not None:
-        return f"It does not build: {shorten(twice['name'], 200)} is defined twice."
+        return f"It does not build: {shorten(twice['name'] or twice['theirs'], 200)} is defined twice."
     if missing is None:
         return "It does not build: the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)

@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 from raysteps.common.files import write_bytes, write_json
+from raysteps.common.systems import executable
 from raysteps.kit.description import Description
 from raysteps.kit.linking import (
     dynamic_list,
@@ -66,7 +67,7 @@ class Assembly:
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._link_reference(f"test-{step.number}", objects)
             self._add_program(f"test-isolated-{step.number}", objects, [step])
-            cases = list_tests(self._folder / "bin" / f"test-{step.number}")
+            cases = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
             tests[step.id] = {name: sorted(tags) for name, tags in cases.items()}
         tools = self._description.seal
         loader = None if tools is None else interpreter_of(tools.readelf, self._folder / "bin" / "raytrace")
@@ -116,7 +117,7 @@ class Assembly:
 
     def _link_reference(self, name: str, objects: list[Path]) -> None:
         parts = [*objects, *self._objects.values(), *self._others, self._core]
-        link(self._description, parts, self._folder / "bin" / name)
+        link(self._description, parts, executable(self._folder / "bin" / name))
 
     def _add_program(self, name: str, objects: list[Path], mine: list[Step]) -> None:
         """Linked with placeholders where steps are libraries, so that nothing is linked for a submission; else a list

@@ -11,6 +11,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import one_at_a_time
 from raysteps.common.process import Outcome, run
+from raysteps.common.systems import executable
 from raysteps.common.text import printable, shorten
 from raysteps.kit.project import Project
 
@@ -33,7 +34,7 @@ class BuildTree:
         return self.folder / "bin"
 
     def program(self, target: str) -> Path:
-        return self.bin / target
+        return executable(self.bin / target)
 
     def cached(self, name: str) -> str:
         """A value from CMake's cache, or nothing."""
@@ -46,15 +47,15 @@ class BuildTree:
 
     def is_configured(self) -> bool:
         home = self.cached("CMAKE_HOME_DIRECTORY")
-        generated = home == str(self.project.root) and any(
+        generated = home == self.project.root.as_posix() and any(
             (self.folder / name).is_file() for name in ("build.ninja", "Makefile")
         )
-        return generated and self.cached("RAYSTEPS_MINE_DIR") == str(self.mine)
+        return generated and self.cached("RAYSTEPS_MINE_DIR") == self.mine.as_posix()
 
     def forget_other_home(self) -> None:
         """CMake refuses a build folder whose sources were elsewhere, as in a clone that was moved or copied."""
         home = self.cached("CMAKE_HOME_DIRECTORY")
-        if home and home != str(self.project.root):
+        if home and home != self.project.root.as_posix():
             (self.folder / "CMakeCache.txt").unlink(missing_ok=True)
             for folder in (self.folder / "CMakeFiles", *self.folder.glob("_deps/*-subbuild")):
                 shutil.rmtree(folder, ignore_errors=True)
@@ -65,7 +66,7 @@ class BuildTree:
             return
         self.forget_other_home()
         command: list[str | Path] = ["cmake", "--preset", self.preset, "-S", self.project.root, "-B", self.folder]
-        command += [f"-DRAYSTEPS_MINE_DIR={self.mine}", *self.options]
+        command += [f"-DRAYSTEPS_MINE_DIR={self.mine.as_posix()}", *self.options]
         generator = self.cached("CMAKE_GENERATOR") or ("Ninja" if shutil.which("ninja") else "")
         command += ["-G", generator] if generator else []
         outcome = run(command, seconds=_CONFIGURE_SECONDS, cwd=self.project.root)
@@ -97,5 +98,5 @@ def release_tree(project: Project) -> BuildTree:
 def what_failed(outcome: Outcome) -> str:
     """The part of a failed build that a person needs: from its first failure on."""
     text = printable(outcome.stdout + outcome.stderr)
-    starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400) if at > 0]
+    starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400, text.find("error C") - 400) if at > 0]
     return shorten(text[min(starts, default=0) :], 6000)

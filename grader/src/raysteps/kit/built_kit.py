@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from raysteps.common.systems import executable
 from raysteps.kit.description import Description
 from raysteps.kit.linking import library_name
 from raysteps.kit.manifest import Step
@@ -45,7 +46,7 @@ class BuiltKit:
 
     def reference(self, kind: Kind, step: Step | None = None) -> Path:
         """A program in which every step is the reference's."""
-        return self.folder / "bin" / (f"test-{step.number}" if step is not None else kind)
+        return executable(self.folder / "bin" / (f"test-{step.number}" if step is not None else kind))
 
     def functions(self, step: Step) -> dict[str, str]:
         """Linker names of the step's functions, and how C++ writes them; empty where steps are no libraries."""

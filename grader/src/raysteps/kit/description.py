@@ -36,6 +36,11 @@ class Description:
     wide: list[Path]  # what the reference's raytrace is linked with beside that; nothing where Highway is missing
     worker: list[Path]
     tests: dict[str, list[Path]]
+    driver: str = "gnu"  # or "msvc": whose words the compiler takes
+
+    @property
+    def is_msvc(self) -> bool:
+        return self.driver == "msvc"
 
     @property
     def more_includes(self) -> list[Path]:
@@ -70,6 +75,7 @@ def read_description(path: Path) -> Description:
             wide=_paths(table["wide"]),
             worker=_paths(table["worker"]),
             tests={number: _paths(objects) for number, objects in table["tests"].items()},
+            driver=str(table.get("driver", "gnu")),
         )
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise GraderFault(f"{path}: not what CMake writes for the grader: {error}") from error

@@ -8,6 +8,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import run
 from raysteps.kit.description import Description
+from raysteps.kit.driver import link_words
 
 _SECONDS = 300
 
@@ -21,7 +22,7 @@ def _run(words: Sequence[str | Path]) -> str:
 
 def link(description: Description, objects: Sequence[str | Path], program: Path) -> None:
     """A program, or with the right words among the objects a library."""
-    _run([description.compiler, *description.link_flags, *objects, "-o", program])
+    _run(link_words(description, objects, program))
 
 
 def version_script(names: Sequence[str]) -> bytes:

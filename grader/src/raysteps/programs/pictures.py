@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from raysteps.common.files import write_bytes
+from raysteps.common.files import open_regular, write_bytes
 
 Pixels: TypeAlias = npt.NDArray[np.uint8]
 
@@ -28,7 +28,7 @@ class PictureError(Exception):
 def read_ppm(path: Path) -> Pixels:
     """Reads a P6 file with 8-bit channels; regular files only."""
     try:
-        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        handle = open_regular(path)
     except OSError as error:
         raise PictureError("no picture was written") from error
     try:

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.files import write_bytes
+from raysteps.common.systems import executable
 from raysteps.kit.built_kit import BuiltKit, Kind
+from raysteps.kit.driver import compile_words, include_words, link_words
 from raysteps.kit.linking import library_flags, library_name
 from raysteps.kit.manifest import Step
 from raysteps.kit.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
@@ -49,11 +51,10 @@ class StudentBuild:
         path = self._folder / step.path
         write_bytes(path, source)
         description = self._kit.description
-        include: list[Word] = ["-I", Input(self._kit.include)]
-        for folder in description.more_includes:
-            include += ["-isystem", Input(folder)]
-        words = [description.compiler, *description.compile_flags]
-        ran = self._run(limits, *words, *include, "-c", Input(path, step.file), "-o", Output("object"))
+        words: list[Word] = [description.compiler, *description.compile_flags]
+        words += include_words(description, Input(self._kit.include), [Input(it) for it in description.more_includes])
+        words += compile_words(description, Input(path, step.file), Output("object"))
+        ran = self._run(limits, *words)
         data = ran.outputs.get("object")
         if ran.outcome.code != 0 or ran.outcome.timed_out or not data:
             return Compiled(None, ran)
@@ -104,13 +105,15 @@ class StudentBuild:
             libraries = Input(self._in_one_folder(f"{kind}-{step.number}", binaries), "steps")
             return Program((self._kit.interpreter, "--library-path", libraries, Input(program, kind))), None
         parts = [*binaries, *self._kit.rest(kind, step, together=together)]
-        words: list[Word] = [self._kit.description.compiler, *self._kit.description.link_flags]
-        words += [Input(part, part.name) for part in parts]
-        ran = self._run(limits, *words, "-o", Output("program"))
-        data = ran.outputs.get("program")
+        output = Output(executable(Path("program")).name)
+        target: Word = output
+        inputs: list[Word] = [Input(part, part.name) for part in parts]
+        ran = self._run(limits, *link_words(self._kit.description, inputs, target))
+        data = ran.outputs.get(output.name)
         if not data:
             return None, ran
-        path = self._write(f"{kind}-{step.number}{'-together' if together else ''}", data)
+        name = f"{kind}-{step.number}{'-together' if together else ''}"
+        path = self._write(executable(Path(name)).name, data)
         path.chmod(0o755)
         return Program((Input(path, kind),)), None
 

@@ -1,6 +1,7 @@
 """The table of a class: what each row shows, and what it is sorted and found by."""
 
 import hashlib
+import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -66,9 +67,10 @@ def _who(one: Document) -> tuple[str, str]:
 
 
 def _found_by(one: Document) -> str:
+    """As the page makes what is searched for: lower case without folding, and one code for each letter."""
     words = [one["name"], one["entry"]]
     words += [student[key] for student in one["students"] for key in ("id", "name", "email")]
-    return " ".join(dict.fromkeys(word for word in words if word)).casefold()
+    return unicodedata.normalize("NFC", " ".join(dict.fromkeys(word for word in words if word)).lower())
 
 
 def _cell(result: Document | None) -> Cell | None:

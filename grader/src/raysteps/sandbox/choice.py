@@ -9,16 +9,19 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.kit.project import here
-from raysteps.sandbox.bubblewrap import Bubblewrap
-from raysteps.sandbox.fallback import Fallback
-from raysteps.sandbox.mode import AsRoot
 from raysteps.sandbox.open_air import OpenAir
 from raysteps.sandbox.task import Input, Sandbox, Task
-from raysteps.sandbox.users import can_lend_users
-from raysteps.sandbox.workplace import sweep
+
+if sys.platform != "win32":
+    from raysteps.sandbox.bubblewrap import Bubblewrap
+    from raysteps.sandbox.fallback import Fallback
+    from raysteps.sandbox.mode import AsRoot
+    from raysteps.sandbox.users import can_lend_users
+    from raysteps.sandbox.workplace import sweep
 
 VARIABLE = "RAYSTEPS_SANDBOX"
 _CHOICES = ("bubblewrap", "fallback", "none")
+_ON_WINDOWS = "\nOn Windows, use WSL: docs/where-students-work.md." if sys.platform == "win32" else ""
 
 
 def _works(sandbox: Sandbox) -> str:
@@ -44,7 +47,8 @@ def _try(make: Callable[[], Sandbox]) -> tuple[Sandbox | None, str]:
 
 @cache
 def _sweep_once() -> None:
-    sweep()
+    if sys.platform != "win32":
+        sweep()
 
 
 @cache
@@ -90,5 +94,7 @@ def find_sandbox(*, require: bool = False) -> Sandbox:
     found = sandbox or OpenAir()
     if require and not found.isolation.strong:
         why = reasons[0] if reasons else f"{VARIABLE} asks for {choice}."
-        raise UsageError(f"A strong sandbox is required, and there is none here: {why}\nSee docs/sandbox.md.")
+        raise UsageError(
+            f"A strong sandbox is required, and there is none here: {why}{_ON_WINDOWS}\nSee docs/sandbox.md."
+        )
     return found

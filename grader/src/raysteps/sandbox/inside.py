@@ -8,8 +8,8 @@ from pathlib import Path
 from tempfile import TemporaryFile
 
 from raysteps.sandbox.mounts import compiler_command
+from raysteps.sandbox.reading import read_regular
 from raysteps.sandbox.task import Input, Task, Word
-from raysteps.sandbox.workplace import read_regular
 
 _MEGABYTE = 1 << 20
 

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 
-_MEGABYTE = 1 << 20
 _PREFIX = "raysteps-run-"
 _GROUNDS = (Path("/tmp"), Path("/var/tmp"))  # noqa: S108  (for fresh names only)
 _REMOVE_SECONDS = 120
@@ -162,18 +161,3 @@ def remove_tree(folder: Path) -> None:
             continue
         with suppress(OSError, subprocess.TimeoutExpired):
             subprocess.run(words, check=False, capture_output=True, stdin=subprocess.DEVNULL, timeout=_REMOVE_SECONDS)
-
-
-def read_regular(path: Path, cap: int) -> bytes | None:
-    """The bytes of a file that a task wrote: no link is followed, no pipe is waited for."""
-    try:
-        file = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
-    except OSError:
-        return None
-    with os.fdopen(file, "rb", buffering=0) as opened:
-        if not stat.S_ISREG(os.fstat(file).st_mode):
-            return None
-        data = bytearray()
-        while len(data) < cap and (part := opened.read(min(_MEGABYTE, cap - len(data)))):
-            data += part
-        return bytes(data) or None

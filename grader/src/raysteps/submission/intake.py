@@ -13,6 +13,7 @@ from raysteps.submission.encoding import decode
 from raysteps.submission.entries import Entry, NotTaken, shown
 from raysteps.submission.folders import FolderReader
 from raysteps.submission.places import Place, Places, unusual_places
+from raysteps.submission.plain_folders import PlainFolderReader
 
 _MOST_COPIES = 3  # that are named
 
@@ -138,7 +139,7 @@ def submission_name(path: Path) -> str:
 
 def _collect(path: Path, collector: _Collector) -> None:
     if path.is_dir():
-        reader = FolderReader(path)
+        reader = FolderReader(path) if os.open in os.supports_dir_fd else PlainFolderReader(path)
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
     elif not path.is_file():

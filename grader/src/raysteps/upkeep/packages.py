@@ -8,6 +8,7 @@ from collections.abc import Sequence
 _SECONDS = 1200
 
 CLANG = ("clang",)
+MINGW = ("g++-mingw-w64-x86-64-posix", "wine64", "wine")
 PAGES = ("chromium",)
 WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb")
 
@@ -24,7 +25,7 @@ def install(packages: Sequence[str]) -> bool:
         return False
     missing = [package for package in packages if not _installed(package)]
     if missing:
-        admin = [] if os.geteuid() == 0 else ["sudo", "-n"]
+        admin = [] if not hasattr(os, "geteuid") or os.geteuid() == 0 else ["sudo", "-n"]
         get = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
         try:
             for words in (["update"], ["install", "-y", *missing]):

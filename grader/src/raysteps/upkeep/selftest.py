@@ -8,6 +8,7 @@ from raysteps.upkeep.checks import Check, Report, run_checks
 from raysteps.upkeep.packages import PAGES, WINDOW, install
 from raysteps.upkeep.selftest_checks import grade_checks, python_checks, run_pytest
 from raysteps.upkeep.selftest_programs import asan_checks, build, clang_checks, program_checks, same_pictures
+from raysteps.upkeep.windows_checks import windows_checks
 
 _SLOW = "pytest, hostile submissions and packages for other systems"
 
@@ -28,9 +29,9 @@ def selftest(project: Project, console: Console, *, full: bool) -> int:
     checks += python_checks(project)
     if full:
         checks.append(Check(_SLOW, lambda: run_pytest(project, "slow")))
-        checks += asan_checks(project) + clang_checks(project)
+        checks += asan_checks(project) + clang_checks(project) + windows_checks(project, tree)
     else:
         more = Report("skipped", "run: ./raysteps test --full")
-        names = (_SLOW, "sanitizers", "build everything with clang", "fuzz-readers for 60 s")
+        names = (_SLOW, "sanitizers", "build everything with clang", "fuzz-readers for 60 s", "Windows")
         checks += [Check(name, lambda: more) for name in names]
     return run_checks(checks, console)

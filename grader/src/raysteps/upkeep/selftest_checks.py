@@ -9,6 +9,7 @@ from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import outdated_stubs
 from raysteps.upkeep.checks import Check, Report
+from raysteps.upkeep.figures.command import out_of_date as old_figures
 from raysteps.upkeep.handbook.command import out_of_date
 from raysteps.upkeep.samples import outdated_samples
 from raysteps.upkeep.selftest_programs import command
@@ -41,6 +42,12 @@ def _mistakes(project: Project) -> Report:
     return Report("failed", text + ", ".join(old)) if old else Report("passed")
 
 
+def _figures(project: Project) -> Report:
+    old = old_figures(project, lambda text: None)
+    text = "these are not what the kit draws (./raysteps figures makes them anew): "
+    return Report("failed", text + ", ".join(old)) if old else Report("passed")
+
+
 def python_checks(project: Project) -> list[Check]:
     grader = project.root / "grader"
     python = Path(sys.executable)
@@ -68,4 +75,5 @@ def grade_checks(project: Project, console: Console, *, full: bool) -> list[Chec
     return [
         Check(name, lambda: _truth(project, console, pairs=pairs)),
         Check("pages of mistakes match the catalogue", lambda: _mistakes(project)),
+        Check("figures of the handouts are up to date", lambda: _figures(project)),
     ]

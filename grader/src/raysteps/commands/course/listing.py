@@ -5,6 +5,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.commands.course.standing import Standing, next_of, shown, standings
+from raysteps.common.systems import own_command
 from raysteps.common.text import listed, number
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -43,7 +44,7 @@ def list_steps(project: Project, console: Console) -> int:
     found = standings(project)
     following = next_of(found)
     print_list(console, found, following)
-    told = f"next: ./raysteps watch {following.number}" if following is not None else _ALL_DONE
+    told = f"next: {own_command()} watch {following.number}" if following is not None else _ALL_DONE
     console.print(f"\n{told}", highlight=False)
     return 0
 
@@ -68,11 +69,11 @@ def next_step(project: Project, console: Console) -> int:
     lines = [
         ("read", shown(project, step, "README.md")),
         ("write", shown(project, step, step.file) + _to_write(standing)),
-        ("type", f"./raysteps watch {step.number}"),
-        ("stuck", f"./raysteps hint {step.number}"),
+        ("type", f"{own_command()} watch {step.number}"),
+        ("stuck", f"{own_command()} hint {step.number}"),
     ]
     if standing.kind in ("missing", "unreadable"):
-        lines = [("file", shown(project, step, step.file)), ("type", f"./raysteps reset {step.number}")]
+        lines = [("file", shown(project, step, step.file)), ("type", f"{own_command()} reset {step.number}")]
     for label, text in lines:
         console.print(f"  {label:<6} {escape(text)}", highlight=False, soft_wrap=True)
     return 0

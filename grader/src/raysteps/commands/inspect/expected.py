@@ -44,10 +44,18 @@ def diffuse(hit: Record, light: Record, source: Record) -> list[float]:
     return [weight * a * b for a, b in pairs]
 
 
+def _power(base: float, exponent: float) -> float:
+    """As std::pow: a cosine of a normal that is too long may have no end when it is raised to a shine."""
+    try:
+        return math.pow(base, exponent)
+    except (OverflowError, ValueError):
+        return math.inf
+
+
 def specular(hit: Record, light: Record, source: Record) -> list[float]:
     if as_float(light["l_n"]) <= 0:
         return [0.0, 0.0, 0.0]
-    weight = as_float(hit["fill"]["ks"]) * max(as_float(light["r_v"]), 0.0) ** as_float(hit["fill"]["shine"])
+    weight = as_float(hit["fill"]["ks"]) * _power(max(as_float(light["r_v"]), 0.0), as_float(hit["fill"]["shine"]))
     return [weight * value for value in _floats(source["color"])]
 
 

@@ -41,4 +41,4 @@ def page_html(record: Record, reference: Record | None = None, parting: Differen
 
 def write_page(record: Record, reference: Record | None, parting: Difference | None, target: Path) -> None:
     """Writes the page of one record, or of two beside each other with the first difference marked."""
-    write_out(target, page_html(record, reference, parting).encode())
+    write_out(target, page_html(record, reference, parting).encode("utf-8", "replace"))

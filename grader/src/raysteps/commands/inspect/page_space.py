@@ -15,7 +15,7 @@ def _plain(vector: Vector) -> list[float]:
 
 
 def _along(origin: Vector, direction: Vector, distance: float) -> list[float]:
-    return [a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)]
+    return _plain([a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)])
 
 
 def _end(ray: Record, size: float) -> list[float]:
@@ -50,7 +50,7 @@ def _camera(record: Record) -> dict[str, Any]:
     axes = [_plain(frame[name]) for name in ("forward", "right", "up")]
 
     def corner(right: int, up: int) -> list[float]:
-        return [f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)]
+        return _plain([f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)])
 
     return {
         **{name: _plain(camera[name]) for name in ("from", "at", "up")},

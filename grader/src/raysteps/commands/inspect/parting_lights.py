@@ -59,7 +59,7 @@ def _shadow(pair: Pair, mine: Record, reference: Record) -> Iterator[Difference]
 def _light_end(light: Record, ray: Record) -> list[float]:
     """A point far enough along the ray to stand for the light."""
     limit = ray["limit"] if isinstance(ray["limit"], int | float) else 1.0
-    return [a + limit * b for a, b in zip(ray["origin"], light["to_light"], strict=True)]
+    return [as_float(a) + limit * as_float(b) for a, b in zip(ray["origin"], light["to_light"], strict=True)]
 
 
 def _terms(pair: Pair, mine: Record, reference: Record) -> Iterator[Difference]:

@@ -67,7 +67,7 @@ def _problem(outcome: Outcome) -> str:
 
 def _read(path: Path) -> Record | None:
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        record = json.loads(path.read_text(encoding="utf-8", errors="replace"))  # a scene's name may be any bytes
     except (OSError, ValueError, RecursionError):
         return None
     is_record = isinstance(record, dict) and record.get("schema") == "raysteps/inspect/v1"

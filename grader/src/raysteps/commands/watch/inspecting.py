@@ -1,7 +1,6 @@
 """The pixel that is most wrong, and the command that looks into it."""
 
 import importlib.util
-import shlex
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -11,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from raysteps.commands.watch.view import View
+from raysteps.common import systems
 from raysteps.kit.manifest import ImageCase
 from raysteps.kit.project import Project
 
@@ -26,7 +26,7 @@ def command_for(case: ImageCase, x: str, y: str) -> list[str]:
 
 def typed(words: Sequence[str]) -> str:
     """As a person types it."""
-    return shlex.join(["./raysteps", *words])
+    return f"{systems.own_command()} {systems.typed(words)}"
 
 
 def template(case: ImageCase) -> str:

@@ -12,6 +12,7 @@ from PIL import Image
 from raysteps.commands.watch.board import State
 from raysteps.commands.watch.inspecting import template
 from raysteps.commands.watch.view import Result, View, is_right, passed_of, verdict
+from raysteps.common.systems import own_command
 from raysteps.common.text import number
 from raysteps.kit.manifest import Step
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
@@ -89,7 +90,7 @@ def _hidden(items: list[dict[str, Any]]) -> State:
     passed, all_ = passed_of(items)
     keys = ("name", "message", "given", "expected", "actual")
     failed = [
-        {key: item[key] for key in keys} | {"again": f"./raysteps replay {item['case']}" if item["case"] else ""}
+        {key: item[key] for key in keys} | {"again": f"{own_command()} replay {item['case']}" if item["case"] else ""}
         for item in items
         if not is_right(item)
     ]

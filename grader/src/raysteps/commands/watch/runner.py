@@ -86,7 +86,7 @@ class Runner:
             text=True,
             encoding="utf-8",
             errors="replace",
-            env=os.environ | {"TMPDIR": str(folder)},
+            env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
             start_new_session=True,
         )
         return _Process(popen, folder, errors)

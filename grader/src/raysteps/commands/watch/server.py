@@ -2,6 +2,7 @@
 
 import secrets
 import socket
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -31,7 +32,7 @@ MakePage = Callable[[str], str]  # from the state, as JSON, to HTML
 
 class _Server(ThreadingHTTPServer):
     daemon_threads = True
-    allow_reuse_address = False  # on Windows it would let another program take the port as well
+    allow_reuse_address = sys.platform != "win32"  # there it would let another program take the port as well
 
     def __init__(self, port: int, board: Board, make_page: MakePage) -> None:
         super().__init__(("127.0.0.1", port), _Handler)

@@ -4,6 +4,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.commands.watch.view import Result, Tone, View, is_right, verdict
+from raysteps.common.systems import own_command
 from raysteps.common.text import count, shorten
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
@@ -104,7 +105,7 @@ class Showing:
                 if item[label]:
                     self.line(f"    {label:<9} {item[label]}")
             if item["case"]:
-                self.line(f"    again     ./raysteps replay {item['case']}")
+                self.line(f"    again     {own_command()} replay {item['case']}")
         self._more(len(missed), "hidden item")
 
     def _more(self, amount: int, noun: str) -> None:

@@ -48,7 +48,7 @@ class ClassFilter {
   }
 
   apply() {
-    const search = this.value("search").trim().toLowerCase().split(/\s+/).filter(Boolean);
+    const search = this.value("search").trim().toLowerCase().normalize("NFC").split(/\s+/).filter(Boolean);
     const hidden = this.rows.namesHidden;
     const count = this.rows.filter(({ facts }) => {
       const words = hidden ? facts.alias : facts.words;

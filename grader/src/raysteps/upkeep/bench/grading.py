@@ -1,7 +1,6 @@
 """The command `bench grading`: what a submission costs in a class, against the plain way, measured in turns."""
 
 import os
-import resource
 import shutil
 import sys
 import tempfile
@@ -16,10 +15,12 @@ from rich.table import Table
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
+from raysteps.common.systems import refuse_on_windows
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 from raysteps.upkeep.bench.documents import keep
+from raysteps.upkeep.bench.processor import children_seconds
 
 _SECONDS = 3600
 _CLASS_SIZE = 8
@@ -37,15 +38,10 @@ class Cost:
     cpu_seconds: float
 
 
-def _processor_seconds() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
-    start, used = time.monotonic(), _processor_seconds()
+    start, used = time.monotonic(), children_seconds()
     work()
-    seconds, processor = time.monotonic() - start, _processor_seconds() - used
+    seconds, processor = time.monotonic() - start, children_seconds() - used
     return Cost(way, number, submissions, round(seconds / submissions, 2), round(processor / submissions, 2))
 
 
@@ -109,6 +105,7 @@ def _mean(values: list[float]) -> float:
 
 def grading(project: Project, rounds: int, console: Console) -> int:
     """Measures both ways in turns, prints one table and writes build/bench/grading.json."""
+    refuse_on_windows("bench grading")
     steps = read_steps(project)
     with console.status("building the kit, which both runs of a class share"):
         build_kit(project)

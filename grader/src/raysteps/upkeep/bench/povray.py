@@ -2,7 +2,6 @@
 
 import json
 import re
-import resource
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from raysteps.upkeep.bench.brightness import brightness_difference, linear_pictu
 from raysteps.upkeep.bench.flat_scene import read_flat
 from raysteps.upkeep.bench.pinning import pinned
 from raysteps.upkeep.bench.pov_scene import pov_text
+from raysteps.upkeep.bench.processor import children_seconds
 from raysteps.upkeep.bench.programs import Programs
 from raysteps.upkeep.bench.spread import spread_of
 
@@ -51,18 +51,13 @@ class Taken:
 Runner = Callable[[int], Taken]  # of a picture with that many pixels on each side
 
 
-def _processor_seconds() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 def _run(words: list[str | Path], folder: Path) -> tuple[Outcome, float]:
-    before = _processor_seconds()
+    before = children_seconds()
     with pinned():
         outcome = run(words, seconds=_SECONDS, cwd=folder)
     if outcome.timed_out or outcome.code != 0:
         raise GraderFault(f"{words[0]} failed: {shorten(outcome.stderr, 2000)}")
-    return outcome, _processor_seconds() - before
+    return outcome, children_seconds() - before
 
 
 def trace_seconds(report: str) -> float:

@@ -23,6 +23,7 @@ class Series:
 
     name: str
     points: list[tuple[float, float]]
+    marked: bool = True  # a dot at each point; none where the line is a formula
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class _Panel:
             places = [(self.x(x), self.y(y)) for x, y in series.points]
             path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
             yield f'<polyline fill="none" stroke="{color}" stroke-width="2" points="{path}"/>'
-            for x, y in places:
+            for x, y in places if series.marked else []:
                 yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" fill="{color}"/>'
 
     def bars(self) -> Iterator[str]:
@@ -106,7 +107,15 @@ def _legend(names: Sequence[str], columns: int) -> Iterator[str]:
         yield _text(x + 15, y, name, "start")
 
 
-def svg_text(charts: Sequence[Chart], *, width: float = _WIDTH) -> str:
+def _plate(width: float, height: float) -> list[str]:
+    """Paper of its own, in the reader's light or dark."""
+    style = ".plate{fill:#fff;stroke:#d0d7de}"
+    style += "@media (prefers-color-scheme:dark){.plate{fill:#161b22;stroke:#30363d}}"
+    rect = f'<rect class="plate" x="0.5" y="0.5" width="{width - 1:.0f}" height="{height - 1:.0f}" rx="8"/>'
+    return [f"<style>{style}</style>", rect]
+
+
+def svg_text(charts: Sequence[Chart], *, width: float = _WIDTH, description: str = "", plate: bool = False) -> str:
     """Charts side by side. They share one legend, so all have the same series in the same order."""
     names = [series.name for series in charts[0].series]
     parts: list[str] = []
@@ -116,6 +125,10 @@ def svg_text(charts: Sequence[Chart], *, width: float = _WIDTH) -> str:
     columns = max(1, int((width * len(charts) - _LEFT) / _LEGEND_COLUMN))
     height = _HEIGHT + _LEGEND_LINE * (-(-len(names) // columns) + 0.7)
     size = f"{width * len(charts):.0f} {height:.0f}"
+    if plate:
+        parts = [*_plate(width * len(charts), height), *parts]
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" role="img">'
     title = f"<title>{escape('; '.join(chart.title for chart in charts))}</title>"
+    if description:
+        title += f"<desc>{escape(description)}</desc>"
     return "\n".join([head, title, f"<style>{_STYLE}</style>", *parts, *_legend(names, columns), "</svg>"]) + "\n"

@@ -1,0 +1,91 @@
+"""The command `figures`: makes the figures of the handouts anew, or tells which are out of date."""
+
+import argparse
+import fnmatch
+import sys
+from collections.abc import Sequence
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.common.files import write_bytes
+from raysteps.common.text import count
+from raysteps.kit.built_kit import BuiltKit, Say
+from raysteps.kit.kit_building import build_kit
+from raysteps.kit.project import Project
+from raysteps.upkeep.figures import renders
+from raysteps.upkeep.figures.catalogue import FOLDER, Figure, figures
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which figures, and whether to write them."""
+    parser.add_argument("names", nargs="*", metavar="NAME", help="such as 06-growth or '04-*'; all when none is given")
+    parser.add_argument("--check", action="store_true", help="only tell which are out of date")
+
+
+def _chosen(names: Sequence[str]) -> list[Figure]:
+    every = figures()
+    for name in names:
+        if not any(fnmatch.fnmatchcase(figure.name, name) for figure in every):
+            known = ", ".join(figure.name for figure in every)
+            raise UsageError(f"there is no figure '{name}'; the figures are {known}")
+    return [one for one in every if not names or any(fnmatch.fnmatchcase(one.name, name) for name in names)]
+
+
+def _is_current(project: Project, kit: BuiltKit, figure: Figure) -> bool:
+    path = project.root / figure.path
+    drawn = figure.draw(kit)
+    if isinstance(drawn, str):
+        return path.is_file() and path.read_bytes() == drawn.encode()
+    return renders.is_current(path, drawn)
+
+
+def _nobodys(project: Project) -> list[str]:
+    known = {figure.path for figure in figures()}
+    folder = project.root / FOLDER
+    found = (path.relative_to(project.root).as_posix() for path in folder.rglob("*") if path.is_file())
+    return sorted(path for path in found if path not in known)
+
+
+def out_of_date(project: Project, say: Say, names: Sequence[str] = ()) -> list[str]:
+    """Paths that are missing, old, or made by no figure."""
+    kit = build_kit(project, say)
+    old = [figure.path for figure in _chosen(names) if not _is_current(project, kit, figure)]
+    return old + ([] if names else _nobodys(project))
+
+
+def _write(project: Project, kit: BuiltKit, figure: Figure) -> bool:
+    if _is_current(project, kit, figure):
+        return False
+    drawn = figure.draw(kit)
+    path = project.root / figure.path
+    if isinstance(drawn, str):
+        write_bytes(path, drawn.encode())
+    else:
+        renders.write(path, drawn)
+    return True
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Writes what is out of date, or names it and returns 1."""
+
+    def say(text: str) -> None:
+        print(f"raysteps: {text}", file=sys.stderr, flush=True)
+
+    if arguments.check:
+        old = out_of_date(project, say, arguments.names)
+        for path in old:
+            console.print(f"{escape(path)} is not what ./raysteps figures makes", soft_wrap=True, highlight=False)
+        if not old:
+            console.print(f"{count(len(_chosen(arguments.names)), 'figure')} up to date", highlight=False)
+        return 1 if old else 0
+    chosen = _chosen(arguments.names)
+    kit = build_kit(project, say)
+    for figure in chosen:
+        if _write(project, kit, figure):
+            console.print(f"{escape(figure.path)} written", soft_wrap=True, highlight=False)
+    for path in [] if arguments.names else _nobodys(project):
+        (project.root / path).unlink()
+        console.print(f"{escape(path)} removed: no figure makes it", soft_wrap=True, highlight=False)
+    return 0

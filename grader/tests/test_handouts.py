@@ -1,0 +1,147 @@
+"""The handouts: complete, true to the tests, and without the answer."""
+
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from raysteps.cli import _parser
+from raysteps.commands.render import take_impl
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.project import Project, here
+from raysteps.kit.stubs import without_markers
+
+_SECTIONS = [
+    "What you will see",
+    "Time and prerequisites",
+    "The idea",
+    "The maths",
+    "Your functions",
+    "A worked example",
+    "Check yourself",
+    "Wrong pictures and their causes",
+    "Inspect it",
+    "Going further",
+    "How it is graded",
+    "Sources",
+]
+_STEPS = read_steps(here())
+_EACH = pytest.mark.parametrize("step", _STEPS, ids=[step.id for step in _STEPS])
+
+
+def _handout(project: Project, step: Step) -> str:
+    return (project.steps / step.id / "README.md").read_text(encoding="utf-8")
+
+
+def _sections(text: str) -> dict[str, str]:
+    """By their headings, in order."""
+    parts = re.split(r"^## (.+)$", text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+def _cases(project: Project, step: Step) -> list[str]:
+    """The names of the step's visible tests."""
+    sources = [path.read_text(encoding="utf-8") for path in sorted((project.steps / step.id).glob("*_test.cpp"))]
+    return [name for source in sources for name in re.findall(r'^TEST_CASE\("([^"]+)"', source, re.MULTILINE)]
+
+
+def _commands(text: str) -> list[list[str]]:
+    """The words after ./raysteps of every line in a block of code, and of every such piece within a line."""
+    blocks = re.findall(r"^```\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    lines = [line for block in blocks for line in block.splitlines()]
+    lines += re.findall(
+        r"`((?:RAYSTEPS_SEED=\d+ )?\./raysteps [^`]+)`", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    )
+    found = [re.sub(r"^RAYSTEPS_SEED=\d+ ", "", line) for line in lines]
+    return [shlex.split(line)[1:] for line in found if line.startswith("./raysteps ")]
+
+
+@_EACH
+def test_a_handout_has_all_sections_in_order(project: Project, step: Step) -> None:
+    found = list(_sections(_handout(project, step)))
+    assert [name for name in found if name in _SECTIONS] == _SECTIONS
+
+
+@_EACH
+def test_a_handout_tells_of_every_function(project: Project, step: Step) -> None:
+    functions = _sections(_handout(project, step))["Your functions"]
+    for name in step.functions:
+        assert f"`{name}(" in functions, name
+
+
+@_EACH
+def test_a_worked_example_is_a_visible_test(project: Project, step: Step) -> None:
+    example = " ".join(_sections(_handout(project, step))["A worked example"].split())
+    groups = re.findall(r"Tests?(?: with these numbers)?: ((?:`[^`]+`(?: and )?)+)", example)
+    named = [name for group in groups for name in re.findall(r"`([^`]+)`", group)]
+    assert named, "name the test that checks these numbers"
+    assert set(named) <= set(_cases(project, step))
+
+
+@_EACH
+def test_what_check_prints_has_the_right_numbers(project: Project, step: Step) -> None:
+    printed = _sections(_handout(project, step))["Check yourself"]
+    assert f"{step.id} {step.title}: passed, {step.points:g} of {step.points:g}" in printed
+    assert f"  tests    all {len(_cases(project, step))} passed" in printed
+    assert f"  picture  {step.images[0].name}  0.00% wrong" in printed
+
+
+@_EACH
+def test_a_handout_tells_how_its_step_is_graded(project: Project, step: Step) -> None:
+    graded = " ".join(_sections(_handout(project, step))["How it is graded"].split())
+    assert graded.startswith(f"{step.points:g} points")
+    for share, words in (
+        (step.weight_tests, "are for the tests"),
+        (step.weight_images, "for the pictures"),
+        (step.weight_hidden, "for the judge's own inputs"),
+        (step.weight_together, "for working with your own steps"),
+    ):
+        assert f"{100 * share:g} % {words}" in graded, words
+
+
+@_EACH
+def test_a_handout_shows_the_step_and_wrong_pictures(project: Project, step: Step) -> None:
+    parts = _sections(_handout(project, step))
+    assert f"/figures/{step.number}-after.png" in parts["What you will see"]
+    assert parts["Wrong pictures and their causes"].count("![wrong: ") >= 6
+    assert "/figures/" in "".join(parts[name] for name in _SECTIONS[2:4])
+
+
+@_EACH
+def test_no_handout_gives_a_line_of_the_solution_away(project: Project, step: Step) -> None:
+    text = re.sub(r"\s|F\b", "", _handout(project, step))
+    source = without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
+    for line in source.splitlines():
+        code = re.sub(r"\s|F\b|//.*", "", line)
+        assert len(code) < 26 or code.startswith("#include") or code not in text, line
+
+
+def test_every_command_line_of_a_handout_can_be_read(project: Project, kit: BuiltKit) -> None:
+    raytrace = kit.reference("raytrace")
+    seen = set()
+    for step in _STEPS:
+        for words in _commands(_handout(project, step)):
+            seen.add(words[0])
+            for word in words:
+                assert not word.startswith("scenes/") or (project.root / word).is_file(), word
+            if words[0] == "render":
+                _, args = take_impl(words[1:])
+                outcome = subprocess.run([raytrace, *args, "--help"], capture_output=True, text=True, check=False)
+                assert outcome.returncode == 0, (words, outcome.stderr)
+                continue
+            arguments = _parser().parse_args(words)
+            if words[0] == "check":
+                assert [one.id for one in choose(_STEPS, arguments.steps)] == [step.id]
+            if words[0] == "hint":
+                assert [one.id for one in choose(_STEPS, [arguments.step])] == [step.id]
+    assert {"check", "render", "inspect", "hint", "watch"} <= seen
+
+
+def test_a_line_that_cannot_be_read_is_found(kit: BuiltKit) -> None:
+    raytrace: Path = kit.reference("raytrace")
+    outcome = subprocess.run([raytrace, "x.nff", "--steps", "3", "--help"], capture_output=True, check=False)
+    assert outcome.returncode == 2
+    assert _commands("```\n./raysteps check 01\n```\nand `./raysteps list`") == [["check", "01"], ["list"]]

@@ -1,0 +1,84 @@
+"""Before the first command: the file `raysteps` in both of its languages, and what a bare machine is told."""
+
+import ast
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from raysteps.kit.project import Project
+from raysteps.setting_up import advice as advising
+from raysteps.setting_up.advice import advice
+from raysteps.setting_up.needs import CMAKE, COMPILER, NINJA, cmake_is_new_enough
+from raysteps.setting_up.room import Room
+
+
+def test_the_command_is_a_shell_script_and_a_python_program(project: Project) -> None:
+    file = project.root / "raysteps"
+    ast.parse(file.read_text(encoding="utf-8"))
+    for shell in filter(None, map(shutil.which, ("sh", "bash"))):
+        done = subprocess.run([shell, "-n", file], capture_output=True, check=False)
+        assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_it_needs_nothing_but_python(project: Project) -> None:
+    """-S: no installed package can be seen."""
+    program = "from raysteps.setting_up.command import main; print('alone')"
+    source = f"import sys; sys.path.insert(0, {str(project.root / 'grader' / 'src')!r}); {program}"
+    done = subprocess.run([sys.executable, "-I", "-S", "-c", source], capture_output=True, check=False, text=True)
+    assert done.stdout == "alone\n", done.stderr
+
+
+def copy_of_the_command(project: Project, folder: Path) -> Path:
+    """A repository with a room that is ready; its Python prints what it is started with."""
+    shutil.copy(project.root / "raysteps", folder / "raysteps")
+    sources = folder / "grader" / "src" / "raysteps"
+    shutil.copytree(project.root / "grader" / "src" / "raysteps" / "setting_up", sources / "setting_up")
+    (sources / "__init__.py").touch()
+    (folder / "grader" / "pyproject.toml").touch()
+    room = Room(folder)
+    room.python.parent.mkdir(parents=True)
+    python = f'#!/bin/sh\ncase "$*" in *"-m raysteps"*) printf "%s|" "$@" ;; *) exec {sys.executable} "$@" ;; esac\n'
+    room.python.write_text(python, encoding="utf-8")
+    room.python.chmod(0o755)
+    program = "import sys; sys.path.insert(0, 'grader/src'); from pathlib import Path\n"
+    program += "from raysteps.setting_up.room import Room\n"
+    program += f"room = Room(Path({str(folder)!r})); room._stamp.write_text(room._fingerprint())"
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=folder)
+    return folder / "raysteps"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="starts a shell script")
+@pytest.mark.parametrize("by_python", [False, True])
+def test_words_reach_the_package_as_they_are(project: Project, tmp_path: Path, by_python: bool) -> None:
+    file = copy_of_the_command(project, tmp_path.resolve())
+    link = tmp_path / "linked"
+    link.symlink_to(file)
+    words = [sys.executable, str(link)] if by_python else [str(link)]
+    given = ["check", "a b", "", "'", "ü"]
+    done = subprocess.run([*words, *given], capture_output=True, check=False, text=True, cwd="/", timeout=60)
+    assert done.stdout == "|".join(["-X", "utf8", "-P", "-m", "raysteps", *given, ""]), done.stderr
+
+
+@pytest.mark.parametrize(
+    ("said", "enough"),
+    [("cmake version 3.22.1\n", True), ("cmake version 4.4.4", True), ("cmake version 3.9.1", False), ("", False)],
+)
+def test_cmake_is_asked_for_its_age(said: str, enough: bool) -> None:
+    assert cmake_is_new_enough(said) is enough
+
+
+def test_windows_is_told_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(advising.sys, "platform", "win32")
+    told = advice([COMPILER, CMAKE, NINJA])
+    for package in ("Kitware.CMake", "Ninja-build.Ninja", "BrechtSanders.WinLibs.POSIX.UCRT", "BuildTools"):
+        assert f"winget install {package}" in told or f".{package}" in told
+    assert "compiler" not in advice([CMAKE])
+
+
+def test_debian_is_told_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(advising.sys, "platform", "linux")
+    monkeypatch.setattr(advising.shutil, "which", lambda name: name if name == "apt-get" else None)
+    assert advice([COMPILER, NINJA]).endswith("apt-get install -y g++ ninja-build")
