@@ -1,5 +1,6 @@
 """Runs Sphinx on what was staged."""
 
+import importlib.util
 import io
 from pathlib import Path
 from typing import Any
@@ -41,18 +42,21 @@ SETTINGS: dict[str, Any] = {
 _CONF = "from raysteps.upkeep.site.build import SETTINGS\n\nglobals().update(SETTINGS)\n"
 
 
+def check_tools() -> None:
+    """Says what to install where Sphinx and its parts are not there, as in a students' kit."""
+    for name in ("sphinx", "myst_parser", "furo"):
+        if importlib.util.find_spec(name) is None:
+            raise UsageError(
+                f"the site is built with Sphinx, and the Python package {name} is not installed; install it with:\n"
+                "  .venv/bin/python -m pip install -e 'grader[docs]'"
+            )
+
+
 def build_site(stage: Path, out: Path, work: Path) -> list[str]:
     """Writes the pages to `out` and returns what Sphinx complained about."""
-    try:
-        import furo  # noqa: F401 - the theme
-        import myst_parser  # noqa: F401
-        from sphinx.application import Sphinx
-        from sphinx.util.docutils import docutils_namespace
-    except ImportError as error:
-        raise UsageError(
-            f"the site is built with Sphinx, and {error.name} is not installed; install it with:\n"
-            "  .venv/bin/python -m pip install -e 'grader[docs]'"
-        ) from error
+    from sphinx.application import Sphinx  # only here: the other commands need not wait for it
+    from sphinx.util.docutils import docutils_namespace
+
     (stage / "conf.py").write_text(_CONF, encoding="utf-8")
     said = io.StringIO()
     with docutils_namespace():

@@ -11,7 +11,7 @@ from rich.markup import escape
 from raysteps.commands.report import short_path
 from raysteps.common.errors import UsageError
 from raysteps.kit.project import Project
-from raysteps.upkeep.site.build import build_site
+from raysteps.upkeep.site.build import build_site, check_tools
 from raysteps.upkeep.site.command_page import command_page
 from raysteps.upkeep.site.documents import documents
 from raysteps.upkeep.site.links import dead_links
@@ -43,26 +43,43 @@ def _replace(new: Path, out: Path) -> None:
     new.replace(out)
 
 
-def run(project: Project, arguments: argparse.Namespace, console: Console, parser: argparse.ArgumentParser) -> int:
-    """Builds all of it anew. `parser` is the command line that the site describes."""
-    out: Path = (arguments.out or project.build / "site").absolute()
-    _check(out, arguments.gallery)
-    troubles = dead_links(project.root, documents(project))
+def _troubles(project: Project) -> list[str]:
+    """What is wrong in the documents themselves."""
+    from raysteps.upkeep.site.formulas import bad_formulas  # brings docutils, which the other commands do not need
+
+    written = documents(project)
+    return [*dead_links(project.root, written), *bad_formulas(project.root, written)]
+
+
+def _build(project: Project, out: Path, gallery: Path | None, commands: str, console: Console) -> list[str]:
+    """Builds beside its place, and puts it there when nothing is wrong."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
         work = Path(name)
         (work / "stage").mkdir()
-        stage(project, work / "stage", command_page(project, parser), gallery=arguments.gallery is not None)
+        stage(project, work / "stage", commands, gallery=gallery is not None)
         with console.status("building the site"):
-            troubles += build_site(work / "stage", work / "site", work)
-        if arguments.gallery is not None:
-            shutil.copytree(arguments.gallery, work / "site" / GALLERY.parent)
+            troubles = build_site(work / "stage", work / "site", work)
+        if gallery is not None:
+            shutil.copytree(gallery, work / "site" / GALLERY.parent)
         if not troubles:
             _replace(work / "site", out)
+    return troubles
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console, parser: argparse.ArgumentParser) -> int:
+    """Builds all of it anew. `parser` is the command line that the site describes."""
+    out: Path = (arguments.out or project.build / "site").absolute()
+    _check(out, arguments.gallery)
+    check_tools()
+    troubles = _troubles(project)
+    if not troubles:
+        troubles = _build(project, out, arguments.gallery, command_page(project, parser), console)
     for trouble in troubles:
         console.print(escape(trouble), highlight=False)
     if troubles:
-        console.print(f"no site was written: {len(troubles)} things to mend")
+        many = f"{len(troubles)} things" if len(troubles) > 1 else "one thing"
+        console.print(f"no site was written: {many} to mend")
         return 1
     console.print(f"the site is in {escape(short_path(out / 'index.html'))}: open it in a browser, or serve its folder")
     return 0

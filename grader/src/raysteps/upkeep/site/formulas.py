@@ -1,11 +1,15 @@
 """Formulas become MathML when the site is built, so a page needs no script and no network to show them."""
 
 import re
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from docutils import nodes
 from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
+
+from raysteps.upkeep.site.markdown import formulas
 
 _BARE = re.compile(r"\\[dt]?frac(?!\s*\{)")
 
@@ -24,6 +28,18 @@ def mathml(formula: str, *, block: bool) -> str:
     except (MathError, SyntaxError, KeyError, IndexError) as error:
         raise BadFormula(f"{formula}: {error}") from error
     return re.sub(r">\s+<", "><", made)
+
+
+def bad_formulas(root: Path, documents: Iterable[Path]) -> list[str]:
+    """One line for each that cannot be shown."""
+    found = []
+    for document in documents:
+        for formula in formulas((root / document).read_text(encoding="utf-8")):
+            try:
+                mathml(formula, block=False)
+            except BadFormula as error:
+                found.append(f"{document}: the formula {error}")
+    return found
 
 
 def _inline(visitor: Any, node: nodes.math) -> None:
