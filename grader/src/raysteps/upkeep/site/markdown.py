@@ -50,9 +50,10 @@ def prose(text: str) -> str:
     return _CODE.sub(_blank, _FENCE.sub(_blank, text))
 
 
-def code_spans(text: str) -> list[str]:
-    """What stands between backticks within a line of prose."""
-    return [" ".join(found[2].split()) for found in _CODE.finditer(_FENCE.sub(_blank, text))]
+def code_spans(text: str) -> list[tuple[int, str]]:
+    """What stands between backticks in prose, with the line that it begins in."""
+    plain = _FENCE.sub(_blank, text)
+    return [(plain.count("\n", 0, found.start()) + 1, " ".join(found[2].split())) for found in _CODE.finditer(plain)]
 
 
 def slug(heading: str) -> str:

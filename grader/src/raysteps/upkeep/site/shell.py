@@ -1,5 +1,6 @@
 """The commands that documents tell people to type."""
 
+import itertools
 import re
 import shlex
 from dataclasses import dataclass
@@ -10,8 +11,8 @@ from raysteps.upkeep.site.markdown import Block, blocks, code_spans
 _TAGS = ("sh", "bash", "shell", "console", "powershell", "bat")
 _PROGRAMS = re.compile(
     r"(?:\$ )?(?:[A-Z_]+=\S+ )*"
-    r"(?:\./raysteps|python3?|raytrace|cd|cmake|git|tar|zip|docker|sbatch|sqlite3|xvfb-run|sudo|wsl|brew|xcode-select"
-    r"|exec|pip|\.venv/bin/\w+|ssh|ctest|ninja|code|jplag|java)(?: |$)"
+    r"(?:\./raysteps|python3?|raytrace|cd|cmake|ctest|git|tar|zip|docker|sbatch|sqlite3|xvfb-run|sudo|wsl|winget|brew"
+    r"|xcode-select|exec|ssh|jplag|java|\.venv/bin/\w+)(?: |$)"
 )
 _SETTING = re.compile(r"[A-Za-z_]\w*=.*")
 
@@ -24,14 +25,37 @@ class Typed:
     line: int
     text: str
     words: tuple[str, ...]
+    in_prose: bool = False
 
     def __str__(self) -> str:
         return f"{self.document}:{self.line}: {self.text}"
 
     @property
     def is_synopsis(self) -> bool:
-        """It says what may be written, and is not for typing as it stands."""
-        return any(sign in self.text for sign in ("...", "[-", "[+"))
+        """It says what may be written, or only names a command, and is not for typing as it stands."""
+        if self.in_prose and (len(self.words) == 2 or any(word.isupper() for word in self.words)):
+            return True
+        return any(sign in self.text for sign in ("...", "[-"))
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a document says that the last command of a block prints."""
+
+    command: Typed
+    lines: tuple[str, ...]
+
+
+def shown_output(document: Path, text: str) -> list[Shown]:
+    """Output stands in a block of its own, right below that of its command."""
+    found = []
+    every = blocks(text)
+    for above, below in itertools.pairwise(every):
+        commands = [one for line, shown in _lines(above) for one in _commands(document, line, shown)]
+        follows = below.line - (above.line + above.body.count("\n")) == 3
+        if follows and is_shell(above) and commands and below.tag in ("", "text") and not is_shell(below):
+            found.append(Shown(commands[-1], tuple(below.body.splitlines())))
+    return found
 
 
 def is_shell(block: Block) -> bool:
@@ -57,12 +81,12 @@ def _lines(block: Block) -> list[tuple[int, str]]:
     return found
 
 
-def _commands(document: Path, line: int, text: str) -> list[Typed]:
+def _commands(document: Path, line: int, text: str, *, in_prose: bool = False) -> list[Typed]:
     found = []
     for part in re.split(r" &&? | \|\| | ; ", text):
         words = _words(part)
         if words:
-            found.append(Typed(document, line, part.strip(), tuple(words)))
+            found.append(Typed(document, line, part.strip(), tuple(words), in_prose))
     return found
 
 
@@ -77,10 +101,11 @@ def typed(document: Path, text: str) -> list[list[Typed]]:
 
 def mentioned(document: Path, text: str) -> list[Typed]:
     """The commands of the kit that stand within a line of prose, or indented by four spaces."""
-    spans = [(0, span) for span in code_spans(text) if re.match(r"(?:[A-Z_]+=\S+ )?\./raysteps \S", span)]
-    indented = [
-        (number, line.strip())
-        for number, line in enumerate(text.splitlines(), 1)
-        if re.match(r"    (?:\./raysteps|python) \S", line)
-    ]
-    return [one for line, shown in [*spans, *indented] for one in _commands(document, line, shown)]
+    found = []
+    for line, span in code_spans(text):
+        if re.match(r"(?:[A-Z_]+=\S+ )?\./raysteps \S", span):
+            found += _commands(document, line, span, in_prose=True)
+    for line, shown in enumerate(text.splitlines(), 1):
+        if re.match(r"    (?:\./raysteps|python) \S", shown):
+            found += _commands(document, line, shown.strip())
+    return found
