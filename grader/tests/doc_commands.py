@@ -4,10 +4,13 @@ import argparse
 import contextlib
 import importlib.util
 import io
+import itertools
 import re
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from types import ModuleType
 
 from raysteps.cli import _parser
@@ -15,7 +18,8 @@ from raysteps.commands.render import take_impl
 from raysteps.common.errors import RaystepsError
 from raysteps.kit.project import Project
 from raysteps.upkeep.site.documents import documents
-from raysteps.upkeep.site.shell import Shown, Typed, mentioned, shown_output, typed
+from raysteps.upkeep.site.markdown import blocks
+from raysteps.upkeep.site.shell import Typed, commands, is_shell, mentioned, typed
 from raysteps.upkeep.site.usage import usage, usage_parser
 
 OTHER_PROGRAMS = {
@@ -132,10 +136,27 @@ def complaint(project: Project, one: Typed) -> str:
     return f"{first}: no program of the kit, and not among those that are known to be somebody else's"
 
 
+@dataclass(frozen=True)
+class Shown:
+    """What a document says that a command prints."""
+
+    command: Typed
+    lines: tuple[str, ...]
+
+
+def _shown(document: Path, text: str) -> Iterator[Shown]:
+    """Output stands in a block of its own, right below that of its command. `render` prints nothing."""
+    for above, below in itertools.pairwise(blocks(text)):
+        speaking = [one for one in commands(document, above) if one.words[1:2] != ("render",)]
+        follows = below.line - (above.line + above.body.count("\n")) == 3
+        if follows and speaking and below.tag in ("", "text") and not is_shell(below):
+            yield Shown(speaking[-1], tuple(below.body.splitlines()))
+
+
 def outputs_of(project: Project) -> list[Shown]:
-    """What the documents say that commands print."""
+    """Of all documents."""
     return [
         shown
         for document in documents(project)
-        for shown in shown_output(document, (project.root / document).read_text(encoding="utf-8"))
+        for shown in _shown(document, (project.root / document).read_text(encoding="utf-8"))
     ]

@@ -11,9 +11,9 @@ MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
     ("For students", ("students", "where-students-work")),
     ("For instructors", ("instructors", "class", "exports", "release", "update")),
-    ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages", "handouts", "figures")),
+    ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
     ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),
-    ("How it works", ("architecture", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration")),
+    ("How it works", ("architecture", "handouts", "site", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration")),
 )
 
 

@@ -1,6 +1,5 @@
 """The commands that documents tell people to type."""
 
-import itertools
 import re
 import shlex
 from dataclasses import dataclass
@@ -38,26 +37,6 @@ class Typed:
         return any(sign in self.text for sign in ("...", "[-"))
 
 
-@dataclass(frozen=True)
-class Shown:
-    """What a document says that the last command of a block prints."""
-
-    command: Typed
-    lines: tuple[str, ...]
-
-
-def shown_output(document: Path, text: str) -> list[Shown]:
-    """Output stands in a block of its own, right below that of its command."""
-    found = []
-    every = blocks(text)
-    for above, below in itertools.pairwise(every):
-        commands = [one for line, shown in _lines(above) for one in _commands(document, line, shown)]
-        follows = below.line - (above.line + above.body.count("\n")) == 3
-        if follows and is_shell(above) and commands and below.tag in ("", "text") and not is_shell(below):
-            found.append(Shown(commands[-1], tuple(below.body.splitlines())))
-    return found
-
-
 def is_shell(block: Block) -> bool:
     """Whether people are to type it."""
     return block.tag in _TAGS or (not block.tag and _PROGRAMS.match(block.body) is not None)
@@ -90,13 +69,14 @@ def _commands(document: Path, line: int, text: str, *, in_prose: bool = False) -
     return found
 
 
+def commands(document: Path, block: Block) -> list[Typed]:
+    """What people are to type of this block."""
+    return [one for line, shown in _lines(block) for one in _commands(document, line, shown)] if is_shell(block) else []
+
+
 def typed(document: Path, text: str) -> list[list[Typed]]:
     """The commands of a document, block by block."""
-    return [
-        [one for line, shown in _lines(block) for one in _commands(document, line, shown)]
-        for block in blocks(text)
-        if is_shell(block)
-    ]
+    return [found for block in blocks(text) if (found := commands(document, block))]
 
 
 def mentioned(document: Path, text: str) -> list[Typed]:
