@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
+from raysteps.upkeep.site.access import make_accessible
 
 _LIGHT = {name: "#9a4408" for name in ("color-brand-primary", "color-brand-content", "color-brand-visited")}
 _DARK = {name: "#f5a65b" for name in _LIGHT}
@@ -71,6 +72,7 @@ def build_site(stage: Path, out: Path, work: Path) -> list[str]:
             freshenv=True,
         )
         sphinx.build(force_all=True)
+    make_accessible(out)
     (out / ".nojekyll").touch()
     (out / ".buildinfo").unlink(missing_ok=True)
     return [line.replace(f"{stage}/", "") for line in said.getvalue().splitlines() if line.strip()]

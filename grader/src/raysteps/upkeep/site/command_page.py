@@ -71,7 +71,8 @@ def _part(project: Project, words: str, parser: argparse.ArgumentParser, about: 
     shown = [
         action
         for action in parser._actions
-        if not isinstance(action, argparse._SubParsersAction | argparse._HelpAction) and action.help != argparse.SUPPRESS
+        if not isinstance(action, argparse._SubParsersAction | argparse._HelpAction)
+        and action.help != argparse.SUPPRESS
     ]
     if shown:
         rows = [f"| `{_name(action).replace('|', chr(92) + '|')}` | {_help(parser, action)} |" for action in shown]

@@ -13,7 +13,10 @@ _SECTIONS = (
     ("For instructors", ("instructors", "class", "exports", "release", "update")),
     ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
     ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),
-    ("How it works", ("architecture", "handouts", "site", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration")),
+    (
+        "How it works",
+        ("architecture", "handouts", "site", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration"),
+    ),
 )
 
 

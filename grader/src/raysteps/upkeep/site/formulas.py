@@ -23,6 +23,9 @@ def mathml(formula: str, *, block: bool) -> str:
     bare = _BARE.search(formula)
     if bare:
         raise BadFormula(f"{formula}: expected braces after {bare[0]}, like \\frac{{1}}{{2}}")
+    plain = re.sub(r"\\[{}]", "", formula)
+    if plain.count("{") != plain.count("}"):
+        raise BadFormula(f"{formula}: expected a closing brace for each opening one")
     try:
         made: str = tex2mathml(formula, as_block=block)
     except (MathError, SyntaxError, KeyError, IndexError) as error:
