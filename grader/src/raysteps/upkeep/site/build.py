@@ -8,8 +8,8 @@ from typing import Any
 from raysteps.common.errors import UsageError
 from raysteps.upkeep.site.access import make_accessible
 
-_LIGHT = {name: "#9a4408" for name in ("color-brand-primary", "color-brand-content", "color-brand-visited")}
-_DARK = {name: "#f5a65b" for name in _LIGHT}
+_LIGHT = dict.fromkeys(("color-brand-primary", "color-brand-content", "color-brand-visited"), "#9a4408")
+_DARK = dict.fromkeys(_LIGHT, "#f5a65b")
 SETTINGS: dict[str, Any] = {
     "extensions": ["myst_parser", "raysteps.upkeep.site.formulas"],
     "project": "Raysteps",

@@ -28,9 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _check(out: Path, gallery: Path | None) -> None:
     if out.is_file() or (out.is_dir() and any(out.iterdir()) and not (out / _MARK).is_file()):
-        raise UsageError(
-            f"{out}: holds something else than a site; expected a new or an empty folder, or an older site"
-        )
+        raise UsageError(f"{out}: holds something else; expected a new or an empty folder, or an older site")
     if gallery is not None and not (gallery / GALLERY.name).is_file():
         raise UsageError(
             f"{gallery}: expected a folder with {GALLERY.name} in it; make one with: ./raysteps gallery --out {gallery}"
