@@ -23,8 +23,8 @@ from raysteps.upkeep.site.shell import Typed, commands, is_shell, mentioned, typ
 from raysteps.upkeep.site.usage import usage, usage_parser
 
 OTHER_PROGRAMS = {
-    "apt-get", "brew", "cd", "cmake", "code", "cp", "ctest", "dnf", "docker", "git", "jplag", "java", "mkdir", "python3",
-    "sbatch", "sqlite3", "ssh", "sudo", "tar", "winget", "wsl", "xcode-select", "zip",
+    "apt-get", "brew", "cd", "cmake", "code", "cp", "ctest", "dnf", "docker", "git", "jplag", "java", "mkdir",
+    "python3", "sbatch", "sqlite3", "ssh", "sudo", "tar", "winget", "wsl", "xcode-select", "zip",
 }  # fmt: skip
 
 
@@ -99,7 +99,7 @@ def _synopsis(project: Project, words: list[str]) -> str:
     if words[0] in ("render", "view"):
         program = "raytrace" if words[0] == "render" else "view"
         known |= {"--impl", *re.findall(r"--?[\w-]+", usage(project, program))}
-    if len(found) == 1 and not words[0].isupper():
+    if len(found) == 1 and words[0] != "..." and not words[0].isupper():
         return f"no command is called {words[0]}"
     unknown = [option for word in words for option in re.findall(r"^\[?(--?[a-z][\w-]*)", word) if option not in known]
     return f"unknown: {', '.join(unknown)}" if unknown else ""
