@@ -15,8 +15,9 @@ from raysteps.cli import main
 from raysteps.commands.inspect.command import add_arguments, compare
 from raysteps.commands.inspect.command import run as start
 from raysteps.commands.inspect.parting import find_parting
-from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
+from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
 from raysteps.commands.inspect.values import Record
+from raysteps.commands.render import build_program
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run
 from raysteps.common.schemas import complaint, read_schema
@@ -31,7 +32,7 @@ Change = Callable[[Record], None]
 
 @pytest.fixture(scope="session")
 def program(project: Project) -> Path:
-    return build_inspect(project, "reference", lambda text: None)
+    return build_program(release_tree(project), "inspect", "reference")
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@ from PIL import Image
 from raysteps.pages import page as pages
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
 from raysteps.pages.flip import flip_map
-from raysteps.pages.picture_data import PictureData, gray_data, picture_data
+from raysteps.pages.picture_data import PictureData, picture_data, pixel_data
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
@@ -54,7 +54,7 @@ def _element(
 ) -> str:
     flip = flip_map(reference, mine) if reference is not None and mine is not None else None
     shown = {"reference": _data(folder, reference), "mine": _data(folder, mine)}
-    shown["flip"] = gray_data(flip) if flip is not None else None
+    shown["flip"] = pixel_data(flip) if flip is not None else None
     macro: Any = pages._environment().get_template("compare.html.j2").module
     names = {"reference": "reference", "mine": "yours"}
     return str(macro.compare(label, shown, names, group=group, inspect=_COMMAND, **more))

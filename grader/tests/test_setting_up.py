@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from raysteps.kit.project import Project
-from raysteps.setting_up import advice as advising
 from raysteps.setting_up.advice import advice
 from raysteps.setting_up.needs import CMAKE, COMPILER, NINJA, cmake_is_new_enough
 from raysteps.setting_up.room import Room
@@ -71,7 +70,7 @@ def test_cmake_is_asked_for_its_age(said: str, enough: bool) -> None:
 
 
 def test_windows_is_told_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(advising.sys, "platform", "win32")
+    monkeypatch.setattr(sys, "platform", "win32")
     told = advice([COMPILER, CMAKE, NINJA])
     for package in ("Kitware.CMake", "Ninja-build.Ninja", "BrechtSanders.WinLibs.POSIX.UCRT", "BuildTools"):
         assert f"winget install {package}" in told or f".{package}" in told
@@ -79,6 +78,6 @@ def test_windows_is_told_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_debian_is_told_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(advising.sys, "platform", "linux")
-    monkeypatch.setattr(advising.shutil, "which", lambda name: name if name == "apt-get" else None)
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setattr(shutil, "which", lambda name: name if name == "apt-get" else None)
     assert advice([COMPILER, NINJA]).endswith("apt-get install -y g++ ninja-build")

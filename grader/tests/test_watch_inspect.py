@@ -47,13 +47,6 @@ def test_where_nothing_is_wrong(project: Project, steps: list[Step], tmp_path: P
     assert _press(project, steps[0], "int right;", tmp_path, []).startswith("No picture is wrong")
 
 
-def test_a_kit_without_inspect_says_the_command(
-    project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(actions, "can_inspect", lambda: False)
-    assert _press(project, steps[0], "// wrong", tmp_path, []) == _COMMAND + "\n"
-
-
 def test_it_runs_while_the_keys_rest(
     project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -62,7 +55,6 @@ def test_it_runs_while_the_keys_rest(
     def run(_project: Project, words: Sequence[str]) -> None:
         log.append(" ".join(words))
 
-    monkeypatch.setattr(actions, "can_inspect", lambda: True)
     monkeypatch.setattr(actions, "run_inspect", run)
     assert _press(project, steps[0], "// wrong", tmp_path, log) == _COMMAND + "\n"
     assert log == ["lent", _COMMAND.removeprefix("./raysteps "), "back"]

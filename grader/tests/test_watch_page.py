@@ -1,7 +1,7 @@
 """What the page is told, and which command looks into a pixel."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -9,11 +9,12 @@ import pytest
 from watch_fakes import result_of
 
 from raysteps.commands.watch.command import on_a_desktop
-from raysteps.commands.watch.inspecting import command_of_worst, template, typed, worst_pixel
+from raysteps.commands.watch.inspecting import command_of_worst, worst_pixel
 from raysteps.commands.watch.page import page_of, state_of
 from raysteps.commands.watch.view import View, verdict
 from raysteps.kit.manifest import Step
 from raysteps.programs.pictures import write_png
+from raysteps.reports.commands import inspect_command, typed
 
 _TALLY = "1 of 2 tests right, 0 of 1 picture right"
 
@@ -103,9 +104,11 @@ def test_the_worst_pixel_is_where_it_was_planted(tmp_path: Path) -> None:
     assert worst_pixel(tmp_path / "mine.png", tmp_path / "nothing.png") is None
 
 
-def test_odd_names_are_quoted(steps: list[Step]) -> None:
-    assert template(steps[0].images[0]).count("{x} {y}") == 1
-    assert typed(["inspect", "a b.nff"]) == "./raysteps inspect 'a b.nff'"
+def test_odd_names_are_quoted_and_what_inspect_does_not_know_is_left_out(steps: list[Step]) -> None:
+    case = replace(steps[0].images[0], name="odd", scene="a b.nff", args=("--step", "1", "--threads", "2"))
+    odd = replace(steps[0], images=(case,))
+    assert inspect_command({"name": "odd"}, odd) == "./raysteps inspect 'a b.nff' {x} {y} --step 1 --against reference"
+    assert inspect_command({"name": "other"}, odd) is None
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 #include <utility>

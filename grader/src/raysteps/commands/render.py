@@ -66,6 +66,11 @@ def build_reference(tree: BuildTree, target: str) -> Path:
     return tree.program(target)
 
 
+def build_program(tree: BuildTree, name: str, impl: str) -> Path:
+    """NAME-mine or NAME-reference."""
+    return (build_mine if impl == "mine" else build_reference)(tree, f"{name}-{impl}")
+
+
 def run_raytrace(program: Path, args: list[str]) -> None:
     """Runs the program on this terminal, so that its progress bar shows."""
     code = subprocess.run([program, *args], check=False).returncode

@@ -9,6 +9,7 @@ from rich.table import Table
 
 from raysteps.common.text import mean, number, size
 from raysteps.kit.manifest import Step
+from raysteps.reports.words import HOW_SURE, percent
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
 from raysteps.results.work import Work
 
@@ -28,7 +29,7 @@ def _points(result: StepResult) -> str:
 
 def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
     """The word before it says how sure one can be."""
-    word = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}[diagnosis.kind]
+    word = HOW_SURE[diagnosis.kind]
     seen = ", ".join(diagnosis.seen_in) if diagnosis.kind != "finding" else ""
     where = f" (seen in {seen})" if seen else ""
     console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
@@ -80,7 +81,7 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
 
 
 def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
-    console.print(f"  [red]hidden[/red]   {escape(item.name)}: {item.share:.0%} of its points")
+    console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
     if item.message:
         console.print(f"             {escape(item.message)}")
     for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from raysteps.commands.render import build_mine, build_reference, run_raytrace, take_impl
+from raysteps.commands.render import build_program, run_raytrace, take_impl
 from raysteps.common.errors import UsageError
 from raysteps.kit.building import BuildTree, release_tree
 from raysteps.kit.project import Project
@@ -28,7 +28,7 @@ def check_glfw(tree: BuildTree) -> None:
 def build_view(tree: BuildTree, impl: str) -> Path:
     """Builds view-mine or view-reference."""
     check_glfw(tree)
-    return build_mine(tree, "view-mine") if impl == "mine" else build_reference(tree, "view-reference")
+    return build_program(tree, "view", impl)
 
 
 def view(project: Project, args: list[str]) -> int:

@@ -17,7 +17,8 @@ _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
 )
 _MISSING = re.compile(
-    r"undefined reference to [`'](?P<name>.+?)'|(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
+    r"undefined reference to [`'](?P<name>.+?)'"
+    r"|(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
 )
 _TWICE = re.compile(
     r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"

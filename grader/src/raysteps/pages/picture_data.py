@@ -46,8 +46,8 @@ def data_uri(path: Path) -> str:
     return picture_data(path).src
 
 
-def gray_data(pixels: npt.NDArray[np.uint8]) -> PictureData:
-    """Gray values, such as FLIP's, as PNG."""
+def pixel_data(pixels: npt.NDArray[np.uint8]) -> PictureData:
+    """Colours, or gray values such as FLIP's, as PNG."""
     data = io.BytesIO()
-    Image.fromarray(pixels, mode="L").save(data, format="PNG", optimize=True)
+    Image.fromarray(pixels).save(data, format="PNG", optimize=True)
     return PictureData(_uri(data.getvalue()), pixels.shape[1], pixels.shape[0])

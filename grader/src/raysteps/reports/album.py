@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 
 from raysteps.pages.flip import flip_map
-from raysteps.pages.picture_data import NotAPicture, PictureData, gray_data, picture_data
+from raysteps.pages.picture_data import NotAPicture, PictureData, picture_data, pixel_data
 
 _MOST_PIXELS = 1 << 22
 
@@ -61,7 +61,7 @@ def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]
         except (OSError, ValueError):
             return None
     gray = flip_map(pixels[0], pixels[1])
-    return gray_data(gray) if gray is not None else None
+    return pixel_data(gray) if gray is not None else None
 
 
 def _wrong_first(document: Document) -> Iterator[tuple[Place, Document]]:

@@ -7,19 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from raysteps.common.text import number, printable
+from raysteps.reports.words import STATUS_WORDS
 
 Document = Mapping[str, Any]
 Link = Callable[[str], str | None]
 
-STATUSES = {
-    "passed": "passed",
-    "partial": "partly right",
-    "failed": "wrong",
-    "not-started": "not started",
-    "does-not-build": "does not build",
-    "crashed": "crashed",
-    "timeout": "took too long",
-}
+STATUSES = {str(status): words for status, (words, _, _) in STATUS_WORDS.items()}
 _NO_POINTS = {"fault": "fault", "not-graded": "not graded"}
 
 

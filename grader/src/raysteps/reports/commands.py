@@ -1,10 +1,13 @@
 """Commands that a report gives its reader to copy."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from raysteps.common.systems import own_command, typed
-from raysteps.kit.manifest import Step
+from raysteps.common import systems
+from raysteps.common.systems import own_command
+from raysteps.kit.manifest import ImageCase, Step
+
+_OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
 
 def check_command(step_id: str) -> str:
@@ -14,7 +17,19 @@ def check_command(step_id: str) -> str:
 
 def replay_command(case: str) -> str:
     """Asks a case again; its file lies beside the report."""
-    return f"{own_command()} replay {typed([case])}"
+    return f"{own_command()} replay {systems.typed([case])}"
+
+
+def typed(words: Sequence[str]) -> str:
+    """As a person types it."""
+    return f"{own_command()} {systems.typed(words)}"
+
+
+def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
+    """After `./raysteps`: looks into a pixel of a picture."""
+    pairs = zip(case.args[::2], case.args[1::2], strict=False)
+    options = [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
+    return ["inspect", case.scene, str(x), str(y), *options, "--against", "reference"]
 
 
 def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
@@ -22,4 +37,5 @@ def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
     case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None
     if case is None or "{" in case.scene:
         return None
-    return f"{own_command()} inspect {typed([case.scene])} {{x}} {{y}} {typed([*case.args, '--against', 'reference'])}"
+    start = systems.typed([case.scene])
+    return typed(inspect_words(case, 0, 0)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)

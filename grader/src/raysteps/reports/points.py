@@ -6,6 +6,7 @@ from typing import Any
 
 from raysteps.common.text import count
 from raysteps.kit.manifest import Step
+from raysteps.reports.words import percent
 
 _NEAR = 0.011  # points: a step's are rounded once, its parts each by itself
 
@@ -32,7 +33,7 @@ def _hidden(items: Sequence[Mapping[str, Any]]) -> tuple[str, float]:
     share = sum(item["share"] * item["weight"] for item in items) / weight if weight else 0.0
     if not items:
         return "not run", 0.0
-    return (f"{share * 100:.3g} %" if share >= 1 else f"{min(share * 100, 99.9):.3g} %"), share
+    return percent(share), share
 
 
 def parts_of(result: Mapping[str, Any], step: Step | None) -> list[Part]:

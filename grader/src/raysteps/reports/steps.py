@@ -9,20 +9,11 @@ from raysteps.kit.manifest import Step
 from raysteps.reports.album import Place, Shown
 from raysteps.reports.commands import check_command, inspect_command, replay_command
 from raysteps.reports.points import parts_of, rest_of
+from raysteps.reports.words import HOW_SURE, STATUS_WORDS, percent
 from raysteps.results.work import Work
 
 Document = Mapping[str, Any]
 
-STATUS_WORDS = {
-    "passed": ("passed", "good", "✓"),
-    "partial": ("partly right", "warn", "◐"),
-    "failed": ("failed", "bad", "✗"),
-    "not-started": ("not started", "none", "○"),
-    "does-not-build": ("does not build", "bad", "✗"),
-    "crashed": ("crashed", "bad", "✗"),
-    "timeout": ("took too long", "bad", "✗"),
-}
-_SURE = {"mistake": "Most likely:", "transformation": "It looks as if", "finding": "Look here:"}
 _LOG = 20_000  # characters of what the compiler said
 _TEXT = 2_000  # of any other text
 _HINTS = ("a question", "an idea", "pseudocode")
@@ -33,7 +24,7 @@ def diagnosis_view(diagnosis: Document) -> dict[str, Any]:
     finding = diagnosis["kind"] == "finding"
     lines = (("You see", diagnosis["sees"]), ("Cause", diagnosis["cause"]), ("Hint", diagnosis["hint"]))
     return {
-        "sure": _SURE[diagnosis["kind"]],
+        "sure": HOW_SURE[diagnosis["kind"]].capitalize() + ("" if diagnosis["kind"] == "transformation" else ":"),
         "title": clean(diagnosis["title"]),
         "alike": [clean(other) for other in diagnosis["alike"]],
         "seen_in": "" if finding else ", ".join(clean(name) for name in diagnosis["seen_in"]),
@@ -53,7 +44,7 @@ def _hidden(item: Document) -> dict[str, Any]:
     return {
         "name": clean(item["name"]),
         "passed": item["share"] >= 1,
-        "percent": f"{min(item['share'] * 100, 100 if item['share'] >= 1 else 99.9):.3g} %",
+        "percent": percent(item["share"]),
         "message": clean(item["message"]),
         "case": [
             (label, clean(text, _TEXT))

@@ -11,13 +11,15 @@ from rich.markup import escape
 from raysteps.commands.inspect.html import write_page
 from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.parting import find_parting
-from raysteps.commands.inspect.programs import Inspected, Wish, build_inspect, inspect, last_good_step
+from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
 from raysteps.commands.inspect.side_by_side import print_trees
 from raysteps.commands.inspect.values import Record
 from raysteps.commands.inspect.verdict import print_verdict
+from raysteps.commands.render import build_program
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.formats import encoded, write_out
+from raysteps.kit.building import release_tree
 from raysteps.kit.manifest import Step, choose, read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import unfinished_functions
@@ -104,11 +106,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if arguments.impl == "mine":
         _say_unfinished(project, wish)
 
-    def say(text: str) -> None:
-        print(f"raysteps: {text}", file=sys.stderr, flush=True)
-
-    program = build_inspect(project, arguments.impl, say)
-    reference = build_inspect(project, "reference", say) if arguments.against else None
+    tree = release_tree(project)
+    program = build_program(tree, "inspect", arguments.impl)
+    reference = build_program(tree, "inspect", "reference") if arguments.against else None
     inspected = inspect(program, wish)
     if inspected.problem:
         _tell_problem(inspected, program, wish)

@@ -1,4 +1,4 @@
-"""The program inspect: built, run, and its record read."""
+"""The program inspect: run, and its record read."""
 
 import json
 import tempfile
@@ -6,13 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.commands.inspect.values import Record
-from raysteps.commands.render import build_mine
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import in_seconds, printable
-from raysteps.kit.building import release_tree, what_failed
-from raysteps.kit.built_kit import Say
-from raysteps.kit.project import Project
 
 _SECONDS = 30
 _MOST_BYTES = 64 << 20
@@ -41,20 +37,6 @@ class Inspected:
     record: Record | None = None
     remarks: str = ""  # from stderr, such as functions that are not written yet
     problem: str = ""
-
-
-def build_inspect(project: Project, impl: str, say: Say) -> Path:
-    """Builds inspect-mine or inspect-reference."""
-    tree, target = release_tree(project), f"inspect-{impl}"
-    if impl == "mine":
-        return build_mine(tree, target)
-    if not tree.program(target).exists():
-        say("building; the first time takes a minute or two")
-    with tree.locked():
-        outcome = tree.build([target])
-    if outcome.code != 0:
-        raise GraderFault(f"{target} does not build:\n{what_failed(outcome)}")
-    return tree.program(target)
 
 
 def _problem(outcome: Outcome) -> str:

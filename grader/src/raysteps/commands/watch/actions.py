@@ -7,9 +7,10 @@ from raysteps.commands.course.hints import Hints
 from raysteps.commands.course.listing import print_list
 from raysteps.commands.course.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.commands.course.standing import next_of, shown, standings
-from raysteps.commands.watch.inspecting import can_inspect, command_of_worst, run_inspect, typed
+from raysteps.commands.watch.inspecting import command_of_worst, run_inspect
 from raysteps.commands.watch.keys import NoKeyboard
 from raysteps.common.errors import RaystepsError
+from raysteps.reports.commands import typed
 
 if TYPE_CHECKING:
     from raysteps.commands.watch.session import Session
@@ -95,8 +96,6 @@ class Actions:
         words = command_of_worst(session.view)
         if words is None:
             session.showing.line("No picture is wrong (or there is none yet): nothing to look into.")
-        elif not can_inspect():
-            session.showing.line(typed(words))
         else:
             session.showing.line(typed(words), "bold")
             with session.keyboard.lent():

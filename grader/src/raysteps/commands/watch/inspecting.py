@@ -1,6 +1,5 @@
 """The pixel that is most wrong, and the command that looks into it."""
 
-import importlib.util
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -10,28 +9,8 @@ import numpy as np
 from PIL import Image
 
 from raysteps.commands.watch.view import View
-from raysteps.common import systems
-from raysteps.kit.manifest import ImageCase
 from raysteps.kit.project import Project
-
-_UNDERSTOOD = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
-
-
-def command_for(case: ImageCase, x: str, y: str) -> list[str]:
-    """The words after `./raysteps`."""
-    pairs = zip(case.args[::2], case.args[1::2], strict=False)
-    options = [word for name, value in pairs if name in _UNDERSTOOD for word in (name, value)]
-    return ["inspect", case.scene, x, y, *options, "--against", "reference"]
-
-
-def typed(words: Sequence[str]) -> str:
-    """As a person types it."""
-    return f"{systems.own_command()} {systems.typed(words)}"
-
-
-def template(case: ImageCase) -> str:
-    """With {x} and {y} for the page to fill in."""
-    return typed(command_for(case, "X", "Y")).replace(" X Y ", " {x} {y} ", 1)
+from raysteps.reports.commands import inspect_words
 
 
 def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
@@ -57,12 +36,8 @@ def command_of_worst(view: View) -> list[str] | None:
             continue
         worst = worst_pixel(view.out / image["mine"], view.out / image["reference"])
         if worst is not None:
-            return command_for(cases[image["name"]], *map(str, worst))
+            return inspect_words(cases[image["name"]], *worst)
     return None
-
-
-def can_inspect() -> bool:
-    return importlib.util.find_spec("raysteps.commands.inspect") is not None
 
 
 def run_inspect(project: Project, words: Sequence[str]) -> None:

@@ -10,20 +10,19 @@ import numpy as np
 from PIL import Image
 
 from raysteps.commands.watch.board import State
-from raysteps.commands.watch.inspecting import template
 from raysteps.commands.watch.view import Result, View, is_right, passed_of, verdict
-from raysteps.common.systems import own_command
 from raysteps.common.text import number
 from raysteps.kit.manifest import Step
 from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
 from raysteps.pages.flip import flip_map
 from raysteps.pages.page import render_page
-from raysteps.pages.picture_data import NotAPicture, data_uri, gray_data
+from raysteps.pages.picture_data import NotAPicture, data_uri, pixel_data
+from raysteps.reports.commands import inspect_command, replay_command
+from raysteps.reports.words import HOW_SURE
 
 _NUMBERS = re.compile(r"\d+ of \d+ [a-z ]+ (failed|did not pass|lost points)\.")
 _MOST_LOG = 20_000
 _PHASES = {"looking": "building and testing", "checking": "checking all of it", "idle": "watching"}
-_WORDS = {"mistake": "Most likely", "transformation": "It looks as if", "finding": "Look here"}
 
 
 def _uri(folder: Path | None, name: str | None) -> str | None:
@@ -39,7 +38,7 @@ def _uri(folder: Path | None, name: str | None) -> str | None:
 def _flip(reference: bytes, mine: bytes, shape: tuple[int, ...]) -> str | None:
     one, other = (np.frombuffer(data, dtype=np.uint8).reshape(shape) for data in (reference, mine))
     found = flip_map(one, other)
-    return None if found is None else gray_data(found).src
+    return None if found is None else pixel_data(found).src
 
 
 def _flip_of(folder: Path, image: dict[str, Any]) -> str | None:
@@ -56,8 +55,6 @@ def _flip_of(folder: Path, image: dict[str, Any]) -> str | None:
 
 
 def _picture(view: View, image: dict[str, Any]) -> State:
-    cases = {case.name: case for case in view.step.images}
-    case = cases.get(image["name"])
     return {
         "name": image["name"],
         "scene": image["scene"],
@@ -66,7 +63,7 @@ def _picture(view: View, image: dict[str, Any]) -> State:
         "reference": _uri(view.out, image["reference"]),
         "mine": _uri(view.out, image["mine"]),
         "flip": _flip_of(view.out, image) if view.out is not None and view.complete else None,
-        "inspect": template(case) if case is not None else None,
+        "inspect": inspect_command(image, view.step),
     }
 
 
@@ -90,7 +87,7 @@ def _hidden(items: list[dict[str, Any]]) -> State:
     passed, all_ = passed_of(items)
     keys = ("name", "message", "given", "expected", "actual")
     failed = [
-        {key: item[key] for key in keys} | {"again": f"{own_command()} replay {item['case']}" if item["case"] else ""}
+        {key: item[key] for key in keys} | {"again": replay_command(item["case"]) if item["case"] else ""}
         for item in items
         if not is_right(item)
     ]
@@ -98,7 +95,9 @@ def _hidden(items: list[dict[str, Any]]) -> State:
 
 
 def _diagnosis(found: dict[str, Any]) -> State:
-    return {"word": _WORDS[found["kind"]]} | {key: found[key] for key in ("title", "sees", "cause", "hint", "alike")}
+    return {"word": HOW_SURE[found["kind"]].capitalize()} | {
+        key: found[key] for key in ("title", "sees", "cause", "hint", "alike")
+    }
 
 
 def _messages(result: Result) -> list[str]:

@@ -4,8 +4,9 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.commands.watch.view import Result, Tone, View, is_right, verdict
-from raysteps.common.systems import own_command
 from raysteps.common.text import count, shorten
+from raysteps.reports.commands import replay_command
+from raysteps.reports.words import HOW_SURE
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
@@ -74,9 +75,8 @@ class Showing:
             self.line(f"  together: {view.result['cumulative']['message']}")
 
     def _diagnoses(self, result: Result) -> None:
-        words = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}
         for found in result["diagnoses"][:1]:
-            self.line(f"  {words[found['kind']]}: {found['title']}", "yellow")
+            self.line(f"  {HOW_SURE[found['kind']]}: {found['title']}", "yellow")
             for label in ("sees", "cause", "hint"):
                 if found[label]:
                     self.line(f"    {found[label]}")
@@ -105,7 +105,7 @@ class Showing:
                 if item[label]:
                     self.line(f"    {label:<9} {item[label]}")
             if item["case"]:
-                self.line(f"    again     {own_command()} replay {item['case']}")
+                self.line(f"    again     {replay_command(item['case'])}")
         self._more(len(missed), "hidden item")
 
     def _more(self, amount: int, noun: str) -> None:

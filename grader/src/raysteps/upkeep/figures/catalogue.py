@@ -6,7 +6,7 @@ from functools import partial
 
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.programs.pictures import Pixels
-from raysteps.upkeep.figures import bending, boxes, camera, curves, plots, renders, shading, surfaces
+from raysteps.upkeep.figures import bending, boxes, camera, curves, plots, quadtree, renders, shading, surfaces
 from raysteps.upkeep.figures.measuring import measured
 
 FOLDER = "docs/figures"
@@ -23,7 +23,7 @@ _DIAGRAMS = {
     "04-acne": shading.acne,
     "05-mirror": bending.mirrored,
     "05-tree": bending.tree,
-    "06-boxes": boxes.quadtree,
+    "06-boxes": quadtree.quadtree,
     "06-slabs": boxes.slabs,
     "06-overlap": boxes.overlap,
     "08-snell": bending.snell,
