@@ -68,6 +68,15 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path, capsys: pytest
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 
 
+def test_what_is_missing_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("raysteps.upkeep.site.build.find_spec", lambda name: None)
+    assert main(["docs", "--out", str(tmp_path / "new")]) == 2
+    assert "pip install -e 'grader[docs]'" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
 class _Links(HTMLParser):
     def __init__(self) -> None:
         super().__init__()

@@ -1,7 +1,7 @@
 """Runs Sphinx on what was staged."""
 
-import importlib.util
 import io
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +46,7 @@ _CONF = "from raysteps.upkeep.site.build import SETTINGS\n\nglobals().update(SET
 def check_tools() -> None:
     """Says what to install where Sphinx and its parts are not there, as in a students' kit."""
     for name in ("sphinx", "myst_parser", "furo"):
-        if importlib.util.find_spec(name) is None:
+        if find_spec(name) is None:
             raise UsageError(
                 f"the site is built with Sphinx, and the Python package {name} is not installed; install it with:\n"
                 "  .venv/bin/python -m pip install -e 'grader[docs]'"
