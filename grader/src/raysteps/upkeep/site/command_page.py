@@ -15,8 +15,8 @@ Everything that `./raysteps` can do. `./raysteps COMMAND --help` prints the same
 Exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 a fault of the grader, 130
 interrupted.
 """
-_OWN_STEPS = """All words after the command go to `{program}`, a C++ program. Without `--impl`, or with `--impl mine`, it
-has your own steps; with `--impl reference` those of the kit.
+_OWN_STEPS = """All words after the command go to `{program}`, a C++ program. Without `--impl`, or with `--impl mine`,
+it has your own steps; with `--impl reference` those of the kit.
 """
 
 
