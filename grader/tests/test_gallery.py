@@ -2,17 +2,19 @@
 
 import argparse
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from conftest import MakeSubmission, Sources
 from rich.console import Console
 
-from raysteps.commands.gallery import command
+from raysteps.commands.gallery import command, reference
 from raysteps.commands.gallery.mine import MySteps
-from raysteps.commands.gallery.scenes import CHOSEN, shown_scenes
+from raysteps.commands.gallery.scenes import CHOSEN, Shown, shown_scenes
 from raysteps.commands.gallery.words import about_scene, what_is_new
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -63,6 +65,21 @@ def test_a_scene_that_cannot_be_read_is_the_users_mistake(project: Project, kit:
     scene.write_text("nonsense\n")
     with pytest.raises(UsageError, match=r"bad\.nff"):
         _run(project, "--out", str(tmp_path / "out"), "--scene", str(scene), "--size", _SIZE)
+
+
+def test_a_scene_that_is_too_large_to_be_traced_without_a_tree_shows_no_work(
+    project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def too_slow(*_args: object) -> None:
+        raise GraderFault("the reference cannot render it")
+
+    monkeypatch.setattr(reference, "reference_picture", too_slow)
+    kit: Any = SimpleNamespace(project=project, steps=steps)
+    own = Shown("large", "Large", "", tmp_path / "large.nff")
+    assert reference.reference_efforts(kit, own, lambda words: None) == {}
+    (glass,) = shown_scenes(project, ["glass"])
+    with pytest.raises(GraderFault):
+        reference.reference_efforts(kit, glass, lambda words: None)
 
 
 def test_a_page_is_made_of_the_kits_own_scene(

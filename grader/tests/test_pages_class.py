@@ -41,8 +41,11 @@ def _names(page: Page) -> list[str]:
 
 
 def _sort(page: Page, column: int) -> str | None:
-    heading = page.locator(f".class-table th[data-column='{column}']")
+    name = f".class-table th[data-column='{column}']"
+    heading = page.locator(name)
+    before = heading.get_attribute("aria-sort")
     heading.get_by_role("button").click()
+    page.wait_for_selector(f"{name}[aria-sort]:not([aria-sort='{before}'])")
     return heading.get_attribute("aria-sort")
 
 

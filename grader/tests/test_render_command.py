@@ -6,7 +6,10 @@ import pytest
 
 from raysteps.cli import main
 from raysteps.commands.render import run_raytrace, take_impl
+from raysteps.commands.unfinished import advice
 from raysteps.common.errors import UsageError
+from raysteps.kit.manifest import read_steps
+from raysteps.kit.project import Project
 
 
 def test_impl_is_taken_out() -> None:
@@ -39,3 +42,21 @@ def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_picture_of_another_kind_is_refused_before_anything_is_built(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["render", "scene.nff", "-o", "picture.jpg"]) == 2
     assert "picture.jpg: pictures are written as .png or .ppm" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("written", "wanted", "said"), [(0, 8, "not started"), (2, 8, "--step 2"), (2, 2, "")])
+def test_a_picture_that_needs_more_than_is_written(
+    project: Project, tmp_path: Path, written: int, wanted: int, said: str
+) -> None:
+    copy = Project(tmp_path)
+    for step in read_steps(project):
+        manifest = project.root / "steps" / step.path.parent / "step.toml"
+        place = tmp_path / "steps" / step.path.parent
+        place.mkdir(parents=True)
+        (place / "step.toml").write_bytes(manifest.read_bytes())
+        folder = project.samples / "complete" if step.index <= written else project.root
+        source = folder / "steps" / step.path
+        (place / step.path.name).write_bytes(source.read_bytes())
+    told = advice(copy, wanted)
+    assert said in told
+    assert bool(said) == bool(told)

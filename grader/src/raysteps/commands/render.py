@@ -6,6 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from raysteps.commands.unfinished import advice
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
@@ -82,6 +83,12 @@ def run_raytrace(program: Path, args: list[str]) -> None:
         raise SystemExit(code)
 
 
+def _wanted_step(args: list[str]) -> int:
+    """Of the picture; raytrace itself complains about what is no step."""
+    word = args[args.index("--step") + 1] if "--step" in args[:-1] else "8"
+    return int(word) if re.fullmatch("[0-9]{1,2}", word) else 0
+
+
 def render(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and a name in .png makes a PNG."""
     impl, args = take_impl(args)
@@ -91,6 +98,9 @@ def render(project: Project, args: list[str]) -> int:
     program = (
         build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
     )
+    said = advice(project, _wanted_step(args)) if impl == "mine" and at < len(args) else ""
+    if said:
+        print(f"raysteps: {said}", file=sys.stderr)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
         run_raytrace(program, args)
         return 0

@@ -27,6 +27,8 @@ _PATIENCE_SECONDS = 2.0
 
 def usable_folder(path: Path) -> None:
     """Makes the folder that somebody named for results, or says that it cannot be written to."""
+    if path.is_file():
+        raise UsageError(f"{path}: is a file; expected a folder for the results, which may be a new one")
     try:
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):

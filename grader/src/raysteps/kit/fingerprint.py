@@ -7,14 +7,15 @@ from pathlib import Path
 
 from raysteps.kit.project import Project
 
-# Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps.
+# Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps,
+# nor the packages that change no grade.
 _SOURCES = {
     "framework": r".*\.(hpp|cpp|cmake|txt)",
     "cmake": r".*\.cmake",
     "scenes": r".*\.(nff|py)",
     "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml)",
     "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
-    "grader/src": r"raysteps/(?!(commands|exports|pages|reports|upkeep)/).*\.(py|json)",  # those change no grade
+    "grader/src": r"raysteps/(?!(commands|exports|pages|reports|setting_up|upkeep)/).*\.(py|json)",
 }
 
 

@@ -10,7 +10,7 @@ _SECONDS = 1200
 CLANG = ("clang",)
 MINGW = ("g++-mingw-w64-x86-64-posix", "wine64", "wine")
 PAGES = ("chromium",)
-WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb")
+WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb", "xdotool")
 
 
 def _installed(package: str) -> bool:

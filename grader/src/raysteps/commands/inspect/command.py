@@ -16,13 +16,13 @@ from raysteps.commands.inspect.side_by_side import print_trees
 from raysteps.commands.inspect.values import Record
 from raysteps.commands.inspect.verdict import print_verdict
 from raysteps.commands.render import build_program
+from raysteps.commands.unfinished import unfinished
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.formats import encoded, write_out
 from raysteps.kit.building import release_tree
-from raysteps.kit.manifest import Step, choose, read_steps
+from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project
-from raysteps.kit.stubs import unfinished_functions
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,19 +61,8 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
     return Wish(arguments.scene, arguments.x, arguments.y, step.index, tuple(options))
 
 
-def _unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
-    """Steps up to this one that hold functions nobody has written yet."""
-    left = []
-    for step in read_steps(project):
-        path = project.steps / step.path
-        if step.index <= upto and step.bonus <= (upto == step.index) and path.is_file():
-            functions = unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step)
-            left += [(step, functions)] if functions else []
-    return left
-
-
 def _say_unfinished(project: Project, wish: Wish) -> None:
-    left = _unfinished(project, wish.step)
+    left = unfinished(project, wish.step)
     if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
         file = f"steps/{left[0][0].path.as_posix()}"
         raise UsageError(

@@ -1,6 +1,6 @@
 "use strict";
 
-const k_hidden_at_start = "#names-hidden";
+const classNamesHidden = "#names-hidden";
 
 function startClassPage() {
   const data = JSON.parse(document.getElementById("data").textContent);
@@ -28,12 +28,12 @@ function startClassPage() {
     names.set(hide.checked);
     sortAgain();
     filter.apply();
-    history.replaceState(null, "", hide.checked ? k_hidden_at_start : location.pathname);
+    history.replaceState(null, "", hide.checked ? classNamesHidden : location.pathname);
   }
   hide.addEventListener("change", hideOrShow);
   document.getElementById("switches").hidden = false;
   form.hidden = false;
-  hide.checked = location.hash === k_hidden_at_start;
+  hide.checked = location.hash === classNamesHidden;
   if (hide.checked) {
     hideOrShow();
   } else {

@@ -12,7 +12,7 @@
  * @property {boolean} late
  */
 
-const k_by_name = new Intl.Collator(undefined, { numeric: true, sensitivity: "base" });
+const classByName = new Intl.Collator(undefined, { numeric: true, sensitivity: "base" });
 
 /** The rows of the table: put in an order, shown or not. All keys are known before; nothing is read from the page. */
 class ClassRows {
@@ -38,7 +38,7 @@ class ClassRows {
   sort(column, direction) {
     const inOrder = [...this.rows].sort((a, b) => {
       if (column === 0) {
-        return direction * k_by_name.compare(this.name(a), this.name(b)) || a.index - b.index;
+        return direction * classByName.compare(this.name(a), this.name(b)) || a.index - b.index;
       }
       const [left, right] = [a.facts.keys[column - 1], b.facts.keys[column - 1]];
       if (left === null || right === null) {

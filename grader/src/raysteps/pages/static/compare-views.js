@@ -20,13 +20,11 @@ function pictureLayer(raster) {
 }
 
 function differenceLayer(pair) {
-  const signed = (value) => (value > 0 ? `+${value}` : String(value).replace("-", "−"));
-  return { raster: pair.differenceRaster, numbers: (x, y) => pair.difference(x, y).map(signed) };
+  return { raster: pair.differenceRaster, numbers: (x, y) => pair.difference(x, y).map(signedWords) };
 }
 
 function flipLayer(pair) {
-  const value = (x, y) => (pair.flip.data[(y * pair.width + x) * 4] / 255).toFixed(2);
-  return { raster: pair.heatRaster, numbers: (x, y) => [value(x, y)] };
+  return { raster: pair.heatRaster, numbers: (x, y) => [flipWords(pair, x, y)] };
 }
 
 /** Whether two pictures are clearly larger one above the other than side by side. */

@@ -5,6 +5,16 @@ function colourWords(colour) {
   return colour ? colour.join(" ") : "no pixel";
 }
 
+/** A difference with its sign, as printed: +3, −3, 0. */
+function signedWords(value) {
+  return value > 0 ? `+${value}` : String(value).replace("-", "−");
+}
+
+/** FLIP's value of a pixel, from 0.00 to 1.00. */
+function flipWords(pair, x, y) {
+  return (pair.flip.data[(y * pair.width + x) * 4] / 255).toFixed(2);
+}
+
 function largestGap(difference) {
   return Math.max(...difference.map(Math.abs));
 }
@@ -36,9 +46,9 @@ function tellPixel(cells, pair, pixel) {
   tellColour(cells.reference, PicturePair.colour(pair.reference, x, y));
   tellColour(cells.mine, PicturePair.colour(pair.mine, x, y));
   const difference = pair.difference(x, y);
-  const signed = difference?.map((value) => (value > 0 ? `+${value}` : String(value).replace("-", "−"))).join(" ");
+  const signed = difference?.map(signedWords).join(" ");
   cells.difference.textContent = difference ? `${signed} (largest ${largestGap(difference)})` : "–";
-  cells.flip.textContent = pair.flip ? (pair.flip.data[(y * pair.width + x) * 4] / 255).toFixed(2) : "no map";
+  cells.flip.textContent = pair.flip ? flipWords(pair, x, y) : "no map";
 }
 
 function sizeWords(raster) {

@@ -1,0 +1,28 @@
+"""Which of a student's own steps are still to be written, for commands that need them."""
+
+from raysteps.kit.manifest import Step, read_steps
+from raysteps.kit.project import Project
+from raysteps.kit.stubs import unfinished_functions
+
+
+def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
+    """Steps up to this one, and their functions that nobody has written yet. Of bonus steps only this one counts."""
+    left = []
+    for step in read_steps(project):
+        path = project.steps / step.path
+        if step.index <= upto and step.bonus <= (upto == step.index) and path.is_file():
+            functions = unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step)
+            left += [(step, functions)] if functions else []
+    return left
+
+
+def advice(project: Project, upto: int) -> str:
+    """What to say of a picture of that step; empty when all that it needs is written."""
+    left = unfinished(project, upto)
+    if not left:
+        return ""
+    first = left[0][0].index
+    if first == 1:
+        return "your steps are not started; see what the picture will be with --impl reference"
+    reached = f"your steps reach {first - 1:02}, and this picture is one of step {upto:02}"
+    return f"{reached}: add --step {first - 1}, or see it with --impl reference"
