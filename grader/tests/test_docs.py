@@ -1,13 +1,11 @@
 """The documents lead to what is there."""
 
-import re
 from pathlib import Path
 
 import pytest
 
 from raysteps.kit.project import Project
-
-_LINK = re.compile(r"\]\(([^)\s#]+)(?:#[^)]*)?\)")
+from raysteps.upkeep.site.links import dead_links
 
 
 def _documents(project: Project) -> list[Path]:
@@ -19,10 +17,7 @@ def _documents(project: Project) -> list[Path]:
 def test_every_link_within_the_kit_leads_somewhere(project: Project) -> None:
     documents = _documents(project)
     assert len(documents) > 15
-    for document in documents:
-        for target in _LINK.findall(document.read_text(encoding="utf-8")):
-            if "://" not in target:
-                assert (document.parent / target).exists(), f"{document}: {target}"
+    assert dead_links(project.root, [path.relative_to(project.root) for path in documents]) == []
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,7 @@ from raysteps.upkeep import dev
 from raysteps.upkeep.bench import command as bench
 from raysteps.upkeep.figures import command as figures
 from raysteps.upkeep.selftest import selftest
+from raysteps.upkeep.site import command as site
 
 
 def _above_0(word: str) -> int:
@@ -91,6 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     gallery.add_arguments(commands.add_parser("gallery", help="a page that walks through the steps in pictures"))
 
     bench.add_arguments(commands.add_parser("bench", help="measure the reference"))
+    site.add_arguments(commands.add_parser("docs", help="the documents as a site that needs no network"))
     figures.add_arguments(commands.add_parser("figures", help="make the figures of the handouts"))
 
     add = commands.add_parser("test", help="test the kit itself")
@@ -138,6 +140,8 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             return gallery.run(project, arguments, console)
         case "bench":
             return bench.run(project, arguments, console)
+        case "docs":
+            return site.run(project, arguments, console, _parser())
         case "figures":
             return figures.run(project, arguments, console)
         case "test":

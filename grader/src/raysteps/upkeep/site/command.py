@@ -1,0 +1,85 @@
+"""The command `docs`: the documents as a site."""
+
+import argparse
+import shutil
+import tempfile
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.commands.report import short_path
+from raysteps.common.errors import UsageError
+from raysteps.kit.project import Project
+from raysteps.upkeep.site.build import build_site, check_tools
+from raysteps.upkeep.site.command_page import command_page
+from raysteps.upkeep.site.documents import documents
+from raysteps.upkeep.site.links import dead_links
+from raysteps.upkeep.site.staging import GALLERY, stage
+
+_MARK = Path("_static/site.css")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where it goes, and what else comes along."""
+    parser.add_argument("--out", type=Path, metavar="DIR", help="where index.html goes (build/site)")
+    parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery made before, to be part of the site")
+
+
+def _check(out: Path, gallery: Path | None) -> None:
+    if out.is_file() or (out.is_dir() and any(out.iterdir()) and not (out / _MARK).is_file()):
+        raise UsageError(f"{out}: holds something else; expected a new or an empty folder, or an older site")
+    if gallery is not None and not (gallery / GALLERY.name).is_file():
+        raise UsageError(
+            f"{gallery}: expected a folder with {GALLERY.name} in it; make one with: ./raysteps gallery --out {gallery}"
+        )
+
+
+def _replace(new: Path, out: Path) -> None:
+    """In two renames, so that nobody sees half of a site."""
+    old = new.with_name("old")
+    if out.exists():
+        out.replace(old)
+    new.replace(out)
+
+
+def _troubles(project: Project) -> list[str]:
+    """What is wrong in the documents themselves."""
+    from raysteps.upkeep.site.formulas import bad_formulas  # brings docutils, which the other commands do not need
+
+    written = documents(project)
+    return [*dead_links(project.root, written), *bad_formulas(project.root, written)]
+
+
+def _build(project: Project, out: Path, gallery: Path | None, commands: str, console: Console) -> list[str]:
+    """Builds beside its place, and puts it there when nothing is wrong."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
+        work = Path(name)
+        (work / "stage").mkdir()
+        stage(project, work / "stage", commands, gallery=gallery is not None)
+        with console.status("building the site"):
+            troubles = build_site(work / "stage", work / "site", work)
+        if gallery is not None:
+            shutil.copytree(gallery, work / "site" / GALLERY.parent)
+        if not troubles:
+            _replace(work / "site", out)
+    return troubles
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console, parser: argparse.ArgumentParser) -> int:
+    """Builds all of it anew. `parser` is the command line that the site describes."""
+    out: Path = (arguments.out or project.build / "site").absolute()
+    _check(out, arguments.gallery)
+    check_tools()
+    troubles = _troubles(project)
+    if not troubles:
+        troubles = _build(project, out, arguments.gallery, command_page(project, parser), console)
+    for trouble in troubles:
+        console.print(escape(trouble), highlight=False)
+    if troubles:
+        many = f"{len(troubles)} things" if len(troubles) > 1 else "one thing"
+        console.print(f"no site was written: {many} to mend")
+        return 1
+    console.print(f"the site is in {escape(short_path(out / 'index.html'))}: open it in a browser, or serve its folder")
+    return 0

@@ -1,0 +1,62 @@
+"""Formulas become MathML when the site is built, so a page needs no script and no network to show them."""
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
+
+from raysteps.upkeep.site.markdown import formulas
+
+_BARE = re.compile(r"\\[dt]?frac(?!\s*\{)")
+
+
+class BadFormula(ValueError):
+    """What cannot be shown, and why."""
+
+
+def mathml(formula: str, *, block: bool) -> str:
+    """One element `math`."""
+    bare = _BARE.search(formula)
+    if bare:
+        raise BadFormula(f"{formula}: expected braces after {bare[0]}, like \\frac{{1}}{{2}}")
+    plain = re.sub(r"\\[{}]", "", formula)
+    if plain.count("{") != plain.count("}"):
+        raise BadFormula(f"{formula}: expected a closing brace for each opening one")
+    try:
+        made: str = tex2mathml(formula, as_block=block)
+    except (MathError, SyntaxError, KeyError, IndexError) as error:
+        raise BadFormula(f"{formula}: {error}") from error
+    return re.sub(r">\s+<", "><", made)
+
+
+def bad_formulas(root: Path, documents: Iterable[Path]) -> list[str]:
+    """One line for each that cannot be shown."""
+    found = []
+    for document in documents:
+        for formula in formulas((root / document).read_text(encoding="utf-8")):
+            try:
+                mathml(formula, block=False)
+            except BadFormula as error:
+                found.append(f"{document}: the formula {error}")
+    return found
+
+
+def _inline(visitor: Any, node: nodes.math) -> None:
+    visitor.body.append(mathml(node.astext(), block=False))
+    raise nodes.SkipNode
+
+
+def _block(visitor: Any, node: nodes.math_block) -> None:
+    visitor.body.append(f'<div class="formula" tabindex="0">{mathml(node.astext(), block=True)}</div>')
+    raise nodes.SkipNode
+
+
+def setup(application: Any) -> dict[str, bool]:
+    """Sphinx calls this."""
+    application.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
+    application.config.html_math_renderer = "mathml"
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

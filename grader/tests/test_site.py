@@ -1,0 +1,142 @@
+"""The site: all documents, all commands, no dead link, and nothing from a network."""
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
+
+from raysteps.cli import _parser, main
+from raysteps.kit.manifest import read_steps
+from raysteps.kit.project import Project, here
+from raysteps.upkeep.site.command_page import command_page
+from raysteps.upkeep.site.documents import documents
+from raysteps.upkeep.site.formulas import BadFormula, bad_formulas, mathml
+from raysteps.upkeep.site.links import dead_links
+from raysteps.upkeep.site.markdown import anchors, formulas
+
+_TOGETHER = pytest.mark.xdist_group("site")
+
+
+def test_dead_links_are_found(tmp_path: Path) -> None:
+    (tmp_path / "a.md").write_text("# One\n[x](b.md#two) [y](b.md#three)\n![z](no.png) `[code](no.md)` [w](#one)\n")
+    (tmp_path / "b.md").write_text("## Two\n```\n## Three\n```\n")
+    found = dead_links(tmp_path, [Path("a.md")])
+    assert [line.split(": ")[:2] for line in found] == [["a.md:2", "b.md#three"], ["a.md:3", "no.png"]]
+
+
+def test_anchors_are_those_of_a_forge() -> None:
+    text = "# A *b* `c_d`: e, f\n## Twice\n## Twice\n## [Text](x.md) & more\n"
+    assert anchors(text) == {"a-b-c_d-e-f", "twice", "twice-1", "text--more"}
+
+
+def test_every_formula_can_be_shown(project: Project) -> None:
+    assert bad_formulas(project.root, documents(project)) == []
+
+
+def test_formulas_are_told_from_other_dollars() -> None:
+    assert formulas("$a + b$, $$c$$ and `$d` cost $5 or $HOME\n```\n$e$\n```\n") == ["a + b", "c"]
+
+
+@pytest.mark.parametrize("formula", [r"\nonsense{x}", r"\frac12", r"{a"])
+def test_a_formula_that_cannot_be_shown_is_found(formula: str) -> None:
+    with pytest.raises(BadFormula):
+        mathml(formula, block=False)
+
+
+def test_all_documents_are_on_the_site(project: Project) -> None:
+    found = {str(path) for path in documents(project)}
+    assert {f"docs/{path.name}" for path in (project.root / "docs").glob("*.md")} <= found
+    assert {f"steps/{step.id}/README.md" for step in read_steps(project)} <= found
+
+
+def test_the_page_of_commands_has_every_option(project: Project) -> None:
+    page = command_page(project, _parser())
+    for command in ("watch", "grade-class", "export gradescope", "dev mistakes"):
+        assert re.search(f"^##+ {command}$", page, re.MULTILINE)
+    for option in ("--require-sandbox", "--late-policy", "--map-scale", "--screenshot"):
+        assert option in page
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "thesis.txt").write_text("years of work")
+    assert main(["docs", "--out", str(tmp_path)]) == 2
+    assert "expected a new or an empty folder" in capsys.readouterr().err
+    assert main(["docs", "--out", str(tmp_path / "new"), "--gallery", str(tmp_path)]) == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
+
+
+def test_what_is_missing_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("raysteps.upkeep.site.build.find_spec", lambda name: None)
+    assert main(["docs", "--out", str(tmp_path / "new")]) == 2
+    assert "pip install -e 'grader[docs]'" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+class _Links(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.targets: list[str] = []
+        self.ids: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        for name, value in attrs:
+            if name in ("href", "src") and value:
+                self.targets.append(value)
+            if name == "id" and value:
+                self.ids.add(value)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built once, with a gallery."""
+    folder = tmp_path_factory.mktemp("site")
+    (folder / "gallery").mkdir()
+    (folder / "gallery" / "index.html").write_text("<!doctype html><title>gallery</title>", encoding="utf-8")
+    assert main(["docs", "--out", str(folder / "out"), "--gallery", str(folder / "gallery")]) == 0
+    return folder / "out"
+
+
+@_TOGETHER
+def test_every_link_of_every_page_leads_somewhere_within_the_site(site: Path) -> None:
+    pages: dict[Path, _Links] = {}
+    for path in site.rglob("*.html"):
+        pages[path] = _Links()
+        pages[path].feed(path.read_text(encoding="utf-8"))
+    assert len(pages) > 30
+    for path, page in pages.items():
+        for target in page.targets:
+            if re.match(r"https?:|data:|mailto:", target):
+                continue
+            name, _, anchor = target.partition("#")
+            there = (path.parent / unquote(name.partition("?")[0])).resolve() if name else path
+            assert there.exists(), f"{path.relative_to(site)}: {target}"
+            if anchor and there in pages:
+                assert unquote(anchor) in pages[there].ids, f"{path.relative_to(site)}: {target}"
+
+
+@_TOGETHER
+def test_pages_show_all_without_a_network(site: Path, open_page: OpenPage) -> None:
+    first = read_steps(here())[1].id
+    for name, width, scheme in (("index", 1440, "light"), (f"steps/{first}/README", 360, "dark")):
+        page = open_page(site / f"{name}.html", width=width, scheme=scheme)
+        assert_no_sideways_scrolling(page)
+        assert_accessible(page)
+        broken = "[...document.images].filter(i => i.loading !== 'lazy' && !i.naturalWidth).map(i => i.src)"
+        assert page.evaluate(broken) == []
+    shown = page.locator("math").first.bounding_box()
+    assert shown is not None
+    assert shown["width"] > 5
+
+
+@_TOGETHER
+def test_search_works_in_pages_that_were_opened_as_files(site: Path, open_page: OpenPage) -> None:
+    page = open_page(site / "index.html")
+    page.locator("input[name=q]").first.fill("acne")
+    page.keyboard.press("Enter")
+    page.locator("#search-results li a", has_text="Step 04").first.click()
+    assert "/steps/04-shadows/README.html" in page.url
