@@ -8,7 +8,7 @@ from pathlib import Path
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_bytes
 from raysteps.kit.built_kit import BuiltKit, Say
-from raysteps.kit.manifest import Step
+from raysteps.kit.manifest import Step, read_all_steps
 from raysteps.release.contents import kit_contents
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
@@ -53,7 +53,7 @@ def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Releas
 
 def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
     """All files into an empty folder."""
-    absent = [step for step in kit.steps if step not in steps]
+    absent = [step for step in read_all_steps(kit.project) if step not in steps]
     files = kit_contents(kit.project, steps, absent)
     files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)

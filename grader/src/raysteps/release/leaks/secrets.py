@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from raysteps.kit.cpp_tokens import tokens
-from raysteps.kit.manifest import read_steps
+from raysteps.kit.manifest import read_all_steps, read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import solution_regions
 from raysteps.release.contents import kit_contents
@@ -36,12 +36,13 @@ def _texts(project: Project, pattern: str) -> Iterator[tuple[str, str]]:
 
 
 def _solution_code(project: Project) -> Iterator[tuple[str, str]]:
-    """Regions by where they stand, and whole files that are alternatives."""
-    for step in read_steps(project):
+    """Regions by where they stand, and whole files that are alternatives or tell how the judge asks."""
+    for step in read_all_steps(project):
         name = f"solutions/{step.path.as_posix()}"
         for region in solution_regions((project.root / name).read_text(encoding="utf-8")):
             yield f"{name}:{region.line} ({region.name or 'a helper'})", "\n".join(region.body)
     yield from _texts(project, "*/alternatives/*.cpp")
+    yield from _texts(project, "*/worker.cpp")
 
 
 def _strings(value: Any) -> Iterator[str]:
@@ -98,6 +99,8 @@ def gather(project: Project) -> Secrets:
         for line in text.splitlines():
             if line.startswith('"'):
                 phrases.add(plain_words(line), origin, _FRAGMENT, _LEAST_OF_A_CASE)
+    for origin, text in _texts(project, "*/judge.py"):
+        phrases.add(plain_words(text), origin, _FRAGMENT, _LEAST_OF_A_FRAGMENT)
     for text in _public(project):
         phrases.allow(text)
         passages.allow(text)
