@@ -30,6 +30,7 @@ _DOCS = {  # what a student looks up
     "inspect.md",
     "maps.md",
     "pages.md",
+    "students.md",
     "view.md",
     "watch.md",
     "where-students-work.md",
