@@ -8,6 +8,7 @@ from rich.console import Console
 
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project, here
+from raysteps.kit.stubs import stub_for
 from raysteps.results.model import Results, StepResult
 
 
@@ -17,7 +18,7 @@ def small_project(root: Path) -> Project:
     for step in read_steps(here()):
         for room in (copy.steps, copy.stubs):
             (room / step.path).parent.mkdir(parents=True)
-            shutil.copy(here().stubs / step.path, room / step.path)
+            (room / step.path).write_text(stub_for(here(), step), encoding="utf-8")
         shutil.copy(here().steps / step.id / "step.toml", copy.steps / step.id)
     return copy
 

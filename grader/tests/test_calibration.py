@@ -23,6 +23,8 @@ from raysteps.upkeep.entrants import Entrant, right_ones
 
 _PIXELS = 20_000
 
+pytestmark = pytest.mark.xdist_group("calibration")  # the alternatives are built once
+
 
 def test_the_limit_is_midway_in_ratio() -> None:
     gate = gate_between({"a": 0.0, "b": 0.001}, {"mild": [0.2, 0.1], "bold": [0.9, 0.9]}, _PIXELS, 0.03)

@@ -6,6 +6,7 @@ import pytest
 from course_fakes import printed, small_project, text, write_own
 
 from raysteps import cli
+from raysteps.commands import for_students
 from raysteps.commands.course.reset import loss, reset
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.kit.manifest import Step
@@ -79,7 +80,7 @@ def test_without_a_terminal_it_must_be_said(
     course: Project, steps: list[Step], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source = _edit(course, steps[0])
-    monkeypatch.setattr(cli, "here", lambda: course)
+    monkeypatch.setattr(for_students, "here", lambda: course)
     assert cli.main(["reset", "1"]) == 2
     assert "there is no terminal to ask on; say --yes" in capsys.readouterr().err
     assert (course.steps / steps[0].path).read_text() == source
@@ -95,12 +96,14 @@ def test_a_kit_without_its_stubs_changes_nothing(course: Project, steps: list[St
     assert (course.steps / steps[0].path).read_text() == source
 
 
-def test_the_kept_stubs_are_those_of_the_solutions(project: Project, steps: list[Step], tmp_path: Path) -> None:
-    kept = [path for path in outdated_stubs(project, steps) if path.is_relative_to(project.stubs)]
-    assert kept == []
+def test_with_solutions_the_stub_comes_from_them(project: Project, steps: list[Step], tmp_path: Path) -> None:
     (tmp_path / "solutions").symlink_to(project.solutions)
     written = write_stubs(Project(tmp_path), steps)
-    assert len(written) == 2 * len(steps)
+    assert len(written) == len(steps)
+    stub = written[0].read_text()
+    written[0].write_text("mine")
+    assert reset(Project(tmp_path), steps[0], printed(), yes=True) == 0
+    assert written[0].read_text() == stub
     assert write_stubs(Project(tmp_path), steps) == outdated_stubs(Project(tmp_path), steps) == []
     written[0].write_text("mine")
     assert outdated_stubs(Project(tmp_path), steps) == [written[0]]

@@ -6,6 +6,7 @@ import pytest
 from course_fakes import checked, printed, small_project, text, write_own
 
 from raysteps import cli
+from raysteps.commands import for_students
 from raysteps.commands.course.listing import list_steps, next_step
 from raysteps.commands.course.remembered import recall, remember
 from raysteps.commands.course.standing import next_of, standings
@@ -136,7 +137,7 @@ def test_a_step_that_was_not_handed_in_is_not_remembered(course: Project, steps:
 def test_from_the_command_line(
     course: Project, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cli, "here", lambda: course)
+    monkeypatch.setattr(for_students, "here", lambda: course)
     assert [cli.main([word]) for word in ("list", "next", "hint")] == [0, 0, 0]
     assert "Camera rays, hint 1 of 3" in capsys.readouterr().out
     assert cli.main(["hint", "10"]) == 2

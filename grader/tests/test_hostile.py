@@ -39,6 +39,8 @@ _NUMBERS_WITHOUT_ENTRY = {33}  # docs/hostile.md says why
 _USUAL = ["failed", "crashed", "timeout", "partial"]
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
+pytestmark = pytest.mark.xdist_group("hostile")  # the corpus is graded once
+
 
 # Where it all happens
 

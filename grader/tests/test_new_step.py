@@ -27,7 +27,7 @@ _SECONDS = 900
 def copy(project: Project, tmp_path: Path) -> Project:
     """The kit without its grader's code: what the manifests tell."""
     root = tmp_path / "kit"
-    for name in ("steps", "solutions", "grader/stubs", "grader/samples"):
+    for name in ("steps", "solutions", "grader/samples"):
         shutil.copytree(project.root / name, root / name, ignore=shutil.ignore_patterns("__pycache__"))
     return Project(root)
 
@@ -87,8 +87,8 @@ def test_a_step_that_is_taken_away_leaves_nothing(copy: Project, capsys: pytest.
     _new(copy, "10-fog")
     for room in (copy.steps, copy.solutions):
         shutil.rmtree(room / "10-fog")
-    assert maintenance.stubs(copy, check=True) == 1
-    assert "grader/stubs/10-fog belongs to no step" in capsys.readouterr().out
+    assert maintenance.samples(copy, check=True) == 1
+    assert "10-fog belongs to no step" in capsys.readouterr().out
     assert maintenance.stubs(copy, check=False) == maintenance.samples(copy, check=False) == 0
     assert not list(copy.root.rglob("10-fog"))
     assert maintenance.stubs(copy, check=True) == maintenance.samples(copy, check=True) == 0

@@ -8,24 +8,18 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.classroom import command as classroom
-from raysteps.commands import release, report_page
-from raysteps.commands.check import check, exit_code
-from raysteps.commands.course import command as course
+from raysteps.commands import for_students, release
+from raysteps.commands.check import exit_code
 from raysteps.commands.demo import demo
-from raysteps.commands.ending import EXITS, console_here, ended
 from raysteps.commands.gallery import command as gallery
 from raysteps.commands.grade import Wish, grade
-from raysteps.commands.inspect import command as inspect
 from raysteps.commands.leaderboard import command as leaderboard
-from raysteps.commands.render import render
 from raysteps.commands.replay import replay
-from raysteps.commands.view import view
-from raysteps.commands.watch import command as watch
 from raysteps.exports import command as exports
 from raysteps.grading.settings import Settings
 from raysteps.kit.course import read_course
 from raysteps.kit.manifest import choose, read_steps
-from raysteps.kit.project import Project, here
+from raysteps.kit.project import Project
 from raysteps.programs.limits import parse_limits
 from raysteps.upkeep import dev
 from raysteps.upkeep.bench import command as bench
@@ -41,28 +35,9 @@ def _above_0(word: str) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="raysteps",
-        description="A ray tracer in nine graded steps.",
-        epilog=EXITS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    parser = for_students.new_parser("A ray tracer in nine graded steps.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-
-    watch.add_arguments(commands.add_parser("watch", help="build, test and draw a step again with every save"))
-    course.add_arguments(commands.add_parser)
-
-    add = commands.add_parser("render", help="render a scene: the arguments of raytrace, and --impl mine|reference")
-    add.add_argument("args", nargs=argparse.REMAINDER)
-
-    inspect.add_arguments(commands.add_parser("inspect", help="follow one pixel: its rays, tests and light"))
-
-    add = commands.add_parser("view", help="a window on a scene: move the camera, click pixels; --impl mine|reference")
-    add.add_argument("args", nargs=argparse.REMAINDER)
-
-    add = commands.add_parser("check", help="check your own steps")
-    add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
+    for_students.add_arguments(commands.add_parser)
 
     add = commands.add_parser("replay", help="ask a hidden case again, as `check` or `grade` wrote it")
     add.add_argument("case", type=Path, help="such as cases/02-sphere-intersect.json")
@@ -80,7 +55,6 @@ def _parser() -> argparse.ArgumentParser:
     add.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
     add.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
 
-    report_page.add_arguments(commands.add_parser("report", help="make report.html of results that are there already"))
     classroom.add_arguments(commands.add_parser("grade-class", help="grade a whole class"))
     leaderboard.add_arguments(commands.add_parser("leaderboard", help="rank submissions by counted work"))
     release.add_arguments(commands.add_parser("release", help="make the repository that students get"))
@@ -109,23 +83,12 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
     return Wish(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
 
 
-def _run(arguments: argparse.Namespace, console: Console) -> int:
-    project = here()
+def _run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     match arguments.command:
-        case "watch":
-            return watch.run(project, arguments, console)
-        case "check":
-            return check(project, arguments.steps, console)
-        case "inspect":
-            return inspect.run(project, arguments, console)
-        case name if name in course.COMMANDS:
-            return course.run(project, arguments, console)
         case "replay":
             return replay(project, arguments.case, arguments.submission, console)
         case "grade":
             return exit_code(grade(project, _wish(project, arguments), console))
-        case "report":
-            return report_page.run(project, arguments, console)
         case "grade-class":
             return classroom.run(project, arguments, console)
         case "leaderboard":
@@ -152,12 +115,4 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code."""
-
-    def run(words: Sequence[str]) -> int:
-        if words[0] == "render":
-            return render(here(), list(words[1:]))
-        if words[0] == "view":
-            return view(here(), list(words[1:]))
-        return _run(_parser().parse_args(words), console_here())
-
-    return ended(run, _parser(), argv)
+    return for_students.run_line(_parser(), _run, argv)

@@ -28,7 +28,7 @@ class Project:
 
     @property
     def stubs(self) -> Path:
-        """The stubs once more, for a student who wants to begin again: those in steps/ are written over."""
+        """In a students' kit: the stubs once more, because those in steps/ are written over."""
         return self.root / "grader" / "stubs"
 
     @property

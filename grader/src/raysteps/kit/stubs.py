@@ -117,7 +117,9 @@ def stub_for(project: Project, step: Step) -> str:
 
 
 def pristine_stub(project: Project, step: Step) -> str:
-    """The step as the student got it; also where there are no solutions to make it from."""
+    """The step as the student got it: made from the solution, or where there are none, as the kit keeps it."""
+    if project.has_reference:
+        return stub_for(project, step)
     path = project.stubs / step.path
     try:
         return path.read_text(encoding="utf-8")
@@ -126,9 +128,8 @@ def pristine_stub(project: Project, step: Step) -> str:
 
 
 def _stub_files(project: Project, steps: list[Step]) -> dict[Path, bytes]:
-    """Path and content: where students write, and beside the grader, where they do not."""
-    made = {step: stub_for(project, step).encode() for step in steps}
-    return {room / step.path: data for room in (project.steps, project.stubs) for step, data in made.items()}
+    """Path and content, where students write."""
+    return {project.steps / step.path: stub_for(project, step).encode() for step in steps}
 
 
 def outdated_stubs(project: Project, steps: list[Step]) -> list[Path]:

@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     commands = parser.add_subparsers(dest="what", required=True, metavar="WHAT")
     new_step.add_arguments(commands)
     for name, made in (
-        ("stubs", "the stubs in steps/ and grader/stubs/"),
+        ("stubs", "the stubs in steps/"),
         ("samples", "the samples in grader/samples/"),
     ):
         add = commands.add_parser(name, help=f"make {made} from the solutions")

@@ -9,7 +9,7 @@ from typing import Any
 from raysteps.kit.cpp_tokens import tokens
 from raysteps.kit.manifest import read_all_steps, read_steps
 from raysteps.kit.project import Project
-from raysteps.kit.stubs import solution_regions
+from raysteps.kit.stubs import pristine_stub, solution_regions
 from raysteps.release.contents import kit_contents
 from raysteps.release.leaks.words import Sequences, code_words, plain_words
 
@@ -64,7 +64,7 @@ def _public(project: Project) -> Iterator[str]:
             for path in sorted((project.steps / step.id).iterdir())
             if path.suffix in (".hpp", ".md", ".toml") or path.name.endswith("_test.cpp")
         )
-        yield (project.stubs / step.path).read_text(encoding="utf-8")
+        yield pristine_stub(project, step)
 
 
 def _shipped(project: Project) -> Iterator[str]:

@@ -66,7 +66,7 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
         made += write_stubs(project, [read_step(project.steps / name / "step.toml")])
         made += write_samples(project, read_steps(project))
     except (OSError, GraderFault) as error:
-        for room in (project.steps, project.stubs, project.solutions):
+        for room in (project.steps, project.solutions):
             shutil.rmtree(room / name, ignore_errors=True)
         raise GraderFault(f"{name}: the step cannot be written, and nothing of it is left: {error}") from error
     return sorted(path.relative_to(project.root).as_posix() for path in made)
