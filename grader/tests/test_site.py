@@ -1,5 +1,6 @@
 """The site: all documents, all commands, no dead link, and nothing from a network."""
 
+import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 
 from raysteps.cli import _parser, main
+from raysteps.common.errors import UsageError
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project, here
 from raysteps.upkeep.site.command_page import command_page
@@ -16,6 +18,7 @@ from raysteps.upkeep.site.documents import documents
 from raysteps.upkeep.site.formulas import BadFormula, bad_formulas, mathml
 from raysteps.upkeep.site.links import dead_links
 from raysteps.upkeep.site.markdown import anchors, formulas
+from raysteps.upkeep.site.placing import check_place, put
 
 _TOGETHER = pytest.mark.xdist_group("site")
 
@@ -58,6 +61,37 @@ def test_the_page_of_commands_has_every_option(project: Project) -> None:
         assert re.search(f"^##+ {command}$", page, re.MULTILINE)
     for option in ("--require-sandbox", "--late-policy", "--map-scale", "--screenshot"):
         assert option in page
+
+
+def _written(folder: Path, *names: str) -> Path:
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(f"{folder.name} {name}", encoding="utf-8")
+    return folder
+
+
+def test_an_older_site_goes_and_what_else_lies_there_stays(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    put(_written(tmp_path / "first", "index.html", "docs/old/a.html"), out)
+    _written(out, ".git/HEAD", "CNAME", "docs/mine.txt")
+    check_place(out)
+    put(_written(tmp_path / "second", "index.html", "docs/b.html"), out)
+    left = {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
+    assert left == {"index.html", "docs/b.html", ".raysteps-site.json", ".git/HEAD", "CNAME", "docs/mine.txt"}
+    assert (out / "index.html").read_text() == "second index.html"
+    assert not (out / "docs/old").exists()
+    with pytest.raises(UsageError, match="CNAME: is not of an older site"):
+        put(_written(tmp_path / "third", "CNAME"), out)
+    assert (out / "CNAME").read_text() == "out CNAME"
+
+
+def test_a_list_that_leads_out_of_the_site_deletes_nothing(tmp_path: Path) -> None:
+    out = _written(tmp_path / "out", "index.html")
+    _written(tmp_path, "precious.txt")
+    listed = {"schema": "raysteps/site/v1", "files": ["../precious.txt", str(tmp_path / "precious.txt"), "index.html"]}
+    (out / ".raysteps-site.json").write_text(json.dumps(listed))
+    put(_written(tmp_path / "new", "index.html"), out)
+    assert (tmp_path / "precious.txt").exists()
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

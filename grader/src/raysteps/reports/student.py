@@ -64,7 +64,6 @@ def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequ
         "left_out": sum(shown.left_out for shown in album.values()),
         "facts": {
             "kit": clean(document["kit"], 200),
-            "seed": document["seed"],
             "isolation": clean(document["isolation"]["name"], 200),
         },
     }

@@ -15,9 +15,8 @@ from raysteps.upkeep.site.build import build_site, check_tools
 from raysteps.upkeep.site.command_page import command_page
 from raysteps.upkeep.site.documents import documents
 from raysteps.upkeep.site.links import dead_links
+from raysteps.upkeep.site.placing import check_place, put
 from raysteps.upkeep.site.staging import GALLERY, stage
-
-_MARK = Path("_static/site.css")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,20 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _check(out: Path, gallery: Path | None) -> None:
-    if out.is_file() or (out.is_dir() and any(out.iterdir()) and not (out / _MARK).is_file()):
-        raise UsageError(f"{out}: holds something else; expected a new or an empty folder, or an older site")
+    check_place(out)
     if gallery is not None and not (gallery / GALLERY.name).is_file():
         raise UsageError(
             f"{gallery}: expected a folder with {GALLERY.name} in it; make one with: ./raysteps gallery --out {gallery}"
         )
-
-
-def _replace(new: Path, out: Path) -> None:
-    """In two renames, so that nobody sees half of a site."""
-    old = new.with_name("old")
-    if out.exists():
-        out.replace(old)
-    new.replace(out)
 
 
 def _troubles(project: Project) -> list[str]:
@@ -63,7 +53,7 @@ def _build(project: Project, out: Path, gallery: Path | None, commands: str, con
         if gallery is not None:
             shutil.copytree(gallery, work / "site" / GALLERY.parent)
         if not troubles:
-            _replace(work / "site", out)
+            put(work / "site", out)
     return troubles
 
 
