@@ -97,7 +97,7 @@ class Actions:
         if words is None:
             session.showing.line("No picture is wrong (or there is none yet): nothing to look into.")
         else:
-            session.showing.line(typed(words), "bold")
+            session.showing.command(typed(words), "bold")
             with session.keyboard.lent():
                 run_inspect(session.project, words)
 

@@ -96,7 +96,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, worke
     try:
         _watch(project, step, arguments, showing, worker)
     except KeyboardInterrupt:
-        showing.line("\nStopped watching.")
+        showing.command("\nStopped watching.")
         return _INTERRUPTED
     showing.line("Stopped watching.")
     return 0

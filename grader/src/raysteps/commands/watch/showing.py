@@ -1,5 +1,7 @@
 """Compact lines for the terminal: the page has the rest."""
 
+import textwrap
+
 from rich.console import Console
 from rich.markup import escape
 
@@ -10,7 +12,7 @@ from raysteps.reports.words import HOW_SURE
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
-_WIDEST = 300
+_LONGEST = 600
 _MOST_FAILED = 2
 
 KEYS = (
@@ -40,9 +42,27 @@ class Showing:
     def __init__(self, console: Console) -> None:
         self.console = console
 
+    def command(self, text: str, style: str = "") -> None:
+        """What somebody may want to copy: not broken into lines. Nothing in it is markup."""
+        self.console.print(escape(text), style=style, highlight=False, soft_wrap=True)
+
     def line(self, text: str, style: str = "") -> None:
-        """One line, shortened, as it is: nothing in it is markup."""
-        self.console.print(escape(shorten(text, _WIDEST)), style=style, highlight=False, soft_wrap=True)
+        """Shortened, and in a terminal broken between words, so that the rest stands below the first word."""
+        text = shorten(text, _LONGEST)
+        if not self.console.is_terminal:
+            self.command(text, style)
+            return
+        indent = " " * (len(text) - len(text.lstrip()))
+        parts = textwrap.wrap(
+            text.strip(),
+            max(self.console.width - 1, 20),
+            initial_indent=indent,
+            subsequent_indent=indent + "  ",
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        for part in parts or [""]:
+            self.command(part, style)
 
     def dim(self, text: str) -> None:
         self.line(text, "dim")
@@ -105,7 +125,7 @@ class Showing:
                 if item[label]:
                     self.line(f"    {label:<9} {item[label]}")
             if item["case"]:
-                self.line(f"    again     {replay_command(item['case'])}")
+                self.command(f"    again     {replay_command(item['case'])}")
         self._more(len(missed), "hidden item")
 
     def _more(self, amount: int, noun: str) -> None:

@@ -1,0 +1,31 @@
+"""How watch prints: whole words in a terminal, and commands that can be copied."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from raysteps.commands.watch.showing import Showing
+
+_TEXT = "  hidden  sphere intersect: expected a hit at 3.25, where the ray enters the sphere [from outside]"
+
+
+def _printed(text: str, *, terminal: bool, command: bool = False) -> list[str]:
+    console = Console(file=io.StringIO(), width=40, force_terminal=terminal, color_system=None)
+    (Showing(console).command if command else Showing(console).line)(text)
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue().splitlines()
+
+
+def test_a_terminal_gets_whole_words_that_stand_below_the_first() -> None:
+    lines = _printed(_TEXT, terminal=True)
+    assert max(len(line) for line in lines) < 40
+    assert lines[0].startswith("  hidden  sphere intersect:")
+    assert all(line.startswith("    ") for line in lines[1:])
+    assert " ".join(" ".join(lines).split()) == " ".join(_TEXT.split())
+    assert _printed("", terminal=True) == [""]
+
+
+@pytest.mark.parametrize(("terminal", "command"), [(False, False), (True, True), (False, True)])
+def test_a_file_and_what_is_copied_get_one_line(terminal: bool, command: bool) -> None:
+    assert _printed(_TEXT, terminal=terminal, command=command) == [_TEXT]
