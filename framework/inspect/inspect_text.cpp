@@ -41,6 +41,10 @@ void write_end(TextLines& out, const PixelRecord& record) {
 
 void write_totals(TextLines& out, const PixelRecord& record) {
     const Stats& stats = record.stats;
+    if (stats.rays() == 0) {
+        out.line(0, "the pixel", "shows the direction of its eye ray, which was not traced");
+        return;
+    }
     out.line(0, "the pixel", amount(stats.rays(), "ray") + " (" + std::to_string(stats.eye) + " eye, " +
                                  std::to_string(stats.shadow) + " shadow, " + std::to_string(stats.reflect) +
                                  " reflected, " + std::to_string(stats.refract) + " refracted)");

@@ -22,7 +22,12 @@ def advice(project: Project, upto: int) -> str:
     if not left:
         return ""
     first = left[0][0].index
+    whole = f"what it should be lies in {project.given.name}/"
+    if project.has_reference:
+        whole = "--impl reference shows what it should be"
     if first == 1:
-        return "your steps are not started; see what the picture will be with --impl reference"
-    reached = f"your steps reach {first - 1:02}, and this picture is one of step {upto:02}"
-    return f"{reached}: add --step {first - 1}, or see it with --impl reference"
+        return f"your steps are not started; {whole}"
+    return (
+        f"this picture of step {upto:02} is not complete, as your steps reach {first - 1:02}; --step {first - 1} shows "
+        f"what you have, {whole}"
+    )

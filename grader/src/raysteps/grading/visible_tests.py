@@ -40,7 +40,7 @@ def _result(case: TestOutcome) -> TestResult:
     return TestResult(
         case.name,
         False,
-        failure.notes or "The test expects something else.",
+        failure.notes or "What the test asks for is not so; read it.",
         failure.expression,
         failure.expanded,
         failure.location,
