@@ -78,9 +78,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     """What the student wrote stays byte for byte."""
     root: Path = arguments.into or project.root
     if arguments.kit is None and arguments.into is None:
-        raise UsageError(
-            "update: expected a newer release, a folder or a zip, such as ./raysteps update ../course-2.zip"
-        )
+        raise UsageError("expected a newer release, a folder or a zip, such as in: ./raysteps update ../course-2.zip")
     old = read_release(root)
     if old is None:
         raise UsageError(f"{root / PLACE}: is missing; expected a repository that came from a release of the kit")

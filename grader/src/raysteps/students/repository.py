@@ -1,6 +1,8 @@
 """The student's folder: how a file of the kit is looked at, replaced, set aside and taken away there."""
 
 import os
+import re
+import stat
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
@@ -64,7 +66,7 @@ class Repository:
     def _allow(self, name: str) -> None:
         """On Windows a file that may only be read can be neither replaced nor removed."""
         path = self.path(name)
-        if path.is_file() and not os.access(path, os.W_OK):
+        if path.is_file() and not path.stat().st_mode & stat.S_IWRITE:
             path.chmod(0o644)
 
     def set_aside(self, name: str, data: bytes) -> str:
@@ -80,9 +82,9 @@ class Repository:
 
     def aside(self, name: str) -> list[str]:
         """What was set aside of it, whenever that was."""
-        folder = name.rpartition("/")[0]
-        found = self.path(name).parent.glob(f"{self.path(name).name}.mine*")
-        return sorted(f"{folder}/{path.name}" if folder else path.name for path in found)
+        found = [path.name for path in self.path(name).parent.glob(f"{self.path(name).name}.mine*")]
+        folder = name[: name.rfind("/") + 1]
+        return sorted(folder + kept for kept in found if re.fullmatch(r".*\.mine\d*", kept))
 
     def remove(self, name: str) -> None:
         self._allow(name)

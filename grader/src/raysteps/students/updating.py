@@ -40,11 +40,19 @@ class Changes:
 
 @contextmanager
 def _told(what_now: str) -> Iterator[None]:
+    """Whatever goes wrong is said together with how things stand now."""
     try:
         yield
+    except UsageError as error:
+        raise UsageError(f"{error}. {what_now}") from error
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         raise UsageError(f"{where}{error.strerror or error}. {what_now}") from error
+
+
+def _refuse(obstacle: str) -> None:
+    if obstacle:
+        raise UsageError(obstacle)
 
 
 class Update:
@@ -75,21 +83,17 @@ class Update:
 
     def _look(self) -> bool:
         """Whether there is anything to do. What stands in the way is told while nothing is changed."""
-        self._refuse(self._place.obstacle(PLACE) or self._place.obstacle(_UNFINISHED))
+        _refuse(self._place.obstacle(PLACE) or self._place.obstacle(_UNFINISHED))
         wanted = self._place.read(PLACE) != self._source.listing
         for name in [*self._new, *self._gone()]:
             own = self._known.is_students(name, self._new.get(name))
-            self._refuse(self._place.obstacle(name, may_be_link=own))
+            _refuse(self._place.obstacle(name, may_be_link=own))
             if self._decide(name) not in _QUIET:
-                self._refuse(self._place.lock_out(name))
+                _refuse(self._place.lock_out(name))
                 wanted = True
         if wanted:
-            self._refuse(self._place.lock_out(PLACE))
+            _refuse(self._place.lock_out(PLACE))
         return wanted
-
-    def _refuse(self, obstacle: str) -> None:
-        if obstacle:
-            raise UsageError(f"{obstacle}. Nothing was changed")
 
     def _take(self, file: Listed, data: bytes) -> None:
         name, old, done = file.path, self._known.old(file.path), self.changes
@@ -147,8 +151,7 @@ class Update:
         for name in self._gone():
             self._place.prune(name)
         unfinished.end(self._place.root)
-        if self._resumed:
-            told = {*self.changes.kept, *self.changes.outdated}
-            before = [kept for name in sorted(paths) for kept in self._place.aside(name) if kept not in told]
-            self.changes.kept += [kept for kept in before if kept.rpartition(".")[0] in self._new]
-            self.changes.outdated += [kept for kept in before if kept.rpartition(".")[0] not in self._new]
+        for name in sorted(paths) if self._resumed else ():
+            if not self._known.is_students(name, self._new.get(name)):
+                told = self.changes.kept if name in self._new else self.changes.outdated
+                told += [kept for kept in self._place.aside(name) if kept not in told]
