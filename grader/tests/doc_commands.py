@@ -13,6 +13,7 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
+from raysteps import students_cli
 from raysteps.cli import _parser
 from raysteps.commands.render import take_impl
 from raysteps.common.errors import RaystepsError
@@ -65,8 +66,9 @@ def scene_generator(project: Project) -> ModuleType:
 
 
 @cache
-def _command_line() -> argparse.ArgumentParser:
-    return _parser()
+def _command_line(command: str) -> argparse.ArgumentParser:
+    """That of the whole kit, or of a students' kit for what only those have."""
+    return students_cli._parser() if command == "update" else _parser()
 
 
 @cache
@@ -94,7 +96,7 @@ def _parsers(parser: argparse.ArgumentParser, words: list[str]) -> Iterator[argp
 
 def _synopsis(project: Project, words: list[str]) -> str:
     """A synopsis has holes, but its options must be there."""
-    found = list(_parsers(_command_line(), words))
+    found = list(_parsers(_command_line(words[0]), words))
     known = {option for parser in found for option in parser._option_string_actions}
     if words[0] in ("render", "view"):
         program = "raytrace" if words[0] == "render" else "view"
@@ -114,7 +116,7 @@ def _raysteps(project: Project, one: Typed, words: list[str]) -> str:
         except RaystepsError as error:
             return str(error)
         return _read(_program(project, "raytrace" if words[0] == "render" else "view"), rest)
-    return _read(_command_line(), words)
+    return _read(_command_line(words[0]), words)
 
 
 def complaint(project: Project, one: Typed) -> str:

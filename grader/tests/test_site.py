@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote
@@ -103,11 +104,12 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path, capsys: pytest
 
 
 def test_what_is_missing_is_named(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("raysteps.upkeep.site.build.find_spec", lambda name: None)
     assert main(["docs", "--out", str(tmp_path / "new")]) == 2
-    assert "pip install -e 'grader[docs]'" in capsys.readouterr().err
+    line = capsys.readouterr().err.splitlines()[-1]
+    assert line.strip() == f'"{sys.executable}" -m pip install -e "{project.root / "grader"}[docs]"'
     assert not (tmp_path / "new").exists()
 
 

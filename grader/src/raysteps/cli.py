@@ -35,7 +35,7 @@ def _above_0(word: str) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = for_students.new_parser("A ray tracer in nine graded steps.")
+    parser = for_students.new_parser("A ray tracer in graded steps.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for_students.add_arguments(commands.add_parser)
 

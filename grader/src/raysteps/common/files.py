@@ -57,15 +57,15 @@ def _replace(temporary: Path, path: Path) -> None:
             return
 
 
-def write_bytes(path: Path, data: bytes) -> None:
-    """Writes to a temporary name in the same folder, then renames."""
+def write_bytes(path: Path, data: bytes, *, mode: int = 0o644, ending: str = "") -> None:
+    """Writes to a temporary name in the same folder, with that ending, then renames."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=ending, dir=path.parent)
     temporary = Path(name)
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
-        temporary.chmod(0o644)
+        temporary.chmod(mode)
         _replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)

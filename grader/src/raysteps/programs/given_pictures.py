@@ -1,6 +1,5 @@
 """The reference's pictures as files of a students' kit, reference/NN-name/CASE.png, and what is known of them."""
 
-import hashlib
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from PIL import Image
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_json
+from raysteps.common.marks import mark
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.kit.project import Project
@@ -25,16 +25,13 @@ def given_path(project: Project, step: Step, case: ImageCase) -> Path:
     return project.given / step.id / f"{case.name}.png"
 
 
-def _mark(scene: Path) -> str:
-    """Whatever ends its lines: git may change that."""
-    return hashlib.sha256(scene.read_bytes().replace(b"\r\n", b"\n")).hexdigest()
-
-
 def write_given(project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None) -> None:
     """A picture without a word in it, and beside it what it was made of and what it cost."""
     path = given_path(project, step, case)
     write_png(pixels, path)
-    write_json(path.with_suffix(".json"), {"scene": _mark(scene), "work": None if work is None else asdict(work)})
+    write_json(
+        path.with_suffix(".json"), {"scene": mark(scene.read_bytes()), "work": None if work is None else asdict(work)}
+    )
 
 
 @dataclass(frozen=True)
@@ -50,7 +47,7 @@ def _find(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> _Given:
                 path = given_path(kit.project, step, case)
                 try:
                     facts = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
-                    same = facts["scene"] == _mark(scene)
+                    same = facts["scene"] == mark(scene.read_bytes())
                 except (OSError, ValueError, KeyError, TypeError) as error:
                     raise UsageError(f"{path.with_suffix('.json')}: cannot be read; {_AGAIN}") from error
                 if not same:

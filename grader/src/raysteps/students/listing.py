@@ -1,15 +1,19 @@
 """.raysteps/release.json: which files of a students' repository are the kit's, and how they were."""
 
-import hashlib
 import json
 from dataclasses import asdict, dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.marks import mark
 from raysteps.common.schemas import complaint, read_schema
+from raysteps.students import paths
+
+__all__ = ["PLACE", "Listed", "Owner", "Release", "encoded", "mark", "parse", "read_release"]
 
 PLACE = ".raysteps/release.json"
+_FORM = "raysteps/release/v1"
 _MOST_BYTES = 16 << 20
 
 Owner = Literal["kit", "student"]
@@ -38,40 +42,42 @@ class Release:
         return {file.path: file for file in self.files}
 
 
-def mark(data: bytes) -> str:
-    """The same for a text whatever ends its lines: git may change that on Windows."""
-    text = data if b"\0" in data else data.replace(b"\r\n", b"\n")
-    return hashlib.sha256(text).hexdigest()
-
-
 def encoded(release: Release) -> bytes:
-    """The document; one that breaks its schema is the kit's fault."""
-    document = {"schema": "raysteps/release/v1", **asdict(release)}
+    """The document; one that breaks its schema is the kit's fault, a file that no repository may have the course's."""
+    document = {"schema": _FORM, **asdict(release)}
     document["steps"], document["files"] = list(release.steps), [asdict(file) for file in release.files]
     problem = complaint(document, read_schema("raysteps.students", "release.schema.json"))
     if problem:
         raise GraderFault(f"release.json would break its schema: {problem}")
+    wrong = paths.complaint(file.path for file in release.files)
+    if wrong:
+        raise UsageError(f"the release {wrong}. Give the file another name")
     return (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode()
 
 
-def _is_inside(path: str) -> bool:
-    place = PurePosixPath(path)
-    return not place.is_absolute() and ".." not in place.parts and "\\" not in path and ":" not in path
+def _listed(file: dict[str, Any]) -> Listed:
+    return Listed(file["path"], file["mark"], file["owner"], file["executable"])
 
 
 def parse(data: bytes, where: str) -> Release:
-    """What somebody says is a release."""
+    """What somebody says is a release. Keys that nobody knows are of a later kit, and may stand there."""
     try:
         document: Any = json.loads(data[:_MOST_BYTES])
     except (ValueError, RecursionError) as error:
         raise UsageError(f"{where}: is not JSON; expected the list of a release's files") from error
+    form = document.get("schema") if isinstance(document, dict) else None
+    if isinstance(form, str) and form.startswith("raysteps/release/") and form != _FORM:
+        raise UsageError(
+            f"{where}: is a list of the form {form}, and this kit reads {_FORM}. Let the newer kit do the update: "
+            "unpack it, and in its own folder type\n  python raysteps update --into YOUR-REPOSITORY"
+        )
     problem = complaint(document, read_schema("raysteps.students", "release.schema.json"))
     if problem:
         raise UsageError(f"{where}: is not the list of a release's files: {problem}")
-    files = tuple(Listed(**file) for file in document["files"])
-    outside = [file.path for file in files if not _is_inside(file.path)]
-    if outside:
-        raise UsageError(f"{where}: lists {outside[0]}, which would lie outside of the folder")
+    files = tuple(_listed(file) for file in document["files"])
+    wrong = paths.complaint(file.path for file in files)
+    if wrong:
+        raise UsageError(f"{where}: {wrong}")
     return Release(document["course"], document["kit"], tuple(document["steps"]), files)
 
 

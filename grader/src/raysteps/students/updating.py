@@ -1,15 +1,22 @@
 """Brings the kit's files up to date and leaves alone what the student wrote.
 
-Each file is replaced in one go, and the list of files last of all: an update that was interrupted is finished by
-calling it again."""
+All that may stand in the way is looked for before the first file is written. Each file is replaced in one go, and the
+list of files last of all: an update that was interrupted is finished by calling it again."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import write_bytes
-from raysteps.students.listing import PLACE, Listed, Release, encoded, mark
+from raysteps.students import unfinished
+from raysteps.students.deciding import Found, Known, What
+from raysteps.students.listing import PLACE, Listed, Release
+from raysteps.students.repository import Repository
 from raysteps.students.source import Source
+
+_QUIET = (What.NOTHING, What.LEAVE)
+_UNFINISHED = f"{unfinished.FOLDER}/list.json"  # stands for all that may lie there
 
 
 @dataclass
@@ -19,97 +26,132 @@ class Changes:
     replaced: list[str] = field(default_factory=list)
     added: list[str] = field(default_factory=list)
     removed: list[str] = field(default_factory=list)
-    kept: list[str] = field(default_factory=list)  # the student's own version of a file of the kit, under a new name
-    left: list[str] = field(default_factory=list)  # the kit no longer has it, but the student changed it
+    kept: list[str] = field(default_factory=list)  # what a file of the kit had become, under a new name
+    outdated: list[str] = field(default_factory=list)  # the same, of files that the kit no longer has
+    put_back: list[str] = field(default_factory=list)  # stubs of steps whose file was gone
+    left: list[str] = field(default_factory=list)  # the student's, and the kit no longer has it
     stubs: list[str] = field(default_factory=list)  # steps that were begun, and whose stub is another one now
+    met: list[str] = field(default_factory=list)  # the student's, where the kit has a new step
 
     @property
     def any(self) -> bool:
-        return any((self.replaced, self.added, self.removed, self.kept, self.left))
+        return any((self.replaced, self.added, self.removed, self.kept, self.outdated, self.put_back))
 
 
-def _own_name(path: Path, data: bytes) -> Path:
-    """A free name, or the one that holds just this already."""
-    names = [f"{path.name}.mine", *(f"{path.name}.mine{number}" for number in range(2, 1000))]
-    for name in names:
-        kept = path.with_name(name)
-        if not kept.exists() or (kept.is_file() and kept.read_bytes() == data):
-            return kept
-    raise UsageError(f"{path}.mine: there are too many of them; take some away")
+@contextmanager
+def _told(what_now: str) -> Iterator[None]:
+    """Whatever goes wrong is said together with how things stand now."""
+    try:
+        yield
+    except UsageError as error:
+        raise UsageError(f"{error}. {what_now}") from error
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        raise UsageError(f"{where}{error.strerror or error}. {what_now}") from error
+
+
+def _refuse(obstacle: str) -> None:
+    if obstacle:
+        raise UsageError(obstacle)
 
 
 class Update:
     """Of one repository, from one release to another."""
 
     def __init__(self, root: Path, old: Release, source: Source) -> None:
-        self._root = root
-        self._old = old.by_path()
+        self._place = Repository(root)
+        self._resumed = unfinished.is_there(root)
+        self._known = Known(old, unfinished.begun(root))
         self._source = source
+        self._new = source.release.by_path()
+        self._folded = {name.lower(): name for name in self._new}
         self.changes = Changes()
 
-    def _path(self, file: Listed) -> Path:
-        """Not by way of a link: that might lead out of the repository."""
-        path = self._root / file.path
-        for part in (path, *path.parents):
-            if part == self._root:
-                return path
-            if part.is_symlink():
-                raise UsageError(f"{part}: is a link; expected a file or a folder of the kit. Take it away first")
-        return path
+    def _decide(self, name: str) -> What:
+        link = self._place.is_link(name)
+        return self._known.decide(name, self._new.get(name), Found(None if link else self._place.read(name), link))
 
-    def _write(self, file: Listed, data: bytes) -> None:
-        path = self._path(file)
-        write_bytes(path, data)
-        path.chmod(0o755 if file.executable else 0o644)
+    def _gone(self) -> list[str]:
+        """What the new kit no longer has."""
+        dropped = sorted(self._known.paths - set(self._new))
+        return [name for name in dropped if not self._is_renamed(name)]
 
-    def _keep(self, path: Path, data: bytes) -> None:
-        kept = _own_name(path, data)
-        write_bytes(kept, data)
-        self.changes.kept.append(kept.relative_to(self._root).as_posix())
+    def _is_renamed(self, name: str) -> bool:
+        """In the case of letters only, where that makes no other file."""
+        new = self._folded.get(name.lower())
+        return new is not None and self._place.is_same(name, new)
+
+    def _look(self) -> bool:
+        """Whether there is anything to do. What stands in the way is told while nothing is changed."""
+        _refuse(self._place.obstacle(PLACE) or self._place.obstacle(_UNFINISHED))
+        wanted = self._place.read(PLACE) != self._source.listing
+        for name in [*self._new, *self._gone()]:
+            own = self._known.is_students(name, self._new.get(name))
+            _refuse(self._place.obstacle(name, may_be_link=own))
+            if self._decide(name) not in _QUIET:
+                _refuse(self._place.lock_out(name))
+                wanted = True
+        if wanted:
+            _refuse(self._place.lock_out(PLACE))
+        return wanted
 
     def _take(self, file: Listed, data: bytes) -> None:
-        path, old = self._path(file), self._old.get(file.path)
-        if path.is_dir():
-            raise UsageError(f"{path}: is a folder; expected a file of the kit. Take it away first")
-        if not path.exists():
-            self._write(file, data)
-            self.changes.added.append(file.path)
-            return
-        mine = path.read_bytes()
-        if mark(mine) == file.mark:
-            return
-        untouched = old is not None and mark(mine) == old.mark
-        if file.owner == "student" and not untouched:
-            if old is None or old.mark != file.mark:
-                self.changes.stubs.append(file.path)
-            return
-        if not untouched:
-            self._keep(path, mine)
-        self._write(file, data)
-        self.changes.replaced.append(file.path)
+        name, old, done = file.path, self._known.old(file.path), self.changes
+        match self._decide(name):  # once more: the student may have saved a file meanwhile
+            case What.NOTHING:
+                return
+            case What.LEAVE:
+                if self._known.is_students(name, file) and (old is None or old.mark != file.mark):
+                    (done.met if old is None else done.stubs).append(name)
+                return
+            case What.ADD:
+                own = old is not None and old.owner == "student"
+                (done.put_back if own else done.added).append(name)
+            case What.SET_ASIDE_AND_REPLACE:
+                done.kept.append(self._place.set_aside(name, self._place.read(name) or b""))
+                done.replaced.append(name)
+            case _:
+                done.replaced.append(name)
+        self._place.write(name, data, executable=file.executable)
 
-    def _drop(self, file: Listed) -> None:
-        """A file that the new kit does not have."""
-        path = self._path(file)
-        if not path.is_file():
-            return
-        if file.owner == "student" or mark(path.read_bytes()) != file.mark:
-            self.changes.left.append(file.path)
-            return
-        path.unlink()
-        self.changes.removed.append(file.path)
+    def _drop(self, name: str) -> None:
+        match self._decide(name):
+            case What.LEAVE:
+                self.changes.left.append(name)
+            case What.SET_ASIDE_AND_REMOVE:
+                self.changes.outdated.append(self._place.set_aside(name, self._place.read(name) or b""))
+                self._place.remove(name)
+            case What.REMOVE:
+                self._place.remove(name)
+                self.changes.removed.append(name)
+            case _:
+                return
 
     def run(self) -> Changes:
         """Reads all of the new kit before the first file is written."""
-        new = self._source.release
-        data = {file.path: self._source.data(file) for file in new.files}
-        for file in new.files:
-            self._path(file)
-        for file in new.files:
-            self._take(file, data[file.path])
-        known = new.by_path()
-        for file in self._old.values():
-            if file.path not in known:
-                self._drop(file)
-        write_bytes(self._root / PLACE, encoded(new))
+        with _told("Nothing was changed"):
+            data = {name: self._source.data(file) for name, file in self._new.items()}
+            wanted = self._look()
+        with _told("Your work is as it was. Mend that, then call update again: it goes on where it stopped"):
+            if wanted:
+                unfinished.begin(self._place.root, self._place.read(PLACE) or b"", self._source.listing)
+            for name, file in self._new.items():
+                self._take(file, data[name])
+            for name in self._gone():
+                self._drop(name)
+            if wanted:
+                self._place.write(PLACE, self._source.listing)
+            self._clear()
         return self.changes
+
+    def _clear(self) -> None:
+        """What an update that was interrupted had begun to write, and whatever it set aside and could not tell."""
+        paths = {*self._new, *self._known.paths}
+        self._place.forget_unfinished({*paths, PLACE})
+        for name in self._gone():
+            self._place.prune(name)
+        unfinished.end(self._place.root)
+        for name in sorted(paths) if self._resumed else ():
+            if not self._known.is_students(name, self._new.get(name)):
+                told = self.changes.kept if name in self._new else self.changes.outdated
+                told += [kept for kept in self._place.aside(name) if kept not in told]

@@ -13,6 +13,7 @@ from rich.markup import escape
 from raysteps.commands.course.standing import shown
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_bytes
+from raysteps.common.marks import with_plain_ends
 from raysteps.common.text import count, printable, shorten
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -47,7 +48,7 @@ def loss(project: Project, step: Step) -> Loss | None:
     except FileNotFoundError:
         return None
     stub = pristine_stub(project, step)
-    if data.replace(b"\r\n", b"\n") == stub.encode():
+    if with_plain_ends(data) == stub.encode():
         return None
     lines = difflib.ndiff(stub.splitlines(), data.decode("utf-8", "replace").splitlines())
     changes = [line for line in lines if line[:1] in "+-"]

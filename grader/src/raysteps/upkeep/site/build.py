@@ -1,11 +1,14 @@
 """Runs Sphinx on what was staged."""
 
 import io
+import os
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
+from raysteps.kit.project import here
 from raysteps.upkeep.site.access import make_accessible
 
 _LIGHT = dict.fromkeys(("color-brand-primary", "color-brand-content", "color-brand-visited"), "#9a4408")
@@ -49,7 +52,7 @@ def check_tools() -> None:
         if find_spec(name) is None:
             raise UsageError(
                 f"the site is built with Sphinx, and the Python package {name} is not installed; install it with:\n"
-                "  .venv/bin/python -m pip install -e 'grader[docs]'"
+                f'  "{sys.executable}" -m pip install -e "{here().root / "grader"}[docs]"'
             )
 
 
@@ -75,4 +78,4 @@ def build_site(stage: Path, out: Path, work: Path) -> list[str]:
     make_accessible(out)
     (out / ".nojekyll").touch()
     (out / ".buildinfo").unlink(missing_ok=True)
-    return [line.replace(f"{stage}/", "") for line in said.getvalue().splitlines() if line.strip()]
+    return [line.replace(f"{stage}{os.sep}", "") for line in said.getvalue().splitlines() if line.strip()]

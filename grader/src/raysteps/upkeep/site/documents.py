@@ -10,7 +10,7 @@ COMMANDS_PAGE = Path("docs/commands.md")  # made from the command line itself, s
 MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
     ("For students", ("students", "where-students-work")),
-    ("For instructors", ("instructors", "class", "exports", "release", "update")),
+    ("For instructors", ("instructors", "class", "exports", "release")),
     ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
     ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),
     (

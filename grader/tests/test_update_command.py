@@ -1,0 +1,119 @@
+"""What the command `update` says, and which repository it changes."""
+
+import os
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, release
+
+from raysteps import students_cli
+from raysteps.commands import update as command
+from raysteps.common.errors import UsageError
+from raysteps.kit.project import Project
+from raysteps.students.listing import PLACE
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> Path:
+    root = release(tmp_path / "mine", OLD, STEPS[:2])
+    for name, data in WORK.items():
+        (root / name).write_bytes(data)
+    return root
+
+
+@pytest.fixture
+def newer(tmp_path: Path) -> Path:
+    return release(tmp_path / "newer", NEW)
+
+
+def _run(root: Path, *words: object) -> int:
+    arguments = students_cli._parser().parse_args(["update", *map(str, words)])
+    return command.run(Project(root), arguments, Console(width=10_000))
+
+
+def test_it_names_what_it_did(mine: Path, newer: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (mine / "framework/core/ray.hpp").write_bytes(b"my ray\n")
+    (mine / "framework/core/gone.hpp").write_bytes(b"my gone\n")
+    (mine / OWN[0]).unlink()
+    (mine / OWN[2]).parent.mkdir()
+    (mine / OWN[2]).write_bytes(b"my c")
+    assert _run(mine, newer) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "Files of the kit: 3 replaced, 1 added, 0 removed.",
+        "New: 03-c.",
+        "framework/core/ray.hpp was not as released. It is now; what it was is kept as framework/core/ray.hpp.mine",
+        "The kit has no framework/core/gone.hpp any more. Yours was not as released, and is kept as "
+        "framework/core/gone.hpp.mine",
+        "steps/01-a/a.cpp was not there; the stub is put back",
+        "steps/02-b/b.cpp is as you left it, but its stub is another one now: compare with grader/stubs/02-b/b.cpp",
+        "steps/03-c/c.cpp is as you left it, but the kit has a stub for it now: compare with grader/stubs/03-c/c.cpp",
+        "Course: from kit mine with 2 steps to kit newer with 3 steps. Your own files are as they were.",
+    ]
+    assert _run(mine, newer) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "The kit is up to date: nothing had to be changed.",
+        "Course: from kit newer with 3 steps to kit newer with 3 steps. Your own files are as they were.",
+    ]
+
+
+def test_an_older_kit_is_called_so(mine: Path, newer: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    _run(mine, newer)
+    _run(mine, release(tmp_path / "older", OLD, STEPS[:2]))
+    assert "This kit has no 03-c. If it is an older one" in capsys.readouterr().out
+
+
+def test_another_course_is_asked_about(mine: Path, tmp_path: Path) -> None:
+    other = release(tmp_path / "other", NEW, course="Painting")
+    before = files_of(mine)
+    with pytest.raises(UsageError, match=r'"Painting".*"Course".*--course-changed'):
+        _run(mine, other)
+    assert files_of(mine) == before
+    assert _run(mine, other, "--course-changed") == 0
+    expect_done(mine, other, WORK)
+
+
+def test_a_newer_kit_brings_itself(mine: Path, newer: Path) -> None:
+    assert _run(newer, "--into", mine) == 0
+    expect_done(mine, newer, WORK)
+
+
+def test_into_a_repository_that_is_named_from_where_one_is(
+    mine: Path, newer: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(mine / "steps")
+    assert _run(newer, "--into", os.pardir) == 0
+    expect_done(mine, newer, WORK)
+
+
+@pytest.mark.parametrize("around", [False, True])
+def test_the_repository_itself_is_no_newer_kit(mine: Path, around: bool) -> None:
+    with pytest.raises(UsageError, match="is this repository"):
+        _run(mine, mine.parent if around else mine)
+
+
+def test_without_a_kit(mine: Path) -> None:
+    with pytest.raises(UsageError, match="expected a newer release"):
+        _run(mine)
+
+
+def test_what_came_from_no_release_is_not_updated(tmp_path: Path, newer: Path) -> None:
+    with pytest.raises(UsageError, match=r"release\.json: is missing; expected a repository that came from a release"):
+        _run(tmp_path, newer)
+
+
+def test_a_full_disk(mine: Path, newer: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    real = Path.replace
+
+    def replacing(path: Path, target: Path) -> Path:
+        if target.name == "more.hpp":
+            raise OSError(28, "No space left on device", str(target))
+        return real(path, target)
+
+    monkeypatch.setattr(Path, "replace", replacing)
+    with pytest.raises(UsageError, match=r"more\.hpp: No space left on device\. Your work is as it was\. Mend that"):
+        _run(mine, newer)
+    monkeypatch.undo()
+    assert (mine / PLACE).read_bytes() != (newer / PLACE).read_bytes()
+    assert _run(mine, newer) == 0
+    expect_done(mine, newer, WORK)
