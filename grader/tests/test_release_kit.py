@@ -1,10 +1,13 @@
 """What students get works by itself, in a folder of its own."""
 
+import ast
 import json
 import os
 import re
 import subprocess
 import sys
+import tomllib
+from importlib.metadata import packages_distributions
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +17,9 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
-from raysteps.release.making import first_steps, release, usable, write_release
+from raysteps.release.making import first_steps, release, write_release
 from raysteps.release.packages import needed_modules
+from raysteps.release.replacing import usable
 
 _LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
 
@@ -63,6 +67,54 @@ def test_no_module_is_missing_and_none_knows_answers(released: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+# What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
+# solve the steps read it?
+_ROOMS = {
+    ".", "commands", "commands/course", "commands/inspect", "commands/watch", "common", "exports", "grading", "kit",
+    "pages", "pages/static", "pages/templates", "programs", "reports", "results", "sandbox", "setting_up", "students",
+    "submission",
+}  # fmt: skip
+_PARTS = {
+    "commands": {
+        "check", "ending", "for_students", "progress", "render", "report", "report_page", "unfinished", "update",
+        "view",
+    },
+    "commands/inspect": {"command", "html", "page_rays", "page_space", "pair", "programs", "tree", "values"},
+    "exports": {"formats", "reading"},
+    "grading": {
+        "build_messages", "compiling", "own", "own_grader", "quick_look", "scoring", "step_grader", "visible_images",
+        "visible_tests",
+    },
+}  # fmt: skip
+
+
+def test_which_modules_go_out_is_settled(released: Path) -> None:
+    package = released / "grader" / "src" / "raysteps"
+    assert {path.parent.relative_to(package).as_posix() for path in package.rglob("*") if path.is_file()} == _ROOMS
+    for room, names in _PARTS.items():
+        assert {path.stem for path in (package / room).glob("*.py")} == {*names, "__init__"}, room
+
+
+def _distribution(text: str) -> str:
+    return re.split(r"[^\w-]", text, maxsplit=1)[0].lower().replace("_", "-")
+
+
+def test_the_package_names_all_that_its_modules_import(released: Path) -> None:
+    table = tomllib.loads((released / "grader" / "pyproject.toml").read_text(encoding="utf-8"))
+    named = {_distribution(text) for text in table["project"]["dependencies"]}
+    imported = set()
+    for path in (released / "grader").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            words = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            words += [node.module] if isinstance(node, ast.ImportFrom) and node.module and not node.level else []
+            imported |= {word.partition(".")[0] for word in words}
+    foreign = imported - set(sys.stdlib_module_names) - {"raysteps"}
+    assert "numpy" in foreign
+    of = packages_distributions()
+    missing = {name for name in foreign if not named.intersection(map(_distribution, of.get(name, [name])))}
+    assert missing <= {"markupsafe"}, "imported, and not named in pyproject.toml"  # Jinja2 is made of it
+
+
 def test_no_link_leads_nowhere(released: Path) -> None:
     pages = list(released.rglob("*.md"))
     assert len(pages) > 4
@@ -88,8 +140,26 @@ def test_the_steps_of_a_release_begin_at_the_first(steps: list[Step]) -> None:
     assert [step.number for step in first_steps("1-3", steps)] == ["01", "02", "03"]
     assert first_steps(None, steps) == steps
     for text in ("2-4", "1-99", "x", "1-", "3-1"):
-        with pytest.raises(UsageError, match="--steps"):
+        with pytest.raises(UsageError, match="such as 1-4"):
             first_steps(text, steps)
+
+
+def test_the_steps_of_a_course_that_begins_later(steps: list[Step]) -> None:
+    later = [steps[1], steps[2], *steps[4:]]
+    assert [step.number for step in first_steps("3", later)] == ["02", "03"]
+    assert [step.number for step in first_steps("2-5", later)] == ["02", "03", "05"]
+    with pytest.raises(UsageError, match=r"--steps 2-4: .* such as 2-6;"):
+        first_steps("2-4", later)
+
+
+def test_a_step_that_is_left_out_in_between_is_refused(kit: BuiltKit, steps: list[Step], tmp_path: Path) -> None:
+    """The pictures after it would be those of the reference, which has it."""
+    left = [step for step in steps if step.number not in ("05", "09")]
+    with pytest.raises(UsageError, match=r"^05-reflection: left out .* end before it with `--steps 1-4`, or let it in"):
+        write_release(kit, left, "Course", tmp_path / "kit")
+    with pytest.raises(UsageError, match=r"^01-camera-rays: left out .* no reference to stand in; let it in"):
+        write_release(kit, steps[1:], "Course", tmp_path / "kit")
+    assert not (tmp_path / "kit").exists()
 
 
 def test_nothing_but_a_release_is_replaced(released: Path, tmp_path: Path) -> None:
@@ -104,7 +174,7 @@ def test_nothing_but_a_release_is_replaced(released: Path, tmp_path: Path) -> No
 
 
 def test_what_leaks_is_not_written(kit: BuiltKit, steps: list[Step], tmp_path: Path) -> None:
-    assert not release(kit, steps[:1], "Course", tmp_path / "kit", lambda folder: True, lambda text: None)
+    assert not release(kit, steps[:1], "Course", tmp_path / "kit", lambda new, out: True, lambda text: None)
     assert not list(tmp_path.iterdir())
 
 
