@@ -39,6 +39,10 @@ def test_a_release_among_the_files_of_the_kit_is_refused(tmp_path: Path) -> None
         refuse_inside(project, (tmp_path / name).resolve())
 
 
+def _release(project: Project, *words: str) -> Outcome:
+    return run([sys.executable, "-P", "-m", "raysteps", "release", *words], seconds=900, cwd=project.root)
+
+
 def _room(folder: Path, names: list[str]) -> Path:
     """A folder with these packages and those that they need, and no others."""
     waiting, done = list(names), set()
@@ -71,8 +75,7 @@ def test_it_is_made_and_checked_in_an_empty_folder(
     project: Project, steps: list[Step], solved: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "graphics-101"
-    words = ("--out", str(out), "--steps", "1-4", "--course", "Graphics 101")
-    told = run([sys.executable, "-P", "-m", "raysteps", "release", *words], seconds=900, cwd=project.root)
+    told = _release(project, "--out", str(out), "--steps", "1-4", "--course", "Graphics 101")
     assert told.code == 0, told.stdout + told.stderr
     assert "4 steps, no solution in any file" in told.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["graphics-101"]
@@ -89,3 +92,26 @@ def test_it_is_made_and_checked_in_an_empty_folder(
     assert right.code == 0, right.stdout + right.stderr
     assert (out / "build" / "check" / "report.html").is_file()
     assert "next: ./raysteps watch 02" in _alone(out, room, "list").stdout
+
+
+@pytest.mark.slow
+def test_a_history_that_holds_a_solution_is_named(project: Project, solved: dict[str, str], tmp_path: Path) -> None:
+    out = tmp_path / "course"
+    assert _release(project, "--out", str(out), "--steps", "1").code == 0
+    git: list[str | Path] = ["git", "-C", out, "-c", "user.name=a", "-c", "user.email=a@b.c"]
+    (out / "notes.txt").write_text(solved["02-intersection"], encoding="utf-8")
+    for words in (
+        ["init", "-q"],
+        ["add", "."],
+        ["commit", "-qm", "a"],
+        ["rm", "-q", "notes.txt"],
+        ["commit", "-qm", "b"],
+    ):
+        assert run([*git, *words], seconds=60).code == 0
+    before = (out / "README.md").read_bytes()
+    for words in (["--out", str(out), "--steps", "1", "--course", "Two"], ["--check", str(out)]):
+        told = _release(project, *words)
+        assert told.code == 1, told.stdout + told.stderr
+        assert "leak  .git, blob " in told.stdout
+    assert "its history tells this for good" in _release(project, "--out", str(out), "--steps", "1").stdout
+    assert (out / "README.md").read_bytes() == before

@@ -66,7 +66,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         steps = first_steps(arguments.steps, kit.steps)
 
         def leaks(folder: Path, history: Path) -> bool:
-            return _tell(console, [*find_leaks(secrets, folder), *leaks_in_history(secrets, history)])
+            told = [_tell(console, find_leaks(secrets, folder)), _tell(console, leaks_in_history(secrets, history))]
+            if told[1]:
+                console.print(escape(f"{history}: its history tells this for good; name a new folder with --out"))
+            return any(told)
 
         written = release(kit, steps, arguments.course.strip(), out, leaks, say)
     if not written:

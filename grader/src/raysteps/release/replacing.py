@@ -6,9 +6,16 @@ import tempfile
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.students.listing import PLACE, mark, read_release
+from raysteps.students.listing import PLACE, Listed, mark, read_release
 
 _NOT_OURS = (".git", ".venv", "build")  # may lie in a release that somebody keeps under version control
+
+
+def _is_as_released(path: Path, listed: Listed) -> bool:
+    try:
+        return not path.is_symlink() and mark(path.read_bytes()) == listed.mark
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from error
 
 
 def usable(out: Path) -> None:
@@ -25,7 +32,7 @@ def usable(out: Path) -> None:
         name = path.relative_to(out).as_posix()
         if name.split("/")[0] in _NOT_OURS or name == PLACE or (path.is_dir() and not path.is_symlink()):
             continue
-        if path.is_symlink() or name not in known or mark(path.read_bytes()) != known[name].mark:
+        if name not in known or not _is_as_released(path, known[name]):
             what = "is not of the release" if name not in known else "is not as it was released"
             raise UsageError(f"{path}: {what} and would be lost; take it away, or name another folder with --out")
 

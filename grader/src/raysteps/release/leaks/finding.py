@@ -15,8 +15,8 @@ from raysteps.release.leaks.words import words_in
 _LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")
 # Where the kit keeps what it knows. A release has no folder or file of such a name.
 _TELLING = {
-    "alternatives", "cases.toml", "course.toml", "judge", "judge.py", "mutants.toml", "samples",
-    "solutions", "worker.cpp",
+    "alternatives", "cases.toml", "course.toml", "judge", "judge.py", "mutants.toml", "samples", "solutions",
+    "worker.cpp",
 }  # fmt: skip
 
 
@@ -39,7 +39,12 @@ def _in_words(secrets: Secrets, piece: Piece) -> Iterator[Leak]:
     words = words_in(piece.text)
     seed = secrets.tells_seed(words)
     if seed is not None:
-        yield Leak(piece.place, seed.line if piece.has_lines else None, "course.toml", "the seed of the hidden cases")
+        yield Leak(
+            piece.place,
+            seed.line if piece.has_lines else None,
+            "course.toml",
+            "the seed of the hidden cases, or a number like it",
+        )
     told = set()
     for word, sequence, origin in secrets.sequences.matches(words):
         if origin not in told:
@@ -99,7 +104,7 @@ def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
     place = path.relative_to(folder)
     named = _TELLING.intersection(place.parts)
     if named:
-        yield Leak(place.as_posix(), None, f"a folder or file called {min(named)}", "a release has none of that name")
+        yield Leak(place.as_posix(), None, "its name", f"a release has nothing called {min(named)}")
     if path.is_symlink():
         yield from _leaks_in(secrets, place.as_posix(), str(path.readlink()).encode())
     elif path.is_file():
