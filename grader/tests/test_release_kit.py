@@ -10,12 +10,12 @@ from typing import Any
 
 import pytest
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
-from raysteps.release.making import first_steps, release, usable, write_release
-from raysteps.release.packages import needed_modules
+from raysteps.release.making import first_steps, release, write_release
+from raysteps.release.replacing import usable
 
 _LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
 
@@ -71,25 +71,30 @@ def test_no_link_leads_nowhere(released: Path) -> None:
             assert ":" in link or (page.parent / link).exists(), f"{page}: {link}"
 
 
-def test_a_module_for_students_that_needs_answers_is_found(tmp_path: Path) -> None:
-    room = tmp_path / "raysteps"
-    for name in ("", "judge", "commands"):
-        (room / name).mkdir(exist_ok=True)
-        (room / name / "__init__.py").write_text("")
-    (room / "judge" / "plan.py").write_text("")
-    (room / "students_cli.py").write_text("def later() -> None:\n    from raysteps.judge import plan\n")
-    assert [path.name for path in needed_modules(tmp_path)] == ["__init__.py", "students_cli.py"]
-    (room / "students_cli.py").write_text("from raysteps.judge import plan\n")
-    with pytest.raises(GraderFault, match="which students do not get"):
-        needed_modules(tmp_path)
-
-
 def test_the_steps_of_a_release_begin_at_the_first(steps: list[Step]) -> None:
     assert [step.number for step in first_steps("1-3", steps)] == ["01", "02", "03"]
     assert first_steps(None, steps) == steps
     for text in ("2-4", "1-99", "x", "1-", "3-1"):
-        with pytest.raises(UsageError, match="--steps"):
+        with pytest.raises(UsageError, match="such as 1-4"):
             first_steps(text, steps)
+
+
+def test_the_steps_of_a_course_that_begins_later(steps: list[Step]) -> None:
+    later = [steps[1], steps[2], *steps[4:]]
+    assert [step.number for step in first_steps("3", later)] == ["02", "03"]
+    assert [step.number for step in first_steps("2-5", later)] == ["02", "03", "05"]
+    with pytest.raises(UsageError, match=r"--steps 2-4: .* such as 2-6;"):
+        first_steps("2-4", later)
+
+
+def test_a_step_that_is_left_out_in_between_is_refused(kit: BuiltKit, steps: list[Step], tmp_path: Path) -> None:
+    """The pictures after it would be those of the reference, which has it."""
+    left = [step for step in steps if step.number not in ("05", "09")]
+    with pytest.raises(UsageError, match=r"^05-reflection: left out .* end before it with `--steps 1-4`, or let it in"):
+        write_release(kit, left, "Course", tmp_path / "kit")
+    with pytest.raises(UsageError, match=r"^01-camera-rays: left out .* no reference to stand in; let it in"):
+        write_release(kit, steps[1:], "Course", tmp_path / "kit")
+    assert not (tmp_path / "kit").exists()
 
 
 def test_nothing_but_a_release_is_replaced(released: Path, tmp_path: Path) -> None:
@@ -104,7 +109,7 @@ def test_nothing_but_a_release_is_replaced(released: Path, tmp_path: Path) -> No
 
 
 def test_what_leaks_is_not_written(kit: BuiltKit, steps: list[Step], tmp_path: Path) -> None:
-    assert not release(kit, steps[:1], "Course", tmp_path / "kit", lambda folder: True, lambda text: None)
+    assert not release(kit, steps[:1], "Course", tmp_path / "kit", lambda new, out: True, lambda text: None)
     assert not list(tmp_path.iterdir())
 
 

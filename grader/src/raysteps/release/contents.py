@@ -4,8 +4,9 @@ import re
 from collections.abc import Collection
 from pathlib import Path, PurePosixPath
 
-from raysteps.common.errors import GraderFault
-from raysteps.exports.kit_files import tracked_places
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.text import listed
+from raysteps.kit.git_listing import places, untracked
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import pristine_stub
@@ -40,15 +41,21 @@ _DOCS = {  # what a student looks up
 _NOT_FOR_STUDENTS = re.compile(
     r"framework/(wide/.*|io/fuzz/.*|apps/worker.*|apps/spd_report\..*|render/spd\..*|.*_test\.cpp|absent/.*)"
 )
+_OF_A_STEP = re.compile(r"steps/[^/]+/(README\.md|step\.toml|[^/]+(\.hpp|_test\.cpp|\.png|\.svg))")
+_OVERLAY, _WORKFLOW = "grader/src/raysteps/release/overlay", "course/github-workflow.yml"
+_MOST_NAMED = 5
 _SKIPPED = {"__pycache__", "build", ".venv", ".git"}
 
 
-def _places(project: Project) -> list[PurePosixPath]:
-    """What git knows; without git all that lies there."""
-    found = tracked_places(project.root)
-    if found is None:
-        found = [PurePosixPath(path.relative_to(project.root).as_posix()) for path in project.root.rglob("*")]
-    return [place for place in found if not _SKIPPED.intersection(place.parts)]
+def refuse_untracked(root: Path, files: Collection[str]) -> None:
+    """Git would have none of them: notes, copies, a solution that somebody kept."""
+    new = untracked(root)
+    found = sorted(name for name in new if name in files or name == _WORKFLOW or name.startswith(f"{_OVERLAY}/"))
+    if found:
+        raise UsageError(
+            f"{listed(found[:_MOST_NAMED])}: would go out, but git does not know it; `git add` what belongs to the "
+            "kit, and take away the rest"
+        )
 
 
 def _belongs(place: PurePosixPath, steps: Collection[str]) -> bool:
@@ -58,7 +65,7 @@ def _belongs(place: PurePosixPath, steps: Collection[str]) -> bool:
     if _NOT_FOR_STUDENTS.fullmatch(name):
         return False
     if first == "steps":
-        return place.parts[1] in steps
+        return place.parts[1] in steps and _OF_A_STEP.fullmatch(name) is not None
     return first in _FOLDERS or (first == "docs" and len(place.parts) == 2 and place.name in _DOCS)
 
 
@@ -78,9 +85,10 @@ def _overlay(folder: Path) -> dict[str, bytes]:
 def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dict[str, bytes]:
     """Files by path, without those that are made: pictures, README and the list of all files."""
     chosen = {step.id for step in steps}
+    known = [place for place in places(project.root) if not _SKIPPED.intersection(place.parts)]
     files = {
         place.as_posix(): _readable(project.root / place)
-        for place in _places(project)
+        for place in known
         if _belongs(place, chosen) and (project.root / place).is_file()
     }
     source = project.root / "grader" / "src"
@@ -89,7 +97,7 @@ def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dic
         stub = pristine_stub(project, step).encode()
         files[f"steps/{step.path.as_posix()}"] = files[f"grader/stubs/{step.path.as_posix()}"] = stub
     files |= absent_files(project, absent)
-    workflow = project.root / "course" / "github-workflow.yml"
+    workflow = project.root / _WORKFLOW
     if workflow.is_file():
         files[".github/workflows/check.yml"] = _readable(workflow)
-    return files | _overlay(Path(__file__).parent / "overlay")
+    return files | _overlay(project.root / _OVERLAY)

@@ -1,44 +1,25 @@
 """Writes a release: to a temporary name first, and under its own when nothing leaks."""
 
-import shutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_bytes
+from raysteps.common.text import listed
 from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.manifest import Step, read_all_steps
-from raysteps.release.contents import kit_contents
+from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
 from raysteps.release.pages_of_kit import pyproject, readme, tasks
-from raysteps.students.listing import PLACE, Listed, Owner, Release, encoded, mark, read_release
+from raysteps.release.replacing import refuse_left_overs, swap, usable
+from raysteps.students.listing import PLACE, Listed, Owner, Release, encoded, mark
 
 _EXECUTABLE = {"raysteps"}
 _TASKS = ".vscode/tasks.json"
-_NOT_OURS = (".git", ".venv", "build")  # may lie in a release that somebody keeps under version control
 
-Leaks = Callable[[Path], bool]
-
-
-def usable(out: Path) -> None:
-    """Nothing but a release as it was written may be replaced."""
-    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
-        return
-    if not out.is_dir():
-        raise UsageError(f"{out}: is a file; expected a new or empty folder, or an earlier release")
-    old = read_release(out)
-    if old is None:
-        raise UsageError(f"{out}: is not empty; expected a new or empty folder, or an earlier release")
-    known = old.by_path()
-    for path in sorted(out.rglob("*")):
-        name = path.relative_to(out).as_posix()
-        if name.split("/")[0] in _NOT_OURS or name == PLACE or (path.is_dir() and not path.is_symlink()):
-            continue
-        if name not in known or mark(path.read_bytes()) != known[name].mark:
-            what = "is not of the release" if name not in known else "is not as it was released"
-            raise UsageError(f"{path}: {what} and would be lost; take it away, or name another folder with --out")
+Leaks = Callable[[Path, Path], bool]  # of a folder, and in the history of another
 
 
 def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Release:
@@ -51,15 +32,29 @@ def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Releas
     return Release(course, kit.fingerprint.split()[0], tuple(step.id for step in steps), tuple(files))
 
 
+def _refuse_gaps(steps: list[Step], absent: list[Step]) -> None:
+    """A later picture needs the step in between: the reference has it, and the students' stand-in draws nothing."""
+    gaps = [step.id for step in absent if step.index < steps[-1].index]
+    if gaps:
+        until = [step.index for step in steps if step.id < gaps[0]]
+        sooner = f"end before it with `--steps {steps[0].index}-{until[-1]}`, or " if until else ""
+        raise UsageError(
+            f"{listed(gaps)}: left out of the course, but the pictures of later steps need it, and a students' kit has "
+            f"no reference to stand in; {sooner}let it in, as a bonus or for few points"
+        )
+
+
 def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
     """All files into an empty folder."""
     absent = [step for step in read_all_steps(kit.project) if step not in steps]
+    _refuse_gaps(steps, absent)
     files = kit_contents(kit.project, steps, absent)
     files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)
     if _TASKS in files:
         files[_TASKS] = tasks(files[_TASKS])
     add_pictures(files, kit.project.root)
+    refuse_untracked(kit.project.root, files)
     unlink_missing(files)
     for name, data in files.items():
         write_bytes(folder / name, data)
@@ -69,22 +64,9 @@ def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -
     write_bytes(folder / PLACE, encoded(_list(folder, course, kit, steps)))
 
 
-def _swap(new: Path, out: Path) -> None:
-    """What is not of the release, such as its history, moves along."""
-    if not out.exists():
-        new.rename(out)
-        return
-    old = Path(tempfile.mkdtemp(prefix=f".{out.name}-old-", dir=out.parent)) / out.name
-    out.rename(old)
-    new.rename(out)
-    for name in _NOT_OURS:
-        if (old / name).exists():
-            (old / name).rename(out / name)
-    shutil.rmtree(old.parent)
-
-
 def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Leaks, say: Say) -> bool:
     """Whether it was written; not where `leaks` finds something in it."""
+    refuse_left_overs(out)
     usable(out)
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
@@ -94,9 +76,10 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
             say("writing the files")
             write_release(kit, steps, course, new)
             say("looking for leaks")
-            if leaks(new):
+            if leaks(new, out):
                 return False
-            _swap(new, out)
+            usable(out)
+            swap(new, out)
     except OSError as error:
         raise UsageError(f"{out}: cannot be written: {error.strerror or error}") from error
     return True
@@ -107,11 +90,12 @@ def first_steps(text: str | None, steps: list[Step]) -> list[Step]:
     if text is None:
         return steps
     first, dash, last = text.partition("-")
-    numbers = [word for word in ((first, last) if dash else ("1", first)) if word.isdecimal()]
+    numbers = [word for word in ((first, last) if dash else (str(steps[0].index), first)) if word.isdecimal()]
     known = {step.index for step in steps}
     if len(numbers) != 2 or int(numbers[0]) != steps[0].index or int(numbers[1]) not in known:
+        such = f"{steps[0].index}-{steps[min(3, len(steps) - 1)].index}"
         raise UsageError(
-            f"--steps {text}: expected the first and the last, such as {steps[0].index}-{min(4, steps[-1].index)}; "
+            f"--steps {text}: expected the first and the last, such as {such}; "
             "each step builds on those before it, so none can be left out among them"
         )
     return [step for step in steps if step.index <= int(numbers[1])]

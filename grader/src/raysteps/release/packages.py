@@ -38,6 +38,7 @@ NEVER = (
     "raysteps.upkeep",
 )
 _WITHOUT_DATA = ("exports",)
+_DATA = (".json", ".css", ".js", ".j2", ".typed")
 
 
 def _is_never(module: str) -> bool:
@@ -115,6 +116,6 @@ def package_files(source: Path) -> list[Path]:
             continue
         rooms = [package, *(room for room in package.iterdir() if room.name in ("static", "templates"))]
         for path in (path for room in rooms if room.is_dir() for path in room.iterdir()):
-            if path.is_file() and path.suffix != ".py":
+            if path.is_file() and path.suffix in _DATA:
                 found.add(path)
     return sorted(found)

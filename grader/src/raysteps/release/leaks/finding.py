@@ -7,11 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.release.leaks.pieces import Piece, is_compiled, pieces
+from raysteps.release.leaks.pieces import Piece, pieces
 from raysteps.release.leaks.secrets import Secrets
+from raysteps.release.leaks.shape import strange
 from raysteps.release.leaks.words import words_in
 
 _LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")
+# Where the kit keeps what it knows. A release has no folder or file of such a name.
+_TELLING = {
+    "alternatives", "cases.toml", "course.toml", "judge", "judge.py", "mutants.toml", "samples", "solutions",
+    "worker.cpp",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -30,8 +36,17 @@ class Leak:
 
 def _in_words(secrets: Secrets, piece: Piece) -> Iterator[Leak]:
     """The first place for each origin: a file that was copied in whole is one leak."""
+    words = words_in(piece.text)
+    seed = secrets.tells_seed(words)
+    if seed is not None:
+        yield Leak(
+            piece.place,
+            seed.line if piece.has_lines else None,
+            "course.toml",
+            "the seed of the hidden cases, or a number like it",
+        )
     told = set()
-    for word, sequence, origin in secrets.sequences.matches(words_in(piece.text)):
+    for word, sequence, origin in secrets.sequences.matches(words):
         if origin not in told:
             told.add(origin)
             yield Leak(piece.place, word.line if piece.has_lines else None, origin, f'"{" ".join(sequence)}"')
@@ -49,8 +64,6 @@ def _in_symbols(secrets: Secrets, piece: Piece) -> Iterator[Leak]:
 
 
 def _leaks_in(secrets: Secrets, place: str, data: bytes) -> Iterator[Leak]:
-    if is_compiled(data):
-        yield Leak(place, None, "whatever it was made of", "something compiled, which a release has none of")
     for piece in pieces(place, data):
         yield from _in_words(secrets, piece)
         if not piece.has_lines:
@@ -72,17 +85,38 @@ def _git_objects(folder: Path) -> Iterator[tuple[str, bytes]]:
         yield f".git, {kind} {name[:12]}", done.stdout[end + 1 : at - 1]
 
 
-def _contents(folder: Path) -> Iterator[tuple[str, bytes]]:
-    for path in sorted(folder.rglob("*")):
-        place = path.relative_to(folder)
-        if path.is_symlink():
-            yield place.as_posix(), str(path.readlink()).encode()
-        elif path.is_file() and not (place.parts[0] == ".git" and place.parts[1:2] == ("objects",)):
-            yield place.as_posix(), path.read_bytes()
-    if (folder / ".git").exists():
-        yield from _git_objects(folder)
+def leaks_in_history(secrets: Secrets, folder: Path) -> list[Leak]:
+    """In git's objects and in what else git keeps, where there is a history."""
+    if not (folder / ".git").exists():
+        return []
+    found = list[Leak]()
+    for place, data in _git_objects(folder):
+        problem = strange(data) if ", blob " in place else None
+        found += [Leak(place, None, "whatever it was made of", problem)] if problem else []
+        found += _leaks_in(secrets, place, data)
+    for path in sorted((folder / ".git").rglob("*")):
+        if path.is_file() and folder / ".git" / "objects" not in path.parents:
+            found += _leaks_in(secrets, path.relative_to(folder).as_posix(), path.read_bytes())
+    return found
+
+
+def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
+    place = path.relative_to(folder)
+    named = _TELLING.intersection(place.parts)
+    if named:
+        yield Leak(place.as_posix(), None, "its name", f"a release has nothing called {min(named)}")
+    if path.is_symlink():
+        yield from _leaks_in(secrets, place.as_posix(), str(path.readlink()).encode())
+    elif path.is_file():
+        data = path.read_bytes()
+        problem = strange(data)
+        if problem:
+            yield Leak(place.as_posix(), None, "whatever it was made of", problem)
+        yield from _leaks_in(secrets, place.as_posix(), data)
 
 
 def find_leaks(secrets: Secrets, folder: Path) -> list[Leak]:
     """In every file, in git's objects, and in what files hold."""
-    return [leak for place, data in _contents(folder) for leak in _leaks_in(secrets, place, data)]
+    files = [path for path in sorted(folder.rglob("*")) if path.relative_to(folder).parts[0] != ".git"]
+    found = [leak for path in files for leak in _in_file(secrets, folder, path)]
+    return [*found, *leaks_in_history(secrets, folder)]

@@ -9,12 +9,12 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-_RUN = re.compile(rb"[\t\x20-\x7e]{4,}")
-_WIDE_RUN = re.compile(rb"(?:[\t\x20-\x7e]\x00){4,}")
-_PNG = b"\x89PNG\r\n\x1a\n"
+from raysteps.release.leaks.shape import PNG, png_chunks
+
+_RUN = re.compile(rb"[\t\n\r\x20-\x7e]{4,}")
+_WIDE_RUN = re.compile(rb"(?:[\t\n\r\x20-\x7e]\x00){4,}")
 _MOST = 64 << 20  # bytes of something unpacked
 _DEEPEST = 4
-_OBJECTS = (b"\x7fELF", b"!<arch>\n", b"\xcf\xfa\xed\xfe", b"\xce\xfa\xed\xfe", b"\xca\xfe\xba\xbe", b"\x64\x86", b"MZ")
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,6 @@ class Piece:
     place: str
     text: str
     has_lines: bool = True
-
-
-def is_compiled(data: bytes) -> bool:
-    """An object file, a library or a program."""
-    return data.startswith(_OBJECTS)
 
 
 def _strings(data: bytes) -> str:
@@ -45,11 +40,9 @@ def _inflated(data: bytes) -> bytes:
 
 def _png(place: str, data: bytes) -> Iterator[Piece]:
     """All chunks but the pixels; compressed ones as they are meant, and what follows the end."""
-    at = len(_PNG)
-    while at + 12 <= len(data):
-        size, kind = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
-        body = data[at + 8 : at + 8 + size]
-        at += 12 + size
+    at = len(PNG)
+    for kind, body in png_chunks(data):
+        at += 12 + len(body)
         if kind == b"IDAT":
             continue
         texts = [body]
@@ -61,8 +54,6 @@ def _png(place: str, data: bytes) -> Iterator[Piece]:
             texts.append(_inflated(text) if rest[:1] == b"\1" else text)
         shown = "\n".join(text.decode("utf-8", "replace") for text in texts)
         yield Piece(f"{place} ({kind.decode('latin-1')})", shown, has_lines=False)
-        if kind == b"IEND":
-            break
     if at < len(data):
         yield Piece(f"{place} (after its end)", _strings(data[at:]), has_lines=False)
 
@@ -91,7 +82,7 @@ def _members(data: bytes) -> Iterator[tuple[str, bytes]]:
 
 def pieces(place: str, data: bytes, depth: int = 0) -> Iterator[Piece]:
     """Everything that can be read."""
-    if data.startswith(_PNG):
+    if data.startswith(PNG):
         yield from _png(place, data)
     elif data.startswith((b"\xff\xfe", b"\xfe\xff")):
         yield Piece(place, data.decode("utf-16", "replace"))

@@ -1,0 +1,81 @@
+"""Which modules of the grader go out, and what they need."""
+
+import ast
+import re
+import sys
+import tomllib
+from importlib.metadata import packages_distributions
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import GraderFault
+from raysteps.kit.project import Project
+from raysteps.release.packages import needed_modules, package_files
+from raysteps.release.pages_of_kit import pyproject
+
+# What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
+# solve the steps read it?
+_ROOMS = {
+    ".", "commands", "commands/course", "commands/inspect", "commands/watch", "common", "exports", "grading", "kit",
+    "pages", "pages/static", "pages/templates", "programs", "reports", "results", "sandbox", "setting_up", "students",
+    "submission",
+}  # fmt: skip
+_PARTS = {
+    "commands": {
+        "check", "ending", "for_students", "progress", "render", "report", "report_page", "unfinished", "update",
+        "view",
+    },
+    "commands/inspect": {"command", "html", "page_rays", "page_space", "pair", "programs", "tree", "values"},
+    "exports": {"formats", "reading"},
+    "grading": {
+        "build_messages", "compiling", "own", "own_grader", "quick_look", "scoring", "step_grader", "visible_images",
+        "visible_tests",
+    },
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def out(project: Project) -> list[Path]:
+    return package_files(project.root / "grader" / "src")
+
+
+def test_which_modules_go_out_is_settled(project: Project, out: list[Path]) -> None:
+    package = project.root / "grader" / "src" / "raysteps"
+    assert {path.parent.relative_to(package).as_posix() for path in out} == _ROOMS
+    for room, names in _PARTS.items():
+        found = {path.stem for path in out if path.parent == package / room and path.suffix == ".py"}
+        assert found == {*names, "__init__"}, room
+
+
+def _distribution(text: str) -> str:
+    return re.split(r"[^\w-]", text, maxsplit=1)[0].lower().replace("_", "-")
+
+
+def test_the_package_names_all_that_its_modules_import(project: Project, out: list[Path]) -> None:
+    table = tomllib.loads(pyproject((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8")).decode())
+    named = {_distribution(text) for text in table["project"]["dependencies"]}
+    imported = set()
+    for path in (path for path in out if path.suffix == ".py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            words = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            words += [node.module] if isinstance(node, ast.ImportFrom) and node.module and not node.level else []
+            imported |= {word.partition(".")[0] for word in words}
+    foreign = imported - set(sys.stdlib_module_names) - {"raysteps"}
+    assert "numpy" in foreign
+    of = packages_distributions()
+    missing = {name for name in foreign if not named.intersection(map(_distribution, of.get(name, [name])))}
+    assert missing <= {"markupsafe"}, "imported, and not named in pyproject.toml"  # Jinja2 is made of it
+
+
+def test_a_module_for_students_that_needs_answers_is_found(tmp_path: Path) -> None:
+    room = tmp_path / "raysteps"
+    for name in ("", "judge", "commands"):
+        (room / name).mkdir(exist_ok=True)
+        (room / name / "__init__.py").write_text("")
+    (room / "judge" / "plan.py").write_text("")
+    (room / "students_cli.py").write_text("def later() -> None:\n    from raysteps.judge import plan\n")
+    assert [path.name for path in needed_modules(tmp_path)] == ["__init__.py", "students_cli.py"]
+    (room / "students_cli.py").write_text("from raysteps.judge import plan\n")
+    with pytest.raises(GraderFault, match="which students do not get"):
+        needed_modules(tmp_path)

@@ -1,0 +1,138 @@
+"""A release in the place of an older one: the history stays and is looked through, and nothing is lost."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import UsageError
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.release import making, replacing
+from raysteps.release.leaks.finding import leaks_in_history
+from raysteps.release.leaks.secrets import gather
+from raysteps.release.making import Leaks, release
+from raysteps.release.replacing import usable
+
+
+def _git(folder: Path, *words: str) -> str:
+    command = ["git", "-C", str(folder), "-c", "user.name=a", "-c", "user.email=a@b.c", *words]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+@pytest.fixture
+def older(kit: BuiltKit, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A release of step 01 that somebody keeps in a repository, and built. No test here looks at its pictures."""
+    monkeypatch.setattr(making, "write_all_given", lambda *_: None)
+    out = tmp_path / "out" / "course"
+    assert _released(kit, steps, out, "Spring")
+    _git(out, "init", "--quiet")
+    _git(out, "add", ".")
+    _git(out, "commit", "--quiet", "-m", "Spring")
+    (out / "build").mkdir()
+    (out / "build" / "notes.txt").write_text("mine", encoding="utf-8")
+    return out
+
+
+def _nothing(new: Path, out: Path) -> bool:
+    return False
+
+
+def _released(kit: BuiltKit, steps: list[Step], out: Path, course: str, leaks: Leaks = _nothing) -> bool:
+    return release(kit, steps[:1], course, out, leaks, lambda text: None)
+
+
+def test_history_and_build_stay(older: Path, kit: BuiltKit, steps: list[Step]) -> None:
+    assert _released(kit, steps, older, "Autumn")
+    assert "Autumn" in (older / "README.md").read_text(encoding="utf-8")
+    assert _git(older, "log", "--format=%s") == "Spring\n"
+    assert "README.md" in _git(older, "status", "--short")
+    assert (older / "build" / "notes.txt").read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in older.parent.iterdir()] == ["course"]
+
+
+def test_a_history_that_tells_is_not_taken_over(
+    older: Path, kit: BuiltKit, steps: list[Step], solved: dict[str, str]
+) -> None:
+    (older / "a.txt").write_text(solved["02-intersection"], encoding="utf-8")
+    _git(older, "add", "a.txt")
+    _git(older, "commit", "--quiet", "-m", "by mistake")
+    _git(older, "rm", "--quiet", "a.txt")
+    _git(older, "commit", "--quiet", "-m", "away")
+    secrets = gather(kit.project)
+    assert not _released(kit, steps, older, "Autumn", lambda new, out: bool(leaks_in_history(secrets, out)))
+    assert "Spring" in (older / "README.md").read_text(encoding="utf-8")
+    assert _git(older, "log", "--format=%s") == "away\nby mistake\nSpring\n"
+    assert [path.name for path in older.parent.iterdir()] == ["course"]
+
+
+def test_a_file_that_comes_while_it_is_written_stays(older: Path, kit: BuiltKit, steps: list[Step]) -> None:
+    def late(new: Path, out: Path) -> bool:
+        (out / "syllabus.md").write_text("mine", encoding="utf-8")
+        return False
+
+    with pytest.raises(UsageError, match=r"syllabus\.md: is not of the release"):
+        _released(kit, steps, older, "Autumn", late)
+    assert (older / "syllabus.md").read_text(encoding="utf-8") == "mine"
+    assert "Spring" in (older / "README.md").read_text(encoding="utf-8")
+
+
+def test_a_file_that_comes_at_the_last_moment_stays(
+    older: Path, kit: BuiltKit, steps: list[Step], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    move = replacing._move_along
+
+    def late(old: Path, new: Path) -> None:
+        (old / "syllabus.md").write_text("mine", encoding="utf-8")
+        move(old, new)
+
+    monkeypatch.setattr(replacing, "_move_along", late)
+    with pytest.raises(UsageError, match="was released, but the older one was changed meanwhile and is kept") as told:
+        _released(kit, steps, older, "Autumn")
+    assert "Autumn" in (older / "README.md").read_text(encoding="utf-8")
+    assert _git(older, "log", "--format=%s") == "Spring\n"
+    kept = re.search(r"kept: (\S+syllabus\.md):", str(told.value))
+    assert kept is not None
+    assert Path(kept[1]).read_text(encoding="utf-8") == "mine"
+
+
+def test_an_interrupted_release_is_told(
+    older: Path, kit: BuiltKit, steps: list[Step], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Killed when the older one was away and its history not yet moved along."""
+
+    def killed(old: Path, new: Path) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(replacing, "_move_along", killed)
+    with pytest.raises(KeyboardInterrupt):
+        _released(kit, steps, older, "Autumn")
+    with pytest.raises(UsageError, match=r"\.course-old-.*: holds what was in .*course before"):
+        _released(kit, steps, older, "Autumn")
+    (left,) = older.parent.glob(".course-old-*/course")
+    assert _git(left, "log", "--format=%s") == "Spring\n"
+
+
+def test_when_the_new_one_cannot_take_its_place_the_older_one_is_back(
+    older: Path, kit: BuiltKit, steps: list[Step], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rename = Path.rename
+
+    def busy(path: Path, target: Path) -> Path:
+        if "-new-" in path.parent.name:
+            raise PermissionError(13, "a file is open")
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "rename", busy)
+    with pytest.raises(UsageError, match="cannot be written: a file is open"):
+        _released(kit, steps, older, "Autumn")
+    assert "Spring" in (older / "README.md").read_text(encoding="utf-8")
+    assert [path.name for path in older.parent.iterdir()] == ["course"]
+
+
+def test_a_link_in_a_files_place_is_not_as_it_was_released(older: Path) -> None:
+    (older / "LICENSE").unlink()
+    (older / "LICENSE").symlink_to(older / "nowhere")
+    with pytest.raises(UsageError, match="LICENSE: is not as it was released"):
+        usable(older)
