@@ -118,8 +118,10 @@ void Controls::release(const Point& /*place*/) {
 void Controls::wheel(float notches) { set_camera(dolly(settings_.camera, std::pow(k_wheel_factor, notches))); }
 
 void Controls::choose_step(int step) {
-    settings_.step.step = step;
-    events_.new_shot = true;
+    if (step <= settings_.last_step) {
+        settings_.step.step = step;
+        events_.new_shot = true;
+    }
 }
 
 void Controls::next_acceleration() {
