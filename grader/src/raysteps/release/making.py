@@ -12,11 +12,12 @@ from raysteps.kit.manifest import Step, read_all_steps
 from raysteps.release.contents import kit_contents
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
-from raysteps.release.pages_of_kit import pyproject, readme, tasks
+from raysteps.release.pages_of_kit import for_editor, pyproject, readme
+from raysteps.release.wording import word_for_students
 from raysteps.students.listing import PLACE, Listed, Owner, Release, encoded, mark, read_release
 
 _EXECUTABLE = {"raysteps"}
-_TASKS = ".vscode/tasks.json"
+_EDITORS = (".vscode/tasks.json", ".vscode/launch.json")
 _NOT_OURS = (".git", ".venv", "build")  # may lie in a release that somebody keeps under version control
 
 Leaks = Callable[[Path], bool]
@@ -57,8 +58,8 @@ def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -
     files = kit_contents(kit.project, steps, absent)
     files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)
-    if _TASKS in files:
-        files[_TASKS] = tasks(files[_TASKS])
+    files |= {name: for_editor(files[name], steps) for name in _EDITORS if name in files}
+    word_for_students(files)
     add_pictures(files, kit.project.root)
     unlink_missing(files)
     for name, data in files.items():
