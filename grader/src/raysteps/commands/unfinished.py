@@ -16,6 +16,10 @@ def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
     return left
 
 
+def _elsewhere(project: Project) -> str:
+    return "the right picture with --impl reference" if project.has_reference else "the right pictures in reference/"
+
+
 def advice(project: Project, upto: int) -> str:
     """What to say of a picture of that step; empty when all that it needs is written."""
     left = unfinished(project, upto)
@@ -23,6 +27,6 @@ def advice(project: Project, upto: int) -> str:
         return ""
     first = left[0][0].index
     if first == 1:
-        return "your steps are not started; see what the picture will be with --impl reference"
+        return f"your steps are not started; see {_elsewhere(project)}"
     reached = f"your steps reach {first - 1:02}, and this picture is one of step {upto:02}"
-    return f"{reached}: add --step {first - 1}, or see it with --impl reference"
+    return f"{reached}: add --step {first - 1}, or see {_elsewhere(project)}"
