@@ -125,7 +125,8 @@ void Controls::choose_step(int step) {
 }
 
 void Controls::next_acceleration() {
-    const std::vector<Acceleration> all = available_accelerations();
+    std::vector<Acceleration> all = available_accelerations();
+    std::erase_if(all, [this](Acceleration kind) { return step_of(kind) > settings_.last_step; });
     const Acceleration now = shot().acceleration;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i] == now) {

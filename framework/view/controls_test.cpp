@@ -98,6 +98,8 @@ TEST_CASE("A digit beyond the kit's last step does nothing", "[view]") {
     CHECK_FALSE(controls.take_events().new_shot);
     controls.key('4');
     CHECK(controls.shot().step.step == 4);
+    controls.key('a');  // no structure belongs to these steps
+    CHECK(controls.shot().acceleration == Acceleration::none);
 }
 
 TEST_CASE("A digit chooses the step, and the step its structure unless a person chose one", "[view]") {
