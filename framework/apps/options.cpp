@@ -155,6 +155,8 @@ void check(const RaytraceOptions& options) {
 
 }  // namespace
 
+int last_step() { return k_last_step; }
+
 std::string list_accelerations() {
     std::string list;
     for (const Acceleration kind : available_accelerations()) {

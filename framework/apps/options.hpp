@@ -40,6 +40,9 @@ public:
 
 extern const char* const k_raytrace_usage;
 
+/// Of the course, or of the part of it that this kit has.
+[[nodiscard]] int last_step();
+
 /// The names that --accel takes in this program, a line each.
 [[nodiscard]] std::string list_accelerations();
 

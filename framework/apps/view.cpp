@@ -45,6 +45,7 @@ void run(const ViewOptions& options) {
     check_click(options, scene.camera);
     run_viewer(scene, {picture.scene,
                        {picture.step, picture.view, picture.depth},
+                       last_step(),
                        picture.acceleration,
                        default_threads(),
                        options.screenshot,

@@ -48,7 +48,9 @@ RaytraceOptions shared_options(std::vector<std::string> words) {
     words.insert(words.end(), {"-o", "-"});
     RaytraceOptions options = parse_options(words);
     if (options.acceleration && !has_accelerator(*options.acceleration)) {
-        throw UsageError("--accel: expected none, boxes, octree or bvh; a window has no wide trees");
+        const bool boxes = options.acceleration == Acceleration::boxes;
+        throw UsageError(boxes ? "--accel boxes: " + why_without(Acceleration::boxes)
+                               : "--accel: expected none, boxes, octree or bvh; a window has no wide trees");
     }
     return options;
 }

@@ -49,4 +49,6 @@ bool HollowSphere::overlaps(const Box& box) const {
     return glm::length(nearest) <= radius * (1.0 + k_slack) && glm::length(farthest) >= radius * (1.0 - k_slack);
 }
 
+bool has_hollow_spheres() { return true; }
+
 }  // namespace raysteps

@@ -23,4 +23,7 @@ private:
     float radius_;
 };
 
+/// A students' kit has none: they are met much as the spheres of steps 02 and 06.
+[[nodiscard]] bool has_hollow_spheres();
+
 }  // namespace raysteps

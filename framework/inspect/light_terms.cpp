@@ -1,13 +1,12 @@
 #include "inspect/light_terms.hpp"
 
-#include <glm/geometric.hpp>
 #include <vector>
 
 #include "inspect/recorder.hpp"
+#include "inspect/step_terms.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
-#include "steps/08-refraction/refraction.hpp"
 
 namespace raysteps {
 namespace {
@@ -16,12 +15,7 @@ void describe(const Light& light, int step, const HitRecord& hit, LightRecord& r
     if (step >= 4) {
         record.shadow_ray = shadow_ray(hit, light);
     }
-    record.to_light = glm::normalize(light.position - hit.position);
-    record.mirrored = mirror(-record.to_light, hit.normal);
-    record.l_n = glm::dot(record.to_light, hit.normal);
-    record.r_v = glm::dot(record.mirrored, -hit.ray_direction);
-    record.diffuse = diffuse(hit.fill, light, hit.normal, record.to_light);
-    record.specular = specular(hit.fill, light, hit.normal, record.to_light, -hit.ray_direction);
+    ask_light(hit, light, record);
 }
 
 }  // namespace
@@ -56,8 +50,7 @@ void describe_meeting(const StepOptions& options, const RayNode& node, Meeting& 
         meeting.mirrored = mirror(hit.ray_direction, hit.normal);
     }
     if (options.step >= 8 && hit.fill.transmittance > 0.0F) {
-        const float index = hit.fill.index_of_refraction > 0.0F ? hit.fill.index_of_refraction : 1.0F;
-        meeting.refracted = refract(hit.ray_direction, hit.normal, hit.from_outside ? 1.0F / index : index);
+        meeting.refracted = ask_refracted(hit);
     }
 }
 

@@ -83,6 +83,8 @@ void read_sphere(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     const float radius = fields.coordinate("radius of the sphere");
     if (radius > 0.0F) {
         scene.add(std::make_unique<Sphere>(center, radius, fill));
+    } else if (radius < 0.0F && !has_hollow_spheres()) {
+        scanner.fail(place, "radius of the sphere, a number above 0 (only the whole kit has hollow spheres)");
     } else if (radius < 0.0F) {
         scene.add(std::make_unique<HollowSphere>(center, -radius, fill));
     } else {

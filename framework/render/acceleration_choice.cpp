@@ -43,6 +43,18 @@ std::vector<Acceleration> available_accelerations() {
     return available;
 }
 
+int step_of(Acceleration kind) {
+    switch (kind) {
+        case Acceleration::none:
+            return 1;
+        case Acceleration::bvh:
+        case Acceleration::wide:
+            return 9;
+        default:
+            return 6;
+    }
+}
+
 Acceleration usual_acceleration(int step) {
     if (step < 6) {
         return Acceleration::none;

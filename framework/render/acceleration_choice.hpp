@@ -18,6 +18,9 @@ namespace raysteps {
 /// Those that this program has, in the order of the course.
 [[nodiscard]] std::vector<Acceleration> available_accelerations();
 
+/// The step that builds it; every surface needs none.
+[[nodiscard]] int step_of(Acceleration kind);
+
 /// None before step 06, octree from there on, bvh for step 09.
 [[nodiscard]] Acceleration usual_acceleration(int step);
 

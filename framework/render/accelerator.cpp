@@ -4,8 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "render/every_surface.hpp"
 #include "render/paper_boxes.hpp"
-#include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
 
@@ -17,29 +17,6 @@ using Place = SurfaceList::const_iterator;
 bool holds(Place first, Place last, const Surface* wanted) {
     return wanted != nullptr && std::find(first, last, wanted) != last;
 }
-
-bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
-    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface* surface) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        return hit && hit->distance < distance;
-    });
-}
-
-class BruteForce final : public Accelerator {
-public:
-    explicit BruteForce(const SurfaceList& surfaces) : surfaces_(surfaces) {}
-
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
-        return raysteps::closest_hit(surfaces_, ray);
-    }
-
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
-        return any_of_list(surfaces_, ray, distance);
-    }
-
-private:
-    SurfaceList surfaces_;
-};
 
 class Octree final : public Accelerator {
 public:
@@ -130,7 +107,23 @@ bool offer_accelerator(Acceleration kind, AcceleratorMaker make) {
 }
 
 bool has_accelerator(Acceleration kind) {
-    return (kind != Acceleration::wide && kind != Acceleration::wide_octree) || offered().contains(kind);
+    switch (kind) {
+        case Acceleration::boxes:
+            return paper_boxes() != nullptr;
+        case Acceleration::wide:
+        case Acceleration::wide_octree:
+            return offered().contains(kind);
+        default:
+            return true;
+    }
+}
+
+std::string why_without(Acceleration kind) {
+    if (kind == Acceleration::boxes) {
+        return "only the whole kit has the paper's boxes; --accel octree draws the same picture with step 06's own tree";
+    }
+    return "only the reference has wide trees (--impl reference), and only where the library Highway is installed "
+           "(Debian: libhwy-dev); --accel bvh draws the same picture";
 }
 
 std::vector<Acceleration> available(std::vector<Acceleration> kinds) {
@@ -139,22 +132,20 @@ std::vector<Acceleration> available(std::vector<Acceleration> kinds) {
 }
 
 std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces) {
+    if (!has_accelerator(kind)) {
+        throw std::invalid_argument(why_without(kind));
+    }
     switch (kind) {
         case Acceleration::none:
-            return std::make_unique<BruteForce>(surfaces);
+            return every_surface(surfaces);
         case Acceleration::boxes:
-            return std::make_unique<PaperBoxes>(surfaces);
+            return paper_boxes()(surfaces);
         case Acceleration::octree:
             return std::make_unique<Octree>(surfaces);
         case Acceleration::bvh:
             return std::make_unique<BoundingVolumes>(surfaces);
         case Acceleration::wide:
         case Acceleration::wide_octree:
-            if (!has_accelerator(kind)) {
-                throw std::invalid_argument(
-                    "only the reference has wide trees (--impl reference), and only where the library Highway is "
-                    "installed (Debian: libhwy-dev); --accel bvh draws the same picture");
-            }
             return offered()[kind](surfaces);
     }
     return nullptr;

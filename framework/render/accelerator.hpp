@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/hit_record.hpp"
@@ -68,6 +69,9 @@ bool offer_accelerator(Acceleration kind, AcceleratorMaker make);
 
 /// Whether this program has the structure.
 [[nodiscard]] bool has_accelerator(Acceleration kind);
+
+/// What to say where it has not, and what to take instead.
+[[nodiscard]] std::string why_without(Acceleration kind);
 
 /// Of these structures, those that this program has.
 [[nodiscard]] std::vector<Acceleration> available(std::vector<Acceleration> kinds);

@@ -1,25 +1,27 @@
 #include "render/encode.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <glm/common.hpp>
+#include <glm/packing.hpp>
+#include <glm/vec4.hpp>
 
 #include "steps/07-tone-mapping/tone_mapping.hpp"
 
 namespace raysteps {
 namespace {
 
-std::uint8_t cut_off(float channel) {
-    if (!(channel > 0.0F)) {
-        return 0;  // NaN too
-    }
-    return static_cast<std::uint8_t>(std::lround(255.0F * std::min(channel, 1.0F)));
+/// The largest of 0 and each channel, in this order: NaN fails the comparison and becomes 0.
+Rgb8 cut_off(const Color& color) {
+    const glm::vec4 light = glm::max(glm::vec4(0.0F), glm::vec4(color, 0.0F));
+    const glm::uint packed = glm::packUnorm4x8(light);
+    return {static_cast<std::uint8_t>(packed & 0xFFU), static_cast<std::uint8_t>((packed >> 8U) & 0xFFU),
+            static_cast<std::uint8_t>((packed >> 16U) & 0xFFU)};
 }
 
 }  // namespace
 
 Rgb8 encode(const Color& color, int step) {
     if (step < 7) {
-        return {cut_off(color.r), cut_off(color.g), cut_off(color.b)};
+        return cut_off(color);
     }
     const Color mapped = tone_map(color);
     return {to_byte(mapped.r), to_byte(mapped.g), to_byte(mapped.b)};

@@ -1,7 +1,10 @@
 #include "render/paper_boxes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
+#include <vector>
 
 #include "core/rounding.hpp"
 #include "steps/02-intersection/intersection.hpp"
@@ -55,7 +58,30 @@ bool hits_untested(const std::vector<std::uint64_t>& members, std::vector<std::u
     return false;
 }
 
-}  // namespace
+class PaperBoxes final : public Accelerator {
+public:
+    explicit PaperBoxes(const SurfaceList& surfaces);
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
+    [[nodiscard]] StructureSize size() const override;
+    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override;
+
+private:
+    /// A small box and its intersect list: bit i of word w stands for surface 64 w + i.
+    struct Small {
+        Box box;
+        std::vector<std::uint64_t> members;
+    };
+    struct Middle {
+        Box box;
+        std::array<Small, 8> small;
+    };
+
+    SurfaceList surfaces_;
+    Box main_;
+    std::array<Middle, 8> middle_;
+};
 
 PaperBoxes::PaperBoxes(const SurfaceList& surfaces) : surfaces_(surfaces) {
     if (surfaces_.empty()) {
@@ -139,6 +165,14 @@ void PaperBoxes::visit_boxes(const Surface* wanted, const BoxVisitor& visit) con
             visit({small.box, 2, count_members(small.members), member});
         }
     }
+}
+
+}  // namespace
+
+AcceleratorMaker paper_boxes() {
+    return [](const SurfaceList& surfaces) -> std::unique_ptr<Accelerator> {
+        return std::make_unique<PaperBoxes>(surfaces);
+    };
 }
 
 }  // namespace raysteps

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "steps/01-camera-rays/camera_rays.hpp"
+
 namespace raysteps {
 namespace {
 
@@ -12,18 +14,6 @@ constexpr float k_pi = std::numbers::pi_v<float>;
 constexpr float k_nearest_to_pole = 0.02F;  // radians; there the view frame is still well defined
 constexpr float k_shortest = 1e-3F;
 constexpr float k_longest = 1e6F;
-
-/// What the eye sees as right and up.
-struct Sides {
-    glm::vec3 right;
-    glm::vec3 up;
-};
-
-Sides sides_of(const Camera& camera) {
-    const glm::vec3 forward = glm::normalize(camera.at - camera.from);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    return {right, glm::cross(right, forward)};
-}
 
 /// Turns a vector about a unit axis, counterclockwise seen from the axis' tip.
 glm::vec3 turned(const glm::vec3& vector, const glm::vec3& axis, float angle) {
@@ -41,7 +31,7 @@ Camera orbit(const Camera& camera, float right, float upwards) {
     const float most = std::max(from_pole, k_pi - k_nearest_to_pole);
     const float wanted = std::clamp(from_pole - upwards, least, most);
     Camera moved = camera;
-    const glm::vec3 lifted = turned(arm, sides_of(camera).right, wanted - from_pole);
+    const glm::vec3 lifted = turned(arm, view_frame(camera).right, wanted - from_pole);
     moved.from = camera.at + turned(lifted, pole, right);
     return moved;
 }
@@ -58,10 +48,9 @@ Camera dolly(const Camera& camera, float factor) {
 }
 
 Camera pan(const Camera& camera, float right, float upwards) {
-    const float half_angle = 0.5F * camera.angle * k_pi / 180.0F;
-    const float height = 2.0F * std::tan(half_angle) * glm::length(camera.at - camera.from);
-    const Sides sides = sides_of(camera);
-    const glm::vec3 shift = height * (right * sides.right + upwards * sides.up);
+    const ViewFrame frame = view_frame(camera);
+    const float height = 2.0F * frame.half_height * glm::length(camera.at - camera.from);
+    const glm::vec3 shift = height * (right * frame.right + upwards * frame.up);
     Camera moved = camera;
     moved.from -= shift;
     moved.at -= shift;

@@ -1,5 +1,5 @@
 #pragma once
-// How a hand moves the camera. Angle, size and `up` stay what the scene says.
+// How a hand moves the camera. Angle, size and `up` stay what the scene says; step 01 says where right and up are.
 #include "core/camera.hpp"
 
 namespace raysteps {

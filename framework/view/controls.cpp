@@ -118,12 +118,15 @@ void Controls::release(const Point& /*place*/) {
 void Controls::wheel(float notches) { set_camera(dolly(settings_.camera, std::pow(k_wheel_factor, notches))); }
 
 void Controls::choose_step(int step) {
-    settings_.step.step = step;
-    events_.new_shot = true;
+    if (step <= settings_.last_step) {
+        settings_.step.step = step;
+        events_.new_shot = true;
+    }
 }
 
 void Controls::next_acceleration() {
-    const std::vector<Acceleration> all = available_accelerations();
+    std::vector<Acceleration> all = available_accelerations();
+    std::erase_if(all, [this](Acceleration kind) { return step_of(kind) > settings_.last_step; });
     const Acceleration now = shot().acceleration;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i] == now) {

@@ -16,6 +16,7 @@ struct Settings {
     std::optional<Acceleration> acceleration;  ///< nothing: what the step comes with
     std::optional<CostKind> map;               ///< nothing: the picture
     float stops = 0.0F;                        ///< exposure, for step 07 and later
+    int last_step = 9;                         ///< of the kit; keys beyond it do nothing
 };
 
 enum class Button { left, other };

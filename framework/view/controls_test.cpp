@@ -88,6 +88,20 @@ TEST_CASE("The wheel changes the distance", "[view]") {
     CHECK(controls.take_events().new_shot);
 }
 
+TEST_CASE("A digit beyond the kit's last step does nothing", "[view]") {
+    Settings start;
+    start.step.step = 3;
+    start.last_step = 4;
+    Controls controls(start);
+    controls.key('5');
+    CHECK(controls.shot().step.step == 3);
+    CHECK_FALSE(controls.take_events().new_shot);
+    controls.key('4');
+    CHECK(controls.shot().step.step == 4);
+    controls.key('a');  // no structure belongs to these steps
+    CHECK(controls.shot().acceleration == Acceleration::none);
+}
+
 TEST_CASE("A digit chooses the step, and the step its structure unless a person chose one", "[view]") {
     Controls controls = controls_of_step(8);
     CHECK(controls.shot().acceleration == Acceleration::octree);

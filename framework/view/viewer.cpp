@@ -45,7 +45,7 @@ public:
           structures_(scene),
           progressive_(scene, structures_, options.threads),
           asker_(scene, structures_, options.scene),
-          controls_({scene.camera, options.step, options.acceleration, std::nullopt, 0.0F}),
+          controls_({scene.camera, options.step, options.acceleration, std::nullopt, 0.0F, options.last_step}),
           window_(name(), scene.camera.width, content_height(scene.camera), !options.screenshot.empty(), events()) {}
 
     void run() {

@@ -10,6 +10,7 @@ namespace raysteps {
 struct ViewerOptions {
     std::string scene;  ///< as it was typed
     StepOptions step;
+    int last_step = 9;  ///< of the kit
     std::optional<Acceleration> acceleration;
     int threads = 1;
     std::string screenshot;      ///< empty: stays open; else the complete picture is read back, written, and that is it

@@ -67,7 +67,7 @@ def scene_generator(project: Project) -> ModuleType:
 
 @cache
 def _command_line(command: str) -> argparse.ArgumentParser:
-    """That of the whole kit, or of a students' kit for what only those have."""
+    """The whole kit's, or a students' kit's for what only that has."""
     return students_cli._parser() if command == "update" else _parser()
 
 
@@ -94,33 +94,33 @@ def _parsers(parser: argparse.ArgumentParser, words: list[str]) -> Iterator[argp
             yield from _parsers(action.choices[words[0]], words[1:])
 
 
-def _synopsis(project: Project, words: list[str]) -> str:
+def _synopsis(project: Project, parser: argparse.ArgumentParser, words: list[str]) -> str:
     """A synopsis has holes, but its options must be there."""
-    found = list(_parsers(_command_line(words[0]), words))
+    found = list(_parsers(parser, words))
     known = {option for parser in found for option in parser._option_string_actions}
     if words[0] in ("render", "view"):
         program = "raytrace" if words[0] == "render" else "view"
         known |= {"--impl", *re.findall(r"--?[\w-]+", usage(project, program))}
-    if len(found) == 1 and words[0] != "..." and not words[0].isupper():
+    if len(found) == 1 and words[0] not in ("...", "…") and not words[0].isupper():
         return f"no command is called {words[0]}"
     unknown = [option for word in words for option in re.findall(r"^\[?(--?[a-z][\w-]*)", word) if option not in known]
     return f"unknown: {', '.join(unknown)}" if unknown else ""
 
 
-def _raysteps(project: Project, one: Typed, words: list[str]) -> str:
+def _raysteps(project: Project, parser: argparse.ArgumentParser, one: Typed, words: list[str]) -> str:
     if one.is_synopsis:
-        return _synopsis(project, words)
+        return _synopsis(project, parser, words)
     if words[0] in ("render", "view"):
         try:
             _, rest = take_impl(words[1:])
         except RaystepsError as error:
             return str(error)
         return _read(_program(project, "raytrace" if words[0] == "render" else "view"), rest)
-    return _read(_command_line(words[0]), words)
+    return _read(parser, words)
 
 
-def complaint(project: Project, one: Typed) -> str:
-    """What is wrong with the command; empty when nothing is."""
+def complaint(project: Project, one: Typed, parser: argparse.ArgumentParser | None = None) -> str:
+    """What is wrong with the command; empty when nothing is. `parser` is that of another kit than the whole."""
     named = [word for word in one.words if re.match(r"(?:scenes|steps|grader)/\w", word)]
     for word in named:
         if not (project.root / word).exists():
@@ -128,7 +128,7 @@ def complaint(project: Project, one: Typed) -> str:
     first, words = one.words[0], list(one.words[1:])
     if first == "./raysteps" or (first == "python" and words[:1] == ["raysteps"]):
         words = words if first == "./raysteps" else words[1:]
-        return _raysteps(project, one, words) if words else ""
+        return _raysteps(project, parser or _command_line(words[0]), one, words) if words else ""
     if re.fullmatch(r"(?:build/\w+/bin/)?raytrace(?:-mine|-reference)?", first):
         return _read(_program(project, "raytrace"), words)
     if first == "python" and words[:1] == ["scenes/generate.py"]:
@@ -147,10 +147,14 @@ class Shown:
 
 
 def _shown(document: Path, text: str) -> Iterator[Shown]:
-    """Output stands in a block of its own, right below that of its command. `render` prints nothing."""
+    """Output stands in a block of its own, below that of its command, or below a line that says "prints". `render`
+    prints nothing."""
+    lines = text.splitlines()
     for above, below in itertools.pairwise(blocks(text)):
         speaking = [one for one in commands(document, above) if one.words[1:2] != ("render",)]
-        follows = below.line - (above.line + above.body.count("\n")) == 3
+        end = above.line + above.body.count("\n")  # the line of the fence below it
+        apart = below.line - end
+        follows = apart == 3 or (apart == 5 and lines[end + 1].startswith("prints"))
         if follows and speaking and below.tag in ("", "text") and not is_shell(below):
             yield Shown(speaking[-1], tuple(below.body.splitlines()))
 

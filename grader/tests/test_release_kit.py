@@ -149,3 +149,13 @@ def test_it_builds_and_checks_itself(released: Path, steps: list[Step], solved: 
     assert shadows.read_bytes() == (released / "grader/stubs" / steps[3].path).read_bytes()
     assert "Hint" in _raysteps(released, "hint", "2").stdout.title()
     assert "students' kit" in _raysteps(released, "render", "x.nff", "-o", "x.png", "--impl", "reference").stderr
+
+    assert _raysteps(released, "render", "--list-accel").stdout.split() == ["none", "octree", "bvh"]
+    scene = released / "scenes/lessons/three-spheres.nff"
+    boxes = _raysteps(released, "render", str(scene), "-o", "x.png", "--step", "2", "--accel", "boxes")
+    assert boxes.code == 2
+    assert "only the whole kit has the paper's boxes" in boxes.stderr
+    (released / "hollow.nff").write_text(scene.read_text(encoding="utf-8") + "s 0 0 0 -1\n", encoding="utf-8")
+    hollow = _raysteps(released, "render", "hollow.nff", "-o", "x.png", "--step", "2")
+    assert hollow.code == 2
+    assert "only the whole kit has hollow spheres" in hollow.stderr

@@ -12,8 +12,11 @@ from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
+from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project, here
 from raysteps.programs.pictures import PictureError, read_ppm, write_png
+
+_USUAL_STEP = 8  # as raytrace has it, where the kit goes so far
 
 
 def take_impl(args: list[str]) -> tuple[str, list[str]]:
@@ -85,9 +88,11 @@ def run_raytrace(program: Path, args: list[str]) -> None:
         raise SystemExit(code)
 
 
-def _wanted_step(args: list[str]) -> int:
+def _wanted_step(project: Project, args: list[str]) -> int:
     """Of the picture; raytrace itself complains about what is no step."""
-    word = args[args.index("--step") + 1] if "--step" in args[:-1] else "8"
+    if "--step" not in args[:-1]:
+        return min(_USUAL_STEP, read_steps(project)[-1].index)
+    word = args[args.index("--step") + 1]
     return int(word) if re.fullmatch("[0-9]{1,2}", word) else 0
 
 
@@ -100,7 +105,7 @@ def render(project: Project, args: list[str]) -> int:
     program = (
         build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
     )
-    said = advice(project, _wanted_step(args)) if impl == "mine" and at < len(args) else ""
+    said = advice(project, _wanted_step(project, args)) if impl == "mine" and at < len(args) else ""
     if said:
         print(f"raysteps: {said}", file=sys.stderr)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":

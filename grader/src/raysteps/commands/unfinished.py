@@ -16,18 +16,19 @@ def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
     return left
 
 
+def _elsewhere(project: Project) -> str:
+    return "the right picture with --impl reference" if project.has_reference else "the right pictures in reference/"
+
+
 def advice(project: Project, upto: int) -> str:
     """What to say of a picture of that step; empty when all that it needs is written."""
     left = unfinished(project, upto)
     if not left:
         return ""
     first = left[0][0].index
-    whole = f"what it should be lies in {project.given.name}/"
-    if project.has_reference:
-        whole = "--impl reference shows what it should be"
     if first == 1:
-        return f"your steps are not started; {whole}"
+        return f"your steps are not started; see {_elsewhere(project)}"
     return (
         f"this picture of step {upto:02} is not complete, as your steps reach {first - 1:02}; --step {first - 1} shows "
-        f"what you have, {whole}"
+        f"what you have, and what it should be is {_elsewhere(project)}"
     )

@@ -12,12 +12,13 @@ from raysteps.kit.manifest import Step, read_all_steps
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
-from raysteps.release.pages_of_kit import pyproject, readme, tasks
+from raysteps.release.pages_of_kit import for_editor, pyproject, readme
 from raysteps.release.replacing import refuse_left_overs, swap, usable
+from raysteps.release.wording import word_for_students
 from raysteps.students.listing import PLACE, Listed, Owner, Release, encoded, mark
 
 _EXECUTABLE = {"raysteps"}
-_TASKS = ".vscode/tasks.json"
+_EDITORS = (".vscode/tasks.json", ".vscode/launch.json")
 
 Leaks = Callable[[Path, Path], bool]  # of a folder, and in the history of another
 
@@ -51,8 +52,8 @@ def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -
     files = kit_contents(kit.project, steps, absent)
     files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)
-    if _TASKS in files:
-        files[_TASKS] = tasks(files[_TASKS])
+    files |= {name: for_editor(files[name], steps) for name in _EDITORS if name in files}
+    word_for_students(files)
     add_pictures(files, kit.project.root)
     refuse_untracked(kit.project.root, files)
     unlink_missing(files)

@@ -1,4 +1,4 @@
-"""The text files that a students' kit has of its own: README.md, the package's pyproject.toml and an editor's tasks."""
+"""Text files that a students' kit has of its own: README.md, the package's pyproject.toml, what an editor offers."""
 
 import json
 import tomllib
@@ -8,6 +8,15 @@ from raysteps.common.text import number
 from raysteps.kit.manifest import Step
 
 _DATA = ["py.typed", "*/*.schema.json", "*/*/*.schema.json", "pages/static/*", "pages/templates/*"]
+
+
+def _picture(steps: list[Step]) -> str:
+    """What draws the first picture of the course; a first step may have none."""
+    index, scene = next(
+        ((step.index, case.scene) for step in steps for case in step.images),
+        (steps[0].index, "scenes/lessons/three-spheres.nff"),
+    )
+    return f"./raysteps render {scene} -o first.png --step {index}"
 
 
 def readme(course: str, steps: list[Step]) -> bytes:
@@ -23,17 +32,21 @@ def readme(course: str, steps: list[Step]) -> bytes:
         "STEPS": "\n".join(rows),
         "FIRST": steps[0].number,
         "FIRST_FILE": steps[0].path.as_posix(),
+        "FIRST_ID": steps[0].id,
+        "PICTURE": _picture(steps),
     }
-    words["FIRST_ID"], words["FIRST_SCENE"] = steps[0].id, steps[0].images[0].scene
     for name, text in words.items():
         template = template.replace(f"@{name}@", text)
     return template.encode()
 
 
-def tasks(text: bytes) -> bytes:
-    """Of an editor; without the task that tests the whole kit."""
+def for_editor(text: bytes, steps: list[Step]) -> bytes:
+    """Tasks and programs to debug, for these steps only, and without the task that tests the whole kit."""
     table = json.loads(text)
-    table["tasks"] = [task for task in table["tasks"] if task.get("args") != ["test"]]
+    if "tasks" in table:
+        table["tasks"] = [task for task in table["tasks"] if task.get("args") != ["test"]]
+    for asked in (one for one in table.get("inputs", []) if one["id"] == "step"):
+        asked["options"], asked["default"] = [step.number for step in steps], steps[0].number
     return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 

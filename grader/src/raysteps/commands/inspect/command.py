@@ -65,9 +65,9 @@ def _say_unfinished(project: Project, wish: Wish) -> None:
     left = unfinished(project, wish.step)
     if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
         file = f"steps/{left[0][0].path.as_posix()}"
+        other = ", or look at the reference: --impl reference" if project.has_reference else ""
         raise UsageError(
-            f"your steps are not started: expected a camera in {file}, found the stub. "
-            "Write it first, or look at the reference: --impl reference"
+            f"your steps are not started: expected a camera in {file}, found the stub. Write it first{other}"
         )
     for step, functions in left:
         print(f"raysteps: step {step.number}: {listed(functions)} not written yet", file=sys.stderr)

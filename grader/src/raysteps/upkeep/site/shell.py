@@ -34,7 +34,7 @@ class Typed:
         """It says what may be written, or only names a command, and is not for typing as it stands."""
         if self.in_prose and (len(self.words) == 2 or any(word.isupper() for word in self.words)):
             return True
-        return any(sign in self.text for sign in ("...", "[-"))
+        return any(sign in self.text for sign in ("...", "…", "[-"))
 
 
 def is_shell(block: Block) -> bool:

@@ -1,0 +1,32 @@
+// Asks no more than the closest hit, which is step 02's; how to stop at any hit is part of step 06.
+#include "render/every_surface.hpp"
+
+#include "steps/02-intersection/intersection.hpp"
+
+namespace raysteps {
+namespace {
+
+class EverySurface final : public Accelerator {
+public:
+    explicit EverySurface(const SurfaceList& surfaces) : surfaces_(surfaces) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return raysteps::closest_hit(surfaces_, ray);
+    }
+
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+        const std::optional<HitRecord> closest = closest_hit(ray);
+        return closest.has_value() && closest->distance < distance;
+    }
+
+private:
+    SurfaceList surfaces_;
+};
+
+}  // namespace
+
+std::unique_ptr<Accelerator> every_surface(const SurfaceList& surfaces) {
+    return std::make_unique<EverySurface>(surfaces);
+}
+
+}  // namespace raysteps

@@ -1,0 +1,124 @@
+"""The pages of a students' kit tell people to type only what can be typed there."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from doc_commands import complaint
+
+from raysteps.common.errors import GraderFault
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.release.making import first_steps, write_release
+from raysteps.release.pages_of_kit import readme
+from raysteps.release.wording import for_students
+from raysteps.students_cli import _parser
+from raysteps.upkeep.site.shell import Typed, mentioned, typed
+
+_NEEDS_REFERENCE = re.compile(r"--impl[ =]reference|--against\b|--accel[ =](?:boxes|wide)\S*|--spd\b")
+_OF_A_STEP = ("check", "hint", "reset", "watch")
+
+
+@pytest.fixture(scope="module", params=["1-4", "all"])
+def released(
+    request: pytest.FixtureRequest, kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    folder = tmp_path_factory.mktemp("course") / "kit"
+    write_release(kit, first_steps(None if request.param == "all" else request.param, steps), "Graphics 101", folder)
+    return folder
+
+
+def _numbers(root: Path) -> list[str]:
+    return sorted(path.parent.name[:2] for path in root.glob("steps/*/step.toml"))
+
+
+def _unknown_step(root: Path, one: Typed) -> str:
+    """A step that this kit does not have, in the words of a command."""
+    numbers = _numbers(root)
+    words = list(one.words)
+    if "--step" in words[:-1]:
+        number = words[words.index("--step") + 1]
+        if number.isdecimal() and int(number) > int(numbers[-1]):
+            return f"this kit ends with step {numbers[-1]}"
+    if len(words) > 2 and words[1] in _OF_A_STEP and re.fullmatch("[0-9]{2}", words[2]) and words[2] not in numbers:
+        return f"this kit has no step {words[2]}"
+    return ""
+
+
+def _wrong(root: Path, page: Path, text: str) -> list[str]:
+    """All that this page says and the kit does not have."""
+    found = [f"{page}: {words[0]}" for words in _NEEDS_REFERENCE.finditer(text)]
+    parser = _parser()
+    for one in [*(one for block in typed(page, text) for one in block), *mentioned(page, text)]:
+        wrong = complaint(Project(root), one, parser) or _unknown_step(root, one)
+        found += [f"{one}: {wrong}"] if wrong else []
+    return found
+
+
+def test_every_command_of_every_page_can_be_typed_there(released: Path) -> None:
+    pages = sorted(released.rglob("*.md"))
+    assert len(pages) > 12
+    texts = {page.relative_to(released): page.read_text(encoding="utf-8") for page in pages}
+    assert sum(len(block) for page, text in texts.items() for block in typed(page, text)) > 30
+    assert [wrong for page, text in texts.items() for wrong in _wrong(released, page, text)] == []
+    assert not [page for page, text in texts.items() if "<!--" in text]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "./raysteps demo",
+        "./raysteps grade-class submissions",
+        "./raysteps check 01 --seed 4",
+        "./raysteps render scenes/lessons/glass.nff -o a.png --step 1 --impl reference",
+        "./raysteps render scenes/lessons/glass.nff -o a.png --step 1 --accel boxes",
+        "./raysteps inspect scenes/lessons/glass.nff 1 2 --against reference",
+        "./raysteps render scenes/lessons/glass.nff -o a.png --step 10",
+        "./raysteps check 10",
+    ],
+)
+def test_what_the_kit_does_not_have_is_found(released: Path, line: str) -> None:
+    for text in (f"words\n\n```\n{line}\n```\n", f"words `{line}` words\n"):
+        assert _wrong(released, Path("README.md"), text), text
+
+
+def test_an_editor_offers_the_steps_that_are_there(released: Path) -> None:
+    for name in ("tasks", "launch"):
+        table = json.loads((released / ".vscode" / f"{name}.json").read_text(encoding="utf-8"))
+        (asked,) = [one for one in table["inputs"] if one["id"] == "step"]
+        assert asked["options"] == _numbers(released)
+
+
+def test_a_first_step_without_pictures(steps: list[Step]) -> None:
+    """The README then shows how to draw that of the next step, or any."""
+    bare = replace(steps[0], images=())
+    assert f"render {steps[1].images[0].scene} -o first.png --step 2" in readme("Course", [bare, steps[1]]).decode()
+    assert "-o first.png --step 1" in readme("Course", [bare]).decode()
+
+
+def test_words_for_one_kind_of_kit() -> None:
+    text = (
+        "# A\n\nOne<!-- whole kit --> or `--impl reference`<!-- end -->.\n\n<!-- whole kit -->\nTwo\n\n```\nx\n```\n"
+        "<!-- end -->\n<!-- students' kit:\nThree\nand four.\n-->\n\n- five<!-- students' kit: , six -->\n"
+        "\n| a | b<!-- whole kit --> |\n| c | d<!-- end --> |\n| e | f |\n\n```\ny\n\n\n\nz\n```\n"
+    )
+    assert for_students("a.md", text) == (
+        "# A\n\nOne.\n\nThree\nand four.\n\n- five, six\n\n| a | b |\n| e | f |\n\n```\ny\n\n\n\nz\n```\n"
+    )
+    assert for_students("a.md", "as\n\n\n\nit was") == "as\n\n\n\nit was"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a <!-- whole kit --> b",
+        "a <!-- end --> b",
+        "<!-- whole kit -->\n<!-- whole kit -->\na\n<!-- end -->\n<!-- end -->\n",
+    ],
+)
+def test_a_mark_without_its_partner_is_refused(text: str) -> None:
+    with pytest.raises(GraderFault, match=r"a\.md: the mark"):
+        for_students("a.md", text)
