@@ -101,7 +101,7 @@ def test_a_scene_that_is_none_is_named(project: Project, program: Path, tmp_path
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("kill -SEGV $$", "crashed (SIGSEGV)"),
+        ("kill -SEGV $$", "crashed (SIGSEGV: memory"),
         ("sleep 30", "did not come to an end"),
         ("exit 7", "gave up with exit code 7"),
         ("exit 0", "left no record"),

@@ -9,12 +9,13 @@ import pytest
 from doc_commands import complaint
 
 from raysteps.common.errors import GraderFault
+from raysteps.grading.scoring import most_points
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 from raysteps.release.making import first_steps, write_release
 from raysteps.release.pages_of_kit import readme
-from raysteps.release.wording import for_students
+from raysteps.release.wording import as_printed, for_students
 from raysteps.students_cli import _parser
 from raysteps.upkeep.site.shell import Typed, mentioned, typed
 
@@ -122,3 +123,19 @@ def test_words_for_one_kind_of_kit() -> None:
 def test_a_mark_without_its_partner_is_refused(text: str) -> None:
     with pytest.raises(GraderFault, match=r"a\.md: the mark"):
         for_students("a.md", text)
+
+
+def test_a_printed_check_shows_the_points_that_students_see(steps: list[Step]) -> None:
+    shown = "03-phong-shading Phong shading: passed, 15 of 15\n  tests    all 12 passed\n  hidden   all 8 passed\n"
+    assert as_printed(shown, steps[2]) == (
+        "03-phong-shading Phong shading: passed, 9.75 of 9.75\n  tests    all 12 passed\n"
+    )
+
+
+def test_every_handout_shows_such_a_check(released: Path, steps: list[Step]) -> None:
+    for number in _numbers(released):
+        step = next(step for step in steps if step.number == number)
+        text = (released / "steps" / step.id / "README.md").read_text(encoding="utf-8")
+        seen = most_points(step, judged=False)
+        assert f": passed, {seen:g} of {seen:g}" in text
+        assert "hidden   all" not in text

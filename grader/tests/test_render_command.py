@@ -6,10 +6,11 @@ import pytest
 
 from raysteps.cli import main
 from raysteps.commands.render import run_raytrace, take_impl
-from raysteps.commands.unfinished import advice
+from raysteps.commands.unfinished import advice, as_far_as_written
 from raysteps.common.errors import UsageError
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
+from raysteps.kit.stubs import stub_for
 
 
 def test_impl_is_taken_out() -> None:
@@ -31,7 +32,7 @@ def test_a_crash_of_the_renderer_is_a_failure(tmp_path: Path, capsys: pytest.Cap
     with pytest.raises(SystemExit) as caught:
         run_raytrace(program, [])
     assert caught.value.code == 1
-    assert "raytrace-mine crashed (SIGSEGV)" in capsys.readouterr().err
+    assert "raytrace-mine crashed (SIGSEGV: memory" in capsys.readouterr().err
 
 
 def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -44,19 +45,46 @@ def test_a_picture_of_another_kind_is_refused_before_anything_is_built(capsys: p
     assert "picture.jpg: pictures are written as .png or .ppm" in capsys.readouterr().err
 
 
+def _written(project: Project, root: Path, *numbers: int) -> Project:
+    """A course in which these steps are written."""
+    for step in read_steps(project):
+        place = root / "steps" / step.id
+        place.mkdir(parents=True)
+        (place / "step.toml").write_bytes((project.steps / step.id / "step.toml").read_bytes())
+        source = (project.samples / "complete" / "steps" / step.path).read_text(encoding="utf-8")
+        (root / "steps" / step.path).write_text(
+            source if step.index in numbers else stub_for(project, step), encoding="utf-8"
+        )
+    return Project(root)
+
+
 @pytest.mark.parametrize(("written", "wanted", "said"), [(0, 8, "not started"), (2, 8, "--step 2"), (2, 2, "")])
 def test_a_picture_that_needs_more_than_is_written(
     project: Project, tmp_path: Path, written: int, wanted: int, said: str
 ) -> None:
-    copy = Project(tmp_path)
-    for step in read_steps(project):
-        manifest = project.root / "steps" / step.path.parent / "step.toml"
-        place = tmp_path / "steps" / step.path.parent
-        place.mkdir(parents=True)
-        (place / "step.toml").write_bytes(manifest.read_bytes())
-        folder = project.samples / "complete" if step.index <= written else project.root
-        source = folder / "steps" / step.path
-        (place / step.path.name).write_bytes(source.read_bytes())
-    told = advice(copy, wanted)
+    told = advice(_written(project, tmp_path, *range(1, written + 1)), wanted)
     assert said in told
     assert bool(said) == bool(told)
+
+
+@pytest.mark.parametrize(
+    ("written", "words", "more"),
+    [
+        ((), [], []),
+        ((1, 2), [], ["--step", "2"]),
+        ((1, 2, 4), [], ["--step", "2"]),
+        ((1, 2), ["--step", "3"], []),
+        ((1, 2, 3, 4, 5), [], ["--step", "5"]),
+        ((1, 2, 3, 4, 5, 7), [], ["--step", "7", "--accel", "none"]),
+        ((1, 2, 3, 4, 5, 7), ["--step", "7"], ["--accel", "none"]),
+        ((1, 2, 3, 4, 5, 7), ["--step", "7", "--accel", "octree"], []),
+        ((1, 2, 3, 4, 5, 7), ["--step", "6"], []),
+        ((1, 2, 3, 4, 5, 6, 7), [], ["--step", "7"]),
+        ((1, 2, 3, 4, 5, 6, 7, 8), [], []),
+        ((1, 2, 3, 4, 5, 7, 9), ["--step", "9"], []),
+    ],
+)
+def test_a_picture_goes_as_far_as_is_written_and_does_without_a_tree(
+    project: Project, tmp_path: Path, written: tuple[int, ...], words: list[str], more: list[str]
+) -> None:
+    assert as_far_as_written(_written(project, tmp_path, *written), words) == more

@@ -6,7 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from raysteps.commands.unfinished import advice
+from raysteps.commands.unfinished import advice, as_far_as_written
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
@@ -80,7 +80,7 @@ def build_program(tree: BuildTree, name: str, impl: str) -> Path:
 def run_raytrace(program: Path, args: list[str]) -> None:
     """Runs the program on this terminal, so that its progress bar shows."""
     code = subprocess.run([program, *args], check=False).returncode
-    name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_name
+    name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_words
     if name is not None:
         print(f"raysteps: {program.name} crashed ({name}) while it rendered", file=sys.stderr)
         raise SystemExit(1)
@@ -105,9 +105,11 @@ def render(project: Project, args: list[str]) -> int:
     program = (
         build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
     )
-    said = advice(project, _wanted_step(project, args)) if impl == "mine" and at < len(args) else ""
-    if said:
-        print(f"raysteps: {said}", file=sys.stderr)
+    if impl == "mine" and at < len(args):
+        args = [*args, *as_far_as_written(project, args)]
+        said = advice(project, _wanted_step(project, args))
+        if said:
+            print(f"raysteps: {said}", file=sys.stderr)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
         run_raytrace(program, args)
         return 0

@@ -10,7 +10,7 @@ from raysteps.commands.report import short_path
 from raysteps.common.errors import UsageError
 from raysteps.exports.reading import read_results
 from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project
+from raysteps.kit.project import Project, here
 from raysteps.reports.student import write_student_page
 
 RESULTS = "results.json"
@@ -21,8 +21,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "place",
         type=Path,
+        nargs="?",
+        default=here().build / "check",
         metavar="PLACE",
-        help="a results.json, or the folder that it lies in; or the folder of a class",
+        help="a results.json, the folder that it lies in, or the folder of a class; your last check when none is given",
     )
 
 

@@ -1,19 +1,56 @@
 """Which of a student's own steps are still to be written, for commands that need them."""
 
+import sys
+from collections.abc import Sequence
+
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import unfinished_functions
 
+_LAST_PICTURE = 8  # step 09 draws the same
+
+
+def _left_in(project: Project, step: Step) -> list[str]:
+    path = project.steps / step.path
+    return unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step) if path.is_file() else []
+
 
 def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
-    """Steps up to this one, and their functions that nobody has written yet. Of bonus steps only this one counts."""
-    left = []
+    """Steps up to this one, and their functions that nobody has written yet. Of bonus steps and trees only this one
+    counts: pictures can do without."""
+    steps = [step for step in read_steps(project) if step.index <= upto]
+    needed = [step for step in steps if step.index == upto or not (step.bonus or step.is_about_a_tree)]
+    return [(step, left) for step in needed if (left := _left_in(project, step))]
+
+
+def last_written(project: Project) -> int:
+    """The last step whose picture the student's own steps can draw; 0 while step 01 is not written."""
+    last = 0
     for step in read_steps(project):
-        path = project.steps / step.path
-        if step.index <= upto and step.bonus <= (upto == step.index) and path.is_file():
-            functions = unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step)
-            left += [(step, functions)] if functions else []
-    return left
+        if step.index <= _LAST_PICTURE and not _left_in(project, step):
+            last = step.index
+        elif not (step.bonus or step.is_about_a_tree):
+            break
+    return last
+
+
+def as_far_as_written(project: Project, words: Sequence[str]) -> list[str]:
+    """What to add to the words of a picture that names no step: the last one that is written, told on stderr."""
+    last = last_written(project)
+    given = words[words.index("--step") + 1 :][:1] if "--step" in words else []
+    more: list[str] = []
+    if not given and 0 < last < min(_LAST_PICTURE, read_steps(project)[-1].index):
+        print(f"raysteps: --step {last}, the last that your steps can draw", file=sys.stderr)
+        more = ["--step", str(last)]
+    step = int(given[0]) if given and given[0].isdecimal() else last
+    return [*more, *without_tree(project, step, words)]
+
+
+def without_tree(project: Project, step: int, words: Sequence[str]) -> list[str]:
+    """What to add to the words of a picture so that it needs no tree that nobody has written yet."""
+    steps = [one for one in read_steps(project) if one.index < step and one.is_about_a_tree]
+    missing = step <= _LAST_PICTURE and any(_left_in(project, one) for one in steps)
+    return ["--accel", "none"] if missing and "--accel" not in words else []
 
 
 def _elsewhere(project: Project) -> str:

@@ -48,6 +48,19 @@ class Outcome:
         except ValueError:
             return f"signal {-self.code}"
 
+    @property
+    def signal_words(self) -> str | None:
+        """The signal, and what it usually means."""
+        name = self.signal_name
+        return f"{name}: {_MEANINGS[name]}" if name in _MEANINGS else name
+
+
+_MEANINGS = {
+    "SIGSEGV": "memory that is not its own, or a recursion without an end",
+    "SIGFPE": "a whole number was divided by 0",
+    "SIGABRT": "an exception that nobody caught, or an assertion that does not hold",
+}
+
 
 def _has_ended_in_time(process: "subprocess.Popen[bytes]", pipes: Sequence[PipeReader], deadline: float) -> bool:
     """Waits until the pipes are closed and the program is gone, or only the program, or until time is up."""

@@ -30,8 +30,9 @@ _TROUBLE = {
 
 
 def blame(work: Work, step: Step, found: Mapping[str, StepResult]) -> list[str]:
-    """Earlier steps that are not right, and the pictures to compare with."""
-    wrong = [other for other in work.kit.steps if other.index < step.index and not is_right(found[other.id])]
+    """Earlier steps that are not right, and the pictures to compare with. Trees show in their own pictures only."""
+    earlier = [other for other in work.kit.steps if other.index < step.index and not other.is_about_a_tree]
+    wrong = [other for other in earlier if not is_right(found[other.id])]
     if not wrong:
         return []
     first, *others = wrong

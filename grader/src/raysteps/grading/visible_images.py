@@ -1,19 +1,23 @@
 """The pictures of a step, made with the student's code and compared."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+
+import numpy as np
 
 from raysteps.common.text import listed
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.programs.endings import ending_of
 from raysteps.programs.limits import StepLimits
-from raysteps.programs.pictures import Pixels, compare, difference, write_png
+from raysteps.programs.pictures import Comparison, Pixels, compare, difference, write_png
 from raysteps.programs.rendering import Rendered, reference_picture, reference_work, render
 from raysteps.programs.student_build import Program
 from raysteps.results.model import Cumulative, Ending, ImageResult
 from raysteps.sandbox.task import Sandbox
+
+_TREE, _NO_TREE = "--accel", "none"
 
 
 @dataclass
@@ -28,6 +32,10 @@ class Gallery:
 
     def hung(self) -> None:
         self.limits = self.limits.after_a_timeout()
+
+    def args_of(self, case: ImageCase) -> tuple[str, ...]:
+        """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""
+        return case.args if self.kit.has_reference or case.has_tree else (*case.args, _TREE, _NO_TREE)
 
     def render(self, program: Program, scene: Path, args: tuple[str, ...]) -> Rendered:
         rendered = render(self.sandbox, program, scene, args, self.limits.of_program())
@@ -58,7 +66,7 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
     reference = reference_picture(gallery.kit, scene, case.args)
-    rendered = gallery.render(program, scene, case.args)
+    rendered = gallery.render(program, scene, gallery.args_of(case))
     result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share)
     result.seconds = round(rendered.ran.outcome.seconds, 2)
     folder = Path("pictures") / step.id
@@ -72,6 +80,8 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(rendered.pixels, gallery.out / result.mine)
     verdict = compare(rendered.pixels, reference, case.max_wrong)
+    if not (verdict.passed or gallery.kit.has_reference) and case.has_tree:
+        verdict = _beside_no_tree(gallery, program, scene, case, rendered.pixels) or verdict
     result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
     if case.max_share is not None:
         result.work, result.reference_work = rendered.work, reference_work(gallery.kit, scene, case.args)
@@ -84,6 +94,20 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
         result.difference = (folder / f"{case.name}-difference.png").as_posix()
         write_png(difference(rendered.pixels, reference), gallery.out / result.difference)
     return result
+
+
+def _beside_no_tree(
+    gallery: Gallery, program: Program, scene: Path, case: ImageCase, pixels: Pixels
+) -> Comparison | None:
+    """A tree must change no pixel. So where earlier steps are the student's, too, a picture is right if it is the one
+    that the same program draws without a tree; none where it is not, or shows nothing."""
+    at = case.args.index(_TREE) + 1
+    plain = gallery.render(program, scene, (*case.args[:at], _NO_TREE, *case.args[at + 1 :])).pixels
+    if plain is None or int(np.ptp(pixels)) == 0:
+        return None
+    verdict = compare(pixels, plain, case.max_wrong)
+    words = "The same as without a tree; what differs from the reference comes from an earlier step."
+    return replace(verdict, message=words) if verdict.passed else None
 
 
 def judge_together(

@@ -20,6 +20,11 @@ class ImageCase:
     max_wrong: float
     max_share: float | None = None
 
+    @property
+    def has_tree(self) -> bool:
+        """Whether it asks for a tree by name."""
+        return "--accel" in self.args
+
 
 @dataclass(frozen=True)
 class Step:
@@ -50,6 +55,11 @@ class Step:
     @property
     def index(self) -> int:
         return int(self.number)
+
+    @property
+    def is_about_a_tree(self) -> bool:
+        """Whether it changes what a picture costs, and not what it shows."""
+        return any(case.has_tree for case in self.images)
 
     @property
     def file(self) -> str:

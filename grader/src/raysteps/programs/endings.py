@@ -15,7 +15,7 @@ def ending_of(ran: Ran, what: str) -> tuple[Ending, str]:
     if outcome.timed_out or ran.stopped in ("wall", "cpu"):
         return "timeout", f"{what} was not ready after {in_seconds(outcome.seconds)}. {ENDLESS}"
     if outcome.signal_name is not None:
-        return "crashed", f"{what} was not made: the program crashed ({outcome.signal_name})."
+        return "crashed", f"{what} was not made: the program crashed ({outcome.signal_words})."
     if outcome.code != 0:
         said = shorten(printable(outcome.stderr.strip().rpartition("\n")[2]), 200)
         return "crashed", f"{what} was not made: the program gave up with exit code {outcome.code}" + (

@@ -53,7 +53,7 @@ def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -
     files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)
     files |= {name: for_editor(files[name], steps) for name in _EDITORS if name in files}
-    word_for_students(files)
+    word_for_students(files, steps)
     add_pictures(files, kit.project.root)
     refuse_untracked(kit.project.root, files)
     unlink_missing(files)

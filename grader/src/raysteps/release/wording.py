@@ -3,6 +3,9 @@
 import re
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.text import number
+from raysteps.grading.scoring import most_points
+from raysteps.kit.manifest import Step
 
 # A mark on a line of its own goes with the line; marks within a line leave the rest of it as it is.
 _WHOLE = re.compile(
@@ -37,7 +40,18 @@ def for_students(page: str, text: str) -> str:
     return _without_gaps(chosen)
 
 
-def word_for_students(files: dict[str, bytes]) -> None:
+def as_printed(text: str, step: Step) -> str:
+    """What `check` prints of a right step there: the points of the visible part, and nothing hidden."""
+    whole, seen = number(most_points(step, judged=True)), number(most_points(step, judged=False))
+    text = text.replace(f": passed, {whole} of {whole}", f": passed, {seen} of {seen}")
+    return re.sub(r"^  hidden   all [0-9]+ passed\n", "", text, flags=re.MULTILINE)
+
+
+def word_for_students(files: dict[str, bytes], steps: list[Step]) -> None:
     """All pages among the files."""
     for page in [name for name in files if name.endswith(".md")]:
         files[page] = for_students(page, files[page].decode()).encode()
+    for step in steps:
+        page = f"steps/{step.id}/README.md"
+        if page in files:
+            files[page] = as_printed(files[page].decode(), step).encode()

@@ -13,7 +13,7 @@ from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
 from raysteps.commands.inspect.values import Record
 from raysteps.commands.render import build_program
-from raysteps.commands.unfinished import unfinished
+from raysteps.commands.unfinished import as_far_as_written, unfinished
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.formats import encoded, write_out
@@ -51,14 +51,13 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
         if not re.fullmatch(r"[0-9]{1,5}", text):
             raise UsageError(f"{name}: expected a pixel, a whole number from 0 on, found '{text}'")
     steps = read_steps(project)
-    (step,) = choose(steps, [arguments.step or str(min(_MOST_SHOWN, steps[-1].index))])
-    options = [
-        word
-        for name in ("size", "depth", "view", "accel")
-        if getattr(arguments, name) is not None
-        for word in (f"--{name}", getattr(arguments, name))
-    ]
-    return Wish(arguments.scene, arguments.x, arguments.y, step.index, tuple(options))
+    named = ["step", "size", "depth", "view", "accel"]
+    words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
+    if arguments.impl == "mine":
+        words += as_far_as_written(project, words)
+    at = words.index("--step") if "--step" in words else len(words)
+    (step,) = choose(steps, words[at + 1 : at + 2] or [str(min(_MOST_SHOWN, steps[-1].index))])
+    return Wish(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
 
 
 def _say_unfinished(project: Project, wish: Wish) -> None:

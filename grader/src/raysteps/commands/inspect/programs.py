@@ -43,7 +43,7 @@ def _problem(outcome: Outcome) -> str:
     if outcome.timed_out:
         return f"did not come to an end in {in_seconds(_SECONDS)}. Is there an endless loop?"
     if outcome.signal_name is not None:
-        return f"crashed ({outcome.signal_name}). An endless recursion or an index out of range may do that."
+        return f"crashed ({outcome.signal_words})."
     return f"gave up with exit code {outcome.code}" if outcome.code != 0 else ""
 
 

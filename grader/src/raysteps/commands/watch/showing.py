@@ -30,7 +30,7 @@ HELP = """h      the next hint of this step
 n      go on to the next step that is not done
 l      the steps, and where you stand
 i      look into the pixel that is most wrong
-c      check all of this step now: hidden cases, diagnosis, points
+c      check all of this step now, and count the points
 r      put the stub back (asks first; your file is kept)
 space  build, test and draw once more
 q      quit"""

@@ -1,0 +1,73 @@
+// As most books write it: the quadratic equation of the sphere in floats, and its normal divided by the radius. Both lose
+// digits that mirrors magnify.
+#include "steps/02-intersection/intersection.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace raysteps {
+
+namespace {
+
+/// Whether the point, which lies in the plane, is on the inner side of the edge.
+bool on_inner_side(const glm::vec3& start, const glm::vec3& end, const glm::vec3& plane_normal,
+                   const glm::vec3& point) {
+    return glm::dot(glm::cross(end - start, point - start), plane_normal) >= 0.0F;
+}
+
+HitRecord record_hit(const Surface& surface, const Ray& ray, float distance, const glm::vec3& position,
+                     const glm::vec3& outward) {
+    const bool from_outside = glm::dot(outward, ray.direction) < 0.0F;
+    return {position, surface.fill(), from_outside ? outward : -outward, ray.direction, distance, from_outside};
+}
+
+}  // namespace
+
+std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
+    const glm::vec3 plane_normal = glm::cross(b_ - a_, c_ - a_);
+    const float approach = glm::dot(plane_normal, ray.direction);
+    if (approach == 0.0F) {
+        return std::nullopt;  // the ray runs along the plane
+    }
+    const float distance = glm::dot(plane_normal, a_ - ray.origin) / approach;
+    if (!(distance > 0.0F)) {
+        return std::nullopt;
+    }
+    const glm::vec3 point = point_at(ray, distance);
+    const bool inside = on_inner_side(a_, b_, plane_normal, point) && on_inner_side(b_, c_, plane_normal, point) &&
+                        on_inner_side(c_, a_, plane_normal, point);
+    if (!inside) {
+        return std::nullopt;
+    }
+    return record_hit(*this, ray, distance, point, glm::normalize(plane_normal));
+}
+
+std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
+    const glm::vec3 m = ray.origin - center_;
+    const float b = glm::dot(m, ray.direction);
+    const float q = glm::dot(m, m) - radius_ * radius_;
+    const float discriminant = b * b - q;
+    if (discriminant < 0.0F) {
+        return std::nullopt;
+    }
+    const float root = std::sqrt(discriminant);
+    const float distance = -b - root > 0.0F ? -b - root : -b + root;
+    if (!(distance > 0.0F)) {
+        return std::nullopt;
+    }
+    const glm::vec3 point = point_at(ray, distance);
+    return record_hit(*this, ray, distance, point, (point - center_) / radius_);
+}
+
+std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {
+    std::optional<HitRecord> closest;
+    for (const Surface* surface : surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        if (hit && (!closest || hit->distance < closest->distance)) {
+            closest = hit;
+        }
+    }
+    return closest;
+}
+
+}  // namespace raysteps
