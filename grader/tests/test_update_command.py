@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
-from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, release
+from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, mine, newer, release
 
 from raysteps import students_cli
 from raysteps.commands import update as command
@@ -13,18 +13,7 @@ from raysteps.common.errors import UsageError
 from raysteps.kit.project import Project
 from raysteps.students.listing import PLACE
 
-
-@pytest.fixture
-def mine(tmp_path: Path) -> Path:
-    root = release(tmp_path / "mine", OLD, STEPS[:2])
-    for name, data in WORK.items():
-        (root / name).write_bytes(data)
-    return root
-
-
-@pytest.fixture
-def newer(tmp_path: Path) -> Path:
-    return release(tmp_path / "newer", NEW)
+__all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
 
 def _run(root: Path, *words: object) -> int:

@@ -6,22 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from update_kits import NEW, OLD, OWN, STEPS, WORK, files_of, release, update
+from update_kits import OLD, OWN, STEPS, WORK, files_of, mine, newer, release, update
 
 from raysteps.common.errors import UsageError
 
-
-@pytest.fixture
-def mine(tmp_path: Path) -> Path:
-    root = release(tmp_path / "mine", OLD, STEPS[:2])
-    for name, data in WORK.items():
-        (root / name).write_bytes(data)
-    return root
-
-
-@pytest.fixture
-def newer(tmp_path: Path) -> Path:
-    return release(tmp_path / "newer", NEW)
+__all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
 
 def _folder_for_a_file(root: Path) -> None:

@@ -6,23 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, release, update, zipped
+from update_kits import NEW, OWN, STEPS, WORK, expect_done, files_of, mine, newer, release, update, zipped
 
 from raysteps.common.errors import UsageError
 from raysteps.students.listing import PLACE, Listed, Release, encoded
 
-
-@pytest.fixture
-def mine(tmp_path: Path) -> Path:
-    root = release(tmp_path / "mine", OLD, STEPS[:2])
-    for name, data in WORK.items():
-        (root / name).write_bytes(data)
-    return root
-
-
-@pytest.fixture
-def newer(tmp_path: Path) -> Path:
-    return release(tmp_path / "newer", NEW)
+__all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
 
 def _refused(mine: Path, kit: Path, words: str) -> None:

@@ -4,6 +4,8 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
+import pytest
+
 from raysteps.students.listing import PLACE, Listed, Release, encoded, mark, read_release
 from raysteps.students.source import open_source
 from raysteps.students.updating import Changes, Update
@@ -46,6 +48,20 @@ def release(folder: Path, files: Mapping[str, bytes], steps: tuple[str, ...] = S
     (folder / PLACE).parent.mkdir(parents=True, exist_ok=True)
     (folder / PLACE).write_bytes(encoded(Release(course, folder.name, steps, tuple(files_listed))))
     return folder
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> Path:
+    """A repository with work in it."""
+    root = release(tmp_path / "mine", OLD, STEPS[:2])
+    for name, data in WORK.items():
+        (root / name).write_bytes(data)
+    return root
+
+
+@pytest.fixture
+def newer(tmp_path: Path) -> Path:
+    return release(tmp_path / "newer", NEW)
 
 
 def update(root: Path, kit: Path) -> Changes:
