@@ -172,7 +172,7 @@ TEST_CASE("primary_ray: x runs to the right and y down", "[01-camera-rays][prima
 
 TEST_CASE("primary_ray: the handout's worked example - unit length", "[01-camera-rays][primary_ray][part]") {
     const Ray ray = primary_ray(straight_camera(4, 2), straight_frame(2.0F, 1.0F), 3, 0);
-    INFO("(1.5, 0.5, -1) has length 1.8708; the direction must have length 1: normalise it");
+    INFO("the pixel's point is (1.5, 0.5, -1); its length is 1.8708, and divided by that it is the direction");
     CHECK_THAT(ray.direction, IsNear({0.8018F, 0.2673F, -0.5345F}, 1e-3F));
 }
 
@@ -187,12 +187,16 @@ TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01
         CAPTURE(camera.from, camera.at, camera.width, camera.height, x, y);
         const Ray ray = primary_ray(camera, frame, x, y);
         REQUIRE_THAT(ray.origin, IsNear(camera.from));
-        INFO("the direction must have length 1 and has " << glm::length(ray.direction));
-        REQUIRE_THAT(ray.direction, IsUnitLength());
+        {
+            INFO("the direction must have length 1 and has " << glm::length(ray.direction));
+            REQUIRE_THAT(ray.direction, IsUnitLength());
+        }
         // Back from the direction to the pixel: where does the ray cross the image plane?
         const float depth = glm::dot(ray.direction, frame.forward);
-        INFO("the ray must go forward");
-        REQUIRE(depth > 0.0F);
+        {
+            INFO("the ray must go forward");
+            REQUIRE(depth > 0.0F);
+        }
         const float across = glm::dot(ray.direction, frame.right) / depth / frame.half_width;
         const float upwards = glm::dot(ray.direction, frame.up) / depth / frame.half_height;
         INFO("the ray must come out at the pixel's centre, (x + 0.5, y + 0.5) in pixels");
