@@ -52,6 +52,17 @@ def test_history_and_build_stay(older: Path, kit: BuiltKit, steps: list[Step]) -
     assert [path.name for path in older.parent.iterdir()] == ["course"]
 
 
+def test_what_setting_up_leaves_does_not_stand_in_the_way(older: Path, kit: BuiltKit, steps: list[Step]) -> None:
+    for name in ("grader/src/raysteps.egg-info/PKG-INFO", "scenes/__pycache__/generate.cpython-311.pyc"):
+        (older / name).parent.mkdir()
+        (older / name).write_bytes(b"made")
+    assert _released(kit, steps, older, "Autumn")
+    assert not (older / "scenes" / "__pycache__").exists()
+    (older / "scenes" / "egg-information").write_bytes(b"mine")
+    with pytest.raises(UsageError, match="egg-information: is not of the release"):
+        usable(older)
+
+
 def test_a_history_that_tells_is_not_taken_over(
     older: Path, kit: BuiltKit, steps: list[Step], solved: dict[str, str]
 ) -> None:
