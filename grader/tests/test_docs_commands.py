@@ -15,6 +15,7 @@ from raysteps.upkeep.site.shell import Typed, typed
 # Why these are only read here, and not run.
 _ONLY_READ = {
     "bench": "takes minutes",
+    "compare": "needs two pictures; test_compare does it",
     "check": "builds and grades the steps of whoever runs the tests; test_grading does it with known ones",
     "demo": "takes a minute; ./raysteps test runs it",
     "dev": "takes minutes; ./raysteps test runs what matters",

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 from rich.console import Console
 
-from raysteps.commands import report_page
+from raysteps.commands import compare, report_page
 from raysteps.commands.check import check
 from raysteps.commands.course import command as course
 from raysteps.commands.ending import EXITS, console_here, ended
@@ -42,6 +42,7 @@ def add_arguments(add_command: Commands) -> None:
     add.add_argument("args", nargs=argparse.REMAINDER)
     add = add_command("check", help="check your own steps")
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
+    compare.add_arguments(add_command("compare", help="two pictures, pixel by pixel"))
     report_page.add_arguments(add_command("report", help="make report.html of results that are there already"))
 
 
@@ -54,6 +55,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return inspect.run(project, arguments, console)
         case "check":
             return check(project, arguments.steps, console)
+        case "compare":
+            return compare.run(arguments, console)
         case "report":
             return report_page.run(project, arguments, console)
         case name if name in course.COMMANDS:

@@ -1,0 +1,42 @@
+"""The command `compare`."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from raysteps.cli import main
+from raysteps.programs.pictures import write_png
+
+
+def _picture(path: Path, *, red: int = 10, size: tuple[int, int] = (4, 6)) -> str:
+    pixels = np.full((*size, 3), 100, dtype=np.uint8)
+    pixels[2, 5, 0] = red
+    write_png(pixels, path)
+    return str(path)
+
+
+def test_where_two_pictures_differ_most(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    mine, other, out = _picture(tmp_path / "a.png"), _picture(tmp_path / "b.png", red=30), tmp_path / "d.png"
+    assert main(["compare", mine, other, "-o", str(out)]) == 1
+    said = capsys.readouterr().out
+    assert "1 of 24 pixels (4.17%) differ by more than 2 of 255" in said
+    assert "x=5, y=2: (10, 100, 100) and (30, 100, 100)" in said
+    shown = np.asarray(Image.open(out))
+    assert shown[2, 5].tolist() == [160, 0, 0]
+    assert int(shown.sum()) == 160
+
+
+def test_rounding_is_no_difference(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["compare", _picture(tmp_path / "a.png"), _picture(tmp_path / "b.png", red=12)]) == 0
+    assert "0 of 24 pixels" in capsys.readouterr().out
+
+
+def test_what_cannot_be_compared_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    mine = _picture(tmp_path / "a.png")
+    assert main(["compare", mine, _picture(tmp_path / "b.png", size=(6, 6))]) == 2
+    assert "is 6x4 pixels, and the other 6x6" in capsys.readouterr().err
+    assert main(["compare", mine, str(tmp_path / "none.png")]) == 2
+    assert "none.png: expected a picture" in capsys.readouterr().err
+    assert main(["compare", mine, mine, "-o", str(tmp_path / "d.jpg")]) == 2
