@@ -4,15 +4,19 @@ import json
 import os
 import signal
 import sqlite3
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
 import pytest
-from class_fakes import start_class, write_entry
+from class_fakes import FAKE, start_class, write_entry
 
 from raysteps.classroom.keys import without_times
+from raysteps.classroom.messages import Job
+from raysteps.submission.intake import Submission
 
 _PATIENCE = 60
 
@@ -111,6 +115,27 @@ def test_killed(tmp_path: Path) -> None:
     assert tables[0] == tables[1]
     states = [run["state"] for run in json.loads((out / "class.json").read_text())["runs"]]
     assert states == ["interrupted", "complete"]
+
+
+def test_nobody_waits_for_the_answer(tmp_path: Path) -> None:
+    """As when the class is killed just before it: the process of a worker still ends with all that it left."""
+    scratch = tmp_path / "scratch" / "of a worker"
+    scratch.mkdir()
+    settings = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
+    job = Job(Submission("a", {}, {}, {}), settings, FAKE, "fake-kit")
+    command = [sys.executable, "-P", "-m", "raysteps.classroom.worker", str(scratch)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdout.close()
+        process.stdin.write(json.dumps(job.to_json()).encode() + b"\n")
+        process.stdin.flush()
+        _wait_for(lambda: _log(tmp_path, "end") == ["a"])
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(1)  # the answer has been given to nobody
+        process.stdin.close()
+        process.wait(_PATIENCE)
+    _wait_for(lambda: not scratch.exists())
 
 
 def test_two_at_once(tmp_path: Path) -> None:

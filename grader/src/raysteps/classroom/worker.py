@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NoReturn
 
 from raysteps.classroom.desk import Desk
 from raysteps.classroom.messages import Job
@@ -37,13 +37,20 @@ class _Worker:
             time.sleep(_LONGEST_END)
         os._exit(1)
 
-    def run(self, answers: BinaryIO) -> None:
-        threading.Thread(target=self._listen, daemon=True).start()
+    def _answer_all(self, answers: BinaryIO) -> NoReturn:
         desk = Desk(_say)
         while True:
             answer = desk.grade(Job.from_json(json.loads(self._jobs.get())))
             answers.write(json.dumps(answer.to_json()).encode() + b"\n")
             answers.flush()
+
+    def run(self, answers: BinaryIO) -> None:
+        """An answer may be ready just when nobody waits for it any more; then, too, the listener ends it all."""
+        listener = threading.Thread(target=self._listen, daemon=True)
+        listener.start()
+        with contextlib.suppress(BrokenPipeError):
+            self._answer_all(answers)
+        listener.join()
 
 
 def main() -> None:
