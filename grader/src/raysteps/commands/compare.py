@@ -3,13 +3,21 @@
 import argparse
 from pathlib import Path
 
-import numpy as np
-from PIL import Image
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.programs.pictures import TOLERANCE, PictureError, Pixels, difference, read_ppm, write_png
+from raysteps.programs.pictures import (
+    TOLERANCE,
+    PictureError,
+    Pixels,
+    difference,
+    gaps,
+    read_png,
+    read_ppm,
+    widest,
+    write_png,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,8 +31,7 @@ def _read(path: Path) -> Pixels:
     try:
         if path.suffix.lower() == ".ppm":
             return read_ppm(path)
-        with Image.open(path, formats=["PNG"]) as picture:
-            return np.asarray(picture.convert("RGB"), dtype=np.uint8)
+        return read_png(path)
     except (OSError, ValueError, PictureError) as error:
         raise UsageError(f"{path}: expected a picture, .png or .ppm: {error}") from error
 
@@ -37,11 +44,11 @@ def run(arguments: argparse.Namespace, console: Console) -> int:
     if mine.shape != reference.shape:
         sizes = [f"{pixels.shape[1]}x{pixels.shape[0]}" for pixels in (mine, reference)]
         raise UsageError(f"{arguments.mine}: is {sizes[0]} pixels, and the other {sizes[1]}; expected one size")
-    gap = np.abs(mine.astype(np.int16) - reference.astype(np.int16)).max(axis=2)
+    gap = gaps(mine, reference)
     wrong = int((gap > TOLERANCE).sum())
     console.print(f"{wrong} of {gap.size} pixels ({wrong / gap.size:.2%}) differ by more than {TOLERANCE} of 255.")
     if gap.any():
-        y, x = (int(index) for index in np.unravel_index(int(gap.argmax()), gap.shape))
+        x, y = widest(gap)
         colors = f"{tuple(mine[y, x].tolist())} and {tuple(reference[y, x].tolist())}"
         console.print(f"The largest difference is at x={x}, y={y}: {colors}.", highlight=False)
     if arguments.out is not None:

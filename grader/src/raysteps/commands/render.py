@@ -6,17 +6,14 @@ import sys
 import tempfile
 from pathlib import Path
 
-from raysteps.commands.unfinished import advice, as_far_as_written
+from raysteps.commands.unfinished import advice, as_far_as_written, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
-from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project, here
 from raysteps.programs.pictures import PictureError, read_ppm, write_png
-
-_USUAL_STEP = 8  # as raytrace has it, where the kit goes so far
 
 
 def take_impl(args: list[str]) -> tuple[str, list[str]]:
@@ -88,14 +85,6 @@ def run_raytrace(program: Path, args: list[str]) -> None:
         raise SystemExit(code)
 
 
-def _wanted_step(project: Project, args: list[str]) -> int:
-    """Of the picture; raytrace itself complains about what is no step."""
-    if "--step" not in args[:-1]:
-        return min(_USUAL_STEP, read_steps(project)[-1].index)
-    word = args[args.index("--step") + 1]
-    return int(word) if re.fullmatch("[0-9]{1,2}", word) else 0
-
-
 def render(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and a name in .png makes a PNG."""
     impl, args = take_impl(args)
@@ -107,7 +96,7 @@ def render(project: Project, args: list[str]) -> int:
     )
     if impl == "mine" and at < len(args):
         args = [*args, *as_far_as_written(project, args)]
-        said = advice(project, _wanted_step(project, args))
+        said = advice(project, wanted_step(project, args))
         if said:
             print(f"raysteps: {said}", file=sys.stderr)
     if at >= len(args) or Path(args[at]).suffix.lower() != ".png":

@@ -1,5 +1,6 @@
 """Which of a student's own steps are still to be written, for commands that need them."""
 
+import re
 import sys
 from collections.abc import Sequence
 
@@ -34,16 +35,30 @@ def last_written(project: Project) -> int:
     return last
 
 
+def usual_step(project: Project) -> int:
+    """Of a picture that names none, as raytrace has it."""
+    return min(_LAST_PICTURE, read_steps(project)[-1].index)
+
+
+def wanted_step(project: Project, words: Sequence[str]) -> int:
+    """Of the picture with these words; raytrace itself complains about what is no step."""
+    if "--step" not in words[:-1]:
+        return usual_step(project)
+    word = words[words.index("--step") + 1]
+    return int(word) if re.fullmatch("[0-9]{1,2}", word) else 0
+
+
 def as_far_as_written(project: Project, words: Sequence[str]) -> list[str]:
     """What to add to the words of a picture that names no step: the last one that is written, told on stderr."""
-    last = last_written(project)
-    given = words[words.index("--step") + 1 :][:1] if "--step" in words else []
     more: list[str] = []
-    if not given and 0 < last < min(_LAST_PICTURE, read_steps(project)[-1].index):
-        print(f"raysteps: --step {last}, the last that your steps can draw", file=sys.stderr)
-        more = ["--step", str(last)]
-    step = int(given[0]) if given and given[0].isdecimal() else last
-    return [*more, *without_tree(project, step, words)]
+    if "--step" not in words:
+        last = last_written(project)
+        if last == 0:
+            return []
+        if last < usual_step(project):
+            print(f"raysteps: --step {last}, the last that your steps can draw", file=sys.stderr)
+            more = ["--step", str(last)]
+    return [*more, *without_tree(project, wanted_step(project, [*words, *more]), words)]
 
 
 def without_tree(project: Project, step: int, words: Sequence[str]) -> list[str]:

@@ -9,14 +9,14 @@ import numpy.typing as npt
 
 from raysteps.diagnosis.answers import Answers, Questions
 from raysteps.kit.manifest import ImageCase
-from raysteps.programs.pictures import TOLERANCE, Pixels, is_flat
+from raysteps.programs.pictures import TOLERANCE, Pixels, gaps, is_flat
 
 Mask = npt.NDArray[np.bool_]
 
 
 def differing(one: Pixels, other: Pixels, tolerance: int = TOLERANCE) -> Mask:
     """The pixels in which two pictures of one size are not the same."""
-    mask: Mask = np.abs(one.astype(np.int16) - other.astype(np.int16)).max(axis=2) > tolerance
+    mask: Mask = gaps(one, other) > tolerance
     return mask
 
 

@@ -4,14 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import numpy as np
-
 from raysteps.common.text import listed
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.programs.endings import ending_of
 from raysteps.programs.limits import StepLimits
-from raysteps.programs.pictures import Comparison, Pixels, compare, difference, write_png
+from raysteps.programs.pictures import Comparison, Pixels, compare, difference, is_flat, write_png
 from raysteps.programs.rendering import Rendered, reference_picture, reference_work, render
 from raysteps.programs.student_build import Program
 from raysteps.results.model import Cumulative, Ending, ImageResult
@@ -103,7 +101,7 @@ def _beside_no_tree(
     that the same program draws without a tree; none where it is not, or shows nothing."""
     at = case.args.index(_TREE) + 1
     plain = gallery.render(program, scene, (*case.args[:at], _NO_TREE, *case.args[at + 1 :])).pixels
-    if plain is None or int(np.ptp(pixels)) == 0:
+    if plain is None or is_flat(pixels):
         return None
     verdict = compare(pixels, plain, case.max_wrong)
     words = "The same as without a tree; what differs from the reference comes from an earlier step."

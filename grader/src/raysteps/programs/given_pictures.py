@@ -5,16 +5,13 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from PIL import Image
-
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_json
 from raysteps.common.marks import mark
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import ImageCase, Step
 from raysteps.kit.project import Project
-from raysteps.programs.pictures import Pixels, write_png
+from raysteps.programs.pictures import Pixels, read_png, write_png
 from raysteps.results.work import Work
 
 _AGAIN = "take it from a fresh copy of the kit, or let ./raysteps update put it back"
@@ -62,8 +59,7 @@ def given_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
     """The picture of one of the manifests' cases."""
     path = _find(kit, scene, args).path
     try:
-        with Image.open(path, formats=["PNG"]) as picture:
-            return np.asarray(picture.convert("RGB"), dtype=np.uint8)
+        return read_png(path)
     except (OSError, ValueError) as error:
         raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
 

@@ -15,6 +15,7 @@ from PIL import Image
 from raysteps.common.files import open_regular, write_bytes
 
 Pixels: TypeAlias = npt.NDArray[np.uint8]
+Gaps: TypeAlias = npt.NDArray[np.int16]
 
 _HEADER = re.compile(rb"P6\s+([0-9]{1,5})\s+([0-9]{1,5})\s+255\s")
 _MAX_BYTES = 200 << 20
@@ -54,6 +55,12 @@ def parse_ppm(data: bytes) -> Pixels:
     return np.frombuffer(data, dtype=np.uint8, offset=header.end()).reshape(height, width, 3)
 
 
+def read_png(path: Path) -> Pixels:
+    """Without transparency. OSError or ValueError where it is no PNG."""
+    with Image.open(path, formats=["PNG"]) as picture:
+        return np.asarray(picture.convert("RGB"), dtype=np.uint8)
+
+
 def write_png(pixels: Pixels, path: Path) -> None:
     """Writes to a temporary name, then renames."""
     data = io.BytesIO()
@@ -64,6 +71,18 @@ def write_png(pixels: Pixels, path: Path) -> None:
 def is_flat(pixels: Pixels) -> bool:
     """Whether all pixels have one colour."""
     return bool((pixels == pixels[0, 0]).all())
+
+
+def gaps(one: Pixels, other: Pixels) -> Gaps:
+    """For each pixel of two pictures of one size, the difference of the channel that differs most."""
+    largest: Gaps = np.abs(one.astype(np.int16) - other.astype(np.int16)).max(axis=2)
+    return largest
+
+
+def widest(gap: Gaps) -> tuple[int, int]:
+    """The column and the row of the largest."""
+    y, x = (int(index) for index in np.unravel_index(int(gap.argmax()), gap.shape))
+    return x, y
 
 
 def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
@@ -90,8 +109,7 @@ def compare(mine: Pixels, reference: Pixels, max_wrong: float) -> Comparison:
     """Passes when the share of pixels whose largest channel difference exceeds 2/255 is small enough."""
     if mine.shape != reference.shape:
         return Comparison(False, 1.0, f"The picture is {_size(mine)} pixels, expected {_size(reference)}.")
-    gap = np.abs(mine.astype(np.int16) - reference.astype(np.int16)).max(axis=2)
-    wrong = gap > TOLERANCE
+    wrong = gaps(mine, reference) > TOLERANCE
     share = float(wrong.mean())
     if is_flat(mine) and not is_flat(reference):
         return Comparison(False, share, "The whole picture has one colour.")

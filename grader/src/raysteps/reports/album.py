@@ -5,11 +5,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from PIL import Image
-
 from raysteps.pages.flip import flip_map
 from raysteps.pages.picture_data import NotAPicture, PictureData, picture_data, pixel_data
+from raysteps.programs.pictures import read_png
 
 _MOST_PIXELS = 1 << 22
 
@@ -56,8 +54,7 @@ def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]
         path = _path(folder, image[role])
         assert path is not None
         try:
-            with Image.open(path, formats=["PNG"]) as picture:
-                pixels.append(np.asarray(picture.convert("RGB"), dtype=np.uint8))
+            pixels.append(read_png(path))
         except (OSError, ValueError):
             return None
     gray = flip_map(pixels[0], pixels[1])

@@ -13,15 +13,13 @@ from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
 from raysteps.commands.inspect.values import Record
 from raysteps.commands.render import build_program
-from raysteps.commands.unfinished import as_far_as_written, unfinished
+from raysteps.commands.unfinished import as_far_as_written, unfinished, usual_step
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
 from raysteps.exports.formats import encoded, write_out
 from raysteps.kit.building import release_tree
 from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project
-
-_MOST_SHOWN = 8  # step 09 draws the same picture
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,7 +54,7 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
     if arguments.impl == "mine":
         words += as_far_as_written(project, words)
     at = words.index("--step") if "--step" in words else len(words)
-    (step,) = choose(steps, words[at + 1 : at + 2] or [str(min(_MOST_SHOWN, steps[-1].index))])
+    (step,) = choose(steps, words[at + 1 : at + 2] or [str(usual_step(project))])
     return Wish(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
 
 

@@ -5,25 +5,22 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-from PIL import Image
-
 from raysteps.commands.watch.view import View
 from raysteps.kit.project import Project
+from raysteps.programs.pictures import gaps, read_png, widest
 from raysteps.reports.commands import inspect_words
 
 
 def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
     """The column and the row; none where the pictures cannot be compared or are the same."""
     try:
-        one, other = (np.asarray(Image.open(path).convert("RGB"), dtype=np.int16) for path in (mine, reference))
+        one, other = read_png(mine), read_png(reference)
     except OSError:
         return None
     if one.shape != other.shape:
         return None
-    gap = np.abs(one - other).max(axis=2)
-    y, x = (int(index) for index in np.unravel_index(int(gap.argmax()), gap.shape))
-    return (x, y) if gap[y, x] > 0 else None
+    gap = gaps(one, other)
+    return widest(gap) if gap.any() else None
 
 
 def command_of_worst(view: View) -> list[str] | None:

@@ -8,14 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import one_at_a_time, write_json
 from raysteps.common.process import run
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.scenes import generated
-from raysteps.programs.pictures import Pixels
+from raysteps.programs.pictures import Pixels, gaps
 from raysteps.upkeep.figures import variants
 from raysteps.upkeep.figures.variants import Variant, with_knobs
 
@@ -90,8 +88,7 @@ def depths(kit: BuiltKit) -> Measured:
 
 
 def _share(pixels: Pixels, right: Pixels) -> float:
-    gap = np.abs(pixels.astype(np.int16) - right.astype(np.int16)).max(axis=2)
-    return float((gap > 8).mean())
+    return float((gaps(pixels, right) > 8).mean())
 
 
 def thresholds(kit: BuiltKit) -> Measured:
