@@ -1,9 +1,15 @@
 """The build folder of the kit."""
 
+import json
+import shutil
+import subprocess
 from pathlib import Path
 
-from raysteps.kit.building import BuildTree
+import pytest
+
+from raysteps.kit.building import BuildTree, release_tree
 from raysteps.kit.project import Project
+from raysteps.upkeep.compiler_cache import use_compiler_cache
 
 
 def test_a_build_folder_of_another_clone_is_configured_anew(tmp_path: Path) -> None:
@@ -21,3 +27,43 @@ def test_a_build_folder_of_another_clone_is_configured_anew(tmp_path: Path) -> N
     tree.forget_other_home()
     assert not cache.exists()
     assert not (tree.folder / "CMakeFiles").exists()
+
+
+_PRESETS = {
+    "version": 3,
+    "configurePresets": [{"name": "release", "cacheVariables": {"CMAKE_BUILD_TYPE": "Release"}}],
+}
+_LISTS = """cmake_minimum_required(VERSION 3.22)
+project(tiny LANGUAGES CXX)
+add_executable(tiny main.cpp)
+target_include_directories(tiny PRIVATE include)
+"""
+
+
+def _tiny(root: Path) -> Project:
+    (root / "include").mkdir(parents=True)
+    (root / "CMakePresets.json").write_text(json.dumps(_PRESETS))
+    (root / "CMakeLists.txt").write_text(_LISTS)
+    (root / "include" / "answer.hpp").write_text("#pragma once\ninline int answer() { return 42; }\n")
+    (root / "main.cpp").write_text('#include "answer.hpp"\nint main() { return answer(); }\n')
+    return Project(root)
+
+
+def _hits() -> int:
+    done = subprocess.run(["ccache", "--print-stats"], capture_output=True, text=True, check=True)
+    counted = dict(line.split("\t") for line in done.stdout.splitlines())
+    return int(counted["direct_cache_hit"]) + int(counted["preprocessed_cache_hit"])
+
+
+@pytest.mark.skipif(not (shutil.which("ccache") and shutil.which("ninja")), reason="needs ccache and ninja")
+def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("CMAKE_CXX_COMPILER_LAUNCHER", "CCACHE_DIR", "CCACHE_NOHASHDIR"):
+        monkeypatch.setenv(name, "")  # so that what is set now is forgotten again
+    use_compiler_cache(Project(tmp_path))
+    for name, hits in (("one", 0), ("far/the other", 1)):
+        tree = release_tree(_tiny(tmp_path / name))
+        tree.configure()
+        subprocess.run(["ccache", "--zero-stats"], capture_output=True, check=True)  # CMake tries the compiler
+        outcome = tree.build([])
+        assert outcome.code == 0, outcome.stderr
+        assert _hits() == hits

@@ -76,7 +76,8 @@ class BuildTree:
     def build(self, targets: list[str]) -> Outcome:
         """Builds the targets (all of them when there are none)."""
         self.configure()
-        command: list[str | Path] = ["cmake", "--build", self.folder]
+        cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for who uses ccache: copies of the kit share it
+        command: list[str | Path] = ["cmake", "-E", "env", cached, "cmake", "--build", self.folder]
         if "CMAKE_BUILD_PARALLEL_LEVEL" not in os.environ:
             command.append("--parallel")
         if targets:

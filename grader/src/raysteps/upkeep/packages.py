@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 _SECONDS = 1200
 
+CACHE = ("ccache",)
 CLANG = ("clang",)
 MINGW = ("g++-mingw-w64-x86-64-posix", "wine64", "wine")
 PAGES = ("chromium",)
