@@ -17,9 +17,9 @@ from raysteps import students_cli
 from raysteps.cli import _parser
 from raysteps.commands.render import take_impl
 from raysteps.common.errors import RaystepsError
+from raysteps.common.markdown import blocks
 from raysteps.kit.project import Project
 from raysteps.upkeep.site.documents import documents
-from raysteps.upkeep.site.markdown import blocks
 from raysteps.upkeep.site.shell import Typed, commands, is_shell, mentioned, typed
 from raysteps.upkeep.site.usage import usage, usage_parser
 

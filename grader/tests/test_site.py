@@ -12,13 +12,13 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 
 from raysteps.cli import _parser, main
 from raysteps.common.errors import UsageError
+from raysteps.common.markdown import anchors, formulas
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project, here
 from raysteps.upkeep.site.command_page import command_page
 from raysteps.upkeep.site.documents import documents
 from raysteps.upkeep.site.formulas import BadFormula, bad_formulas, mathml
 from raysteps.upkeep.site.links import dead_links
-from raysteps.upkeep.site.markdown import anchors, formulas
 from raysteps.upkeep.site.placing import check_place, put
 
 _TOGETHER = pytest.mark.xdist_group("site")

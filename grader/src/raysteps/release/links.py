@@ -4,11 +4,12 @@ import posixpath
 import re
 from pathlib import Path
 
-_LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s]+)\)")
+from raysteps.common.markdown import targets, unlinked
+
 _PICTURES = (".png", ".svg", ".jpg", ".gif")
 
 
-def _target(page: str, link: str) -> str | None:
+def _place(page: str, link: str) -> str | None:
     """The path from the root that a link leads to; none for other sites and places in the same page."""
     path = link.partition("#")[0]
     if not path or re.match(r"[a-z]+:", path):
@@ -19,12 +20,12 @@ def _target(page: str, link: str) -> str | None:
 def add_pictures(files: dict[str, bytes], root: Path) -> None:
     """Those that a page shows, wherever the whole kit keeps them."""
     for page in [name for name in files if name.endswith(".md")]:
-        for _, _, link in _LINK.findall(files[page].decode()):
-            target = _target(page, link)
-            if target is None or target in files or not target.endswith(_PICTURES) or target.startswith(".."):
+        for _, link in targets(files[page].decode()):
+            place = _place(page, link)
+            if place is None or place in files or not place.endswith(_PICTURES) or place.startswith(".."):
                 continue
-            if (root / target).is_file():
-                files[target] = (root / target).read_bytes()
+            if (root / place).is_file():
+                files[place] = (root / place).read_bytes()
 
 
 def unlink_missing(files: dict[str, bytes]) -> None:
@@ -32,12 +33,11 @@ def unlink_missing(files: dict[str, bytes]) -> None:
     folders = {parent for name in files for parent in _parents(name)}
     for page in [name for name in files if name.endswith(".md")]:
 
-        def shown(found: "re.Match[str]", page: str = page) -> str:
-            target = _target(page, found[3])
-            known = target is None or target in files or target.rstrip("/") in folders
-            return found[0] if known else found[2]
+        def is_known(link: str, page: str = page) -> bool:
+            place = _place(page, link)
+            return place is None or place in files or place.rstrip("/") in folders
 
-        files[page] = _LINK.sub(shown, files[page].decode()).encode()
+        files[page] = unlinked(files[page].decode(), is_known).encode()
 
 
 def _parents(name: str) -> list[str]:

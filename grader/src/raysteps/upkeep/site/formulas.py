@@ -9,7 +9,7 @@ from docutils import nodes
 from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 
-from raysteps.upkeep.site.markdown import formulas
+from raysteps.common.markdown import formulas
 
 _BARE = re.compile(r"\\[dt]?frac(?!\s*\{)")
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from urllib.parse import unquote
 
-from raysteps.upkeep.site.markdown import anchors, targets
+from raysteps.common.markdown import anchors, targets
 
 
 def is_elsewhere(target: str) -> bool:

@@ -5,7 +5,7 @@ import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.upkeep.site.markdown import Block, blocks, code_spans
+from raysteps.common.markdown import Block, blocks, code_spans
 
 _TAGS = ("sh", "bash", "shell", "console", "powershell", "bat")
 _PROGRAMS = re.compile(

@@ -4,10 +4,10 @@ import os
 import shutil
 from pathlib import Path
 
+from raysteps.common.markdown import Block, with_tags, with_targets
 from raysteps.kit.project import Project
 from raysteps.upkeep.site.documents import COMMANDS_PAGE, below, documents, front_page, sections
 from raysteps.upkeep.site.links import is_elsewhere, split
-from raysteps.upkeep.site.markdown import Block, with_tags, with_targets
 from raysteps.upkeep.site.shell import is_shell
 
 GALLERY = Path("gallery/index.html")

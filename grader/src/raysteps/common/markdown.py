@@ -1,4 +1,4 @@
-"""What the site's tools need to know of a Markdown text: blocks of code, headings, links, formulas."""
+"""What there is in a Markdown text: blocks of code, headings, links, formulas."""
 
 import re
 from collections.abc import Callable
@@ -84,6 +84,15 @@ def with_targets(text: str, new: Callable[[str], str]) -> str:
     spans = [(one.start(1), one.end(1)) for one in re.finditer(r"\]\(([^()\s]+)\)", prose(text))]
     for start, end in reversed(spans):
         text = text[:start] + new(text[start:end]) + text[end:]
+    return text
+
+
+def unlinked(text: str, is_known: Callable[[str], bool]) -> str:
+    """The text with only the words of a link, or of a picture, whose target is not known."""
+    for found in reversed(list(_LINK.finditer(prose(text)))):
+        if not is_known(found["target"]):
+            start = found.start() - text.startswith("!", found.start() - 1)
+            text = text[:start] + text[slice(*found.span("text"))] + text[found.end() :]
     return text
 
 
