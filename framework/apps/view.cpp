@@ -49,6 +49,7 @@ void run(const ViewOptions& options) {
                        picture.acceleration,
                        default_threads(),
                        options.screenshot,
+                       options.strip,
                        options.click});
 }
 

@@ -20,6 +20,7 @@ Shows the picture in a window while it is traced.
   --accel none|boxes|octree|bvh
                           (what the step comes with)
   --screenshot FILE.ppm   write the complete picture as the window shows it, and quit
+  --strip                 with --screenshot: the strip below the picture, too
   --click X,Y             inspect this pixel once the picture is complete
   -h, --help              this text
 
@@ -66,6 +67,10 @@ ViewOptions parse_view_options(const std::vector<std::string>& arguments) {
             options.picture.help = true;
             return options;
         }
+        if (argument == "--strip") {
+            options.strip = true;
+            continue;
+        }
         const bool is_shared = std::find(k_shared.begin(), k_shared.end(), argument) != k_shared.end();
         if (!is_shared && argument != "--screenshot" && argument != "--click") {
             if (argument.starts_with("-")) {
@@ -86,6 +91,9 @@ ViewOptions parse_view_options(const std::vector<std::string>& arguments) {
         } else {
             options.screenshot = value;
         }
+    }
+    if (options.strip && options.screenshot.empty()) {
+        throw UsageError("--strip: expected --screenshot FILE.ppm with it");
     }
     options.picture = shared_options(shared);
     return options;

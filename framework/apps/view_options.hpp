@@ -8,6 +8,7 @@ namespace raysteps {
 struct ViewOptions {
     RaytraceOptions picture;  ///< scene, step, view, size, depth, threads, acceleration, help
     std::string screenshot;   ///< empty: none wanted
+    bool strip = false;       ///< whether the strip below the picture is wanted with it
     std::optional<Pixel> click;
 };
 

@@ -19,13 +19,15 @@ std::string complaint_about(const std::vector<std::string>& arguments) {
 }  // namespace
 
 TEST_CASE("The window's options are read, in any order", "[apps]") {
-    const ViewOptions options = parse_view_options({"--click", "12,7", "--step", "5", "a.nff", "--size", "40x30",
-                                                    "--accel", "boxes", "--screenshot", "b.ppm", "--depth", "2"});
+    const ViewOptions options =
+        parse_view_options({"--click", "12,7", "--step", "5", "a.nff", "--size", "40x30", "--accel", "boxes", "--strip",
+                            "--screenshot", "b.ppm", "--depth", "2"});
     CHECK(options.picture.scene == "a.nff");
     CHECK(options.picture.step == 5);
     CHECK(options.picture.depth == 2);
     CHECK(options.picture.acceleration == Acceleration::boxes);
     CHECK(options.screenshot == "b.ppm");
+    CHECK(options.strip);
     REQUIRE(options.click);
     CHECK(options.click->x == 12);
     CHECK(options.click->y == 7);
@@ -38,6 +40,7 @@ TEST_CASE("A wrong option of the window is answered with what was expected", "[a
         CHECK(complaint_about({"a.nff", "--click", text}) ==
               "--click: expected X,Y in pixels from the top left, like 80,60, found '" + text + "'");
     }
+    CHECK(complaint_about({"a.nff", "--strip"}) == "--strip: expected --screenshot FILE.ppm with it");
     CHECK(complaint_about({"a.nff", "-o", "b.ppm"}) ==
           "arguments: expected one scene and the options that --help lists, found '-o'");
     CHECK(complaint_about({"a.nff", "b.nff"}) ==

@@ -153,7 +153,8 @@ private:
             window_.show(image);
             return;
         }
-        write_ppm(without_strip(window_.show_and_read(image), controls_.settings().camera),
+        const Image read = window_.show_and_read(image);
+        write_ppm(options_.strip ? read : without_strip(read, controls_.settings().camera),
                   path_of(options_.screenshot));
         while (!asker_.idle_within(k_patience)) {
         }

@@ -13,9 +13,11 @@ from rich.console import Console
 from raysteps.common.errors import UsageError
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.project import Project
+from raysteps.upkeep.bench.pages import FIGURES
 from raysteps.upkeep.figures import command, renders
-from raysteps.upkeep.figures.catalogue import FOLDER, figures
+from raysteps.upkeep.figures.catalogue import FOLDER, Figure, figures
 from raysteps.upkeep.figures.drawing import Drawing
+from raysteps.upkeep.figures.window import CannotDraw
 
 _SVG = "{http://www.w3.org/2000/svg}"
 
@@ -96,3 +98,24 @@ def test_a_drawing_escapes_what_it_is_told() -> None:
     figure = Drawing(40, 30, "a < b", "c & d")
     figure.text((1, 20), "e < f")
     assert re.findall(r">(\w &\w+; \w)<", figure.svg()) == ["a &lt; b", "c &amp; d", "e &lt; f"]
+
+
+def test_what_cannot_be_drawn_here_is_left_as_it_is(
+    tmp_path: Path, kit: BuiltKit, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def draw(_: BuiltKit) -> str:
+        raise CannotDraw("Xvfb is missing: install xvfb")
+
+    (tmp_path / "window.png").write_bytes(b"as it was")
+    said: list[str] = []
+    monkeypatch.setattr(command, "build_kit", lambda *_: kit)
+    monkeypatch.setattr(command, "figures", lambda: [Figure("window", "window.png", draw)])
+    assert command.out_of_date(Project(tmp_path), said.append) == []
+    assert said == ["window.png is left as it is: Xvfb is missing: install xvfb"]
+    assert command.run(Project(tmp_path), argparse.Namespace(check=False, names=["window"]), Console(quiet=True)) == 0
+    assert (tmp_path / "window.png").read_bytes() == b"as it was"
+
+
+def test_every_picture_of_the_documents_is_made_by_a_command(project: Project) -> None:
+    made = {Path(figure.path).name for figure in figures()} | {file for part in FIGURES.values() for file, *_ in part}
+    assert {path.name for path in (project.root / "docs" / "pictures").iterdir()} <= made

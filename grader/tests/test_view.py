@@ -15,6 +15,7 @@ from raysteps.common.errors import UsageError
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.project import Project
 from raysteps.programs.pictures import is_flat, read_ppm
+from raysteps.upkeep.hidden_screen import NoScreen, hidden_screen
 
 _SECONDS = 60  # until something has surely gone wrong
 _PROGRAMS = ["view-reference", "inspect-reference", "raytrace-reference"]
@@ -38,20 +39,11 @@ def tree(project: Project) -> BuildTree:
 @pytest.fixture(scope="module")
 def screen() -> Iterator[dict[str, str]]:
     """The environment of a program on a screen of its own."""
-    if shutil.which("Xvfb") is None:
-        pytest.skip("Xvfb is missing: install xvfb")
-    reading, writing = os.pipe()
-    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "800x600x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(command, pass_fds=[writing], stderr=subprocess.DEVNULL)
-    os.close(writing)
     try:
-        with os.fdopen(reading) as pipe:
-            number = pipe.readline().strip()
-        assert number, "Xvfb did not start"
-        yield {**os.environ, "DISPLAY": f":{number}", "LIBGL_ALWAYS_SOFTWARE": "1"}
-    finally:
-        server.terminate()
-        server.wait(_SECONDS)
+        with hidden_screen() as environment:
+            yield environment
+    except NoScreen as error:
+        pytest.skip(str(error))
 
 
 def _run(command: list[str | Path], cwd: Path, env: dict[str, str] | None = None) -> str:

@@ -23,7 +23,7 @@ _TABLES: dict[str, Callable[[dict[str, Any]], str]] = {
     "parse": page_tables.parse_tables,
     "loop": page_tables.loop_tables,
 }
-_FIGURES: dict[str, list[tuple[str, str, Callable[[dict[str, Any]], str]]]] = {
+FIGURES: dict[str, list[tuple[str, str, Callable[[dict[str, Any]], str]]]] = {
     "render": [("bench-rays.svg", "nanoseconds a ray for each scene and structure", figures.render_figure)],
     "scale": [
         (
@@ -52,7 +52,7 @@ def replace_part(page: str, name: str, content: str) -> str:
 
 def _part(name: str, document: dict[str, Any], pictures: Path) -> str:
     parts = []
-    for file, words, draw in _FIGURES.get(name, []):
+    for file, words, draw in FIGURES.get(name, []):
         write_if_changed(pictures / file, draw(document).encode())
         parts.append(f"![{words}](pictures/{file})")
     return "\n\n".join([*parts, _TABLES[name](document)])

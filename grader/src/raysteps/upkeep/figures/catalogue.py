@@ -8,6 +8,7 @@ from raysteps.kit.built_kit import BuiltKit
 from raysteps.programs.pictures import Pixels
 from raysteps.upkeep.figures import bending, boxes, camera, curves, plots, quadtree, renders, shading, surfaces
 from raysteps.upkeep.figures.measuring import measured
+from raysteps.upkeep.figures.window import window
 
 FOLDER = "docs/figures"
 _DIAGRAMS = {
@@ -74,5 +75,6 @@ def figures() -> list[Figure]:
     found.append(Figure("01-before", f"{FOLDER}/01-before.png", renders.untouched))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
+    found.append(Figure("window", "docs/pictures/window.png", window))
     found.append(Figure("steps", "docs/pictures/steps.png", renders.contact_sheet))
     return sorted(found, key=lambda figure: figure.name)

@@ -4,6 +4,7 @@ import argparse
 import fnmatch
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
@@ -14,8 +15,10 @@ from raysteps.common.text import count
 from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project
+from raysteps.programs.pictures import Pixels
 from raysteps.upkeep.figures import renders
 from raysteps.upkeep.figures.catalogue import FOLDER, Figure, figures
+from raysteps.upkeep.figures.window import CannotDraw
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,12 +36,19 @@ def _chosen(names: Sequence[str]) -> list[Figure]:
     return [one for one in every if not names or any(fnmatch.fnmatchcase(one.name, name) for name in names)]
 
 
-def _is_current(project: Project, kit: BuiltKit, figure: Figure) -> bool:
+def _renewed(project: Project, kit: BuiltKit, figure: Figure, say: Say) -> str | Pixels | None:
+    """What should be in the figure's file; none when it is there, or cannot be drawn here."""
     path = project.root / figure.path
-    drawn = figure.draw(kit)
+    try:
+        drawn = figure.draw(kit)
+    except CannotDraw as missing:
+        say(f"{figure.path} is left as it is: {str(missing).splitlines()[0]}")
+        return None
     if isinstance(drawn, str):
-        return path.is_file() and path.read_bytes() == drawn.encode()
-    return renders.is_current(path, drawn)
+        is_current = path.is_file() and path.read_bytes() == drawn.encode()
+    else:
+        is_current = renders.is_current(path, drawn)
+    return None if is_current else drawn
 
 
 def _nobodys(project: Project) -> list[str]:
@@ -51,20 +61,15 @@ def _nobodys(project: Project) -> list[str]:
 def out_of_date(project: Project, say: Say, names: Sequence[str] = ()) -> list[str]:
     """Paths that are missing, old, or made by no figure."""
     kit = build_kit(project, say)
-    old = [figure.path for figure in _chosen(names) if not _is_current(project, kit, figure)]
+    old = [figure.path for figure in _chosen(names) if _renewed(project, kit, figure, say) is not None]
     return old + ([] if names else _nobodys(project))
 
 
-def _write(project: Project, kit: BuiltKit, figure: Figure) -> bool:
-    if _is_current(project, kit, figure):
-        return False
-    drawn = figure.draw(kit)
-    path = project.root / figure.path
+def _write(path: Path, drawn: str | Pixels) -> None:
     if isinstance(drawn, str):
         write_bytes(path, drawn.encode())
     else:
         renders.write(path, drawn)
-    return True
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -83,7 +88,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     chosen = _chosen(arguments.names)
     kit = build_kit(project, say)
     for figure in chosen:
-        if _write(project, kit, figure):
+        drawn = _renewed(project, kit, figure, say)
+        if drawn is not None:
+            _write(project.root / figure.path, drawn)
             console.print(f"{escape(figure.path)} written", soft_wrap=True, highlight=False)
     for path in [] if arguments.names else _nobodys(project):
         (project.root / path).unlink()
