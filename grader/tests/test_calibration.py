@@ -15,7 +15,7 @@ from raysteps.upkeep.calibration.gate import Gate, Share, gate_between, plain
 from raysteps.upkeep.calibration.manifest import with_limits
 from raysteps.upkeep.calibration.marks import mark
 from raysteps.upkeep.calibration.measuring import Calibrated
-from raysteps.upkeep.calibration.report import calibration_page, complaints
+from raysteps.upkeep.calibration.report import calibration_page, complaints, page_with
 from raysteps.upkeep.calibration.scenes import Limited, View, limited_pictures
 from raysteps.upkeep.calibration.settings import KIT, all_settings, fused_flags, own_setting
 from raysteps.upkeep.calibration.shares import PictureShares
@@ -69,6 +69,14 @@ def test_a_margin_under_two_is_a_complaint() -> None:
     page = calibration_page([Calibrated(limited, stale)], [], ["no FMA here"])
     assert "| 02-intersection | balls-twin | 0.1 % (a) | 10 % (mild) | 100 | 0.01 |  |" in page
     assert "- no FMA here" in page
+    other = Limited("04-shadows", "images", "corner", 0.01, ())
+    both = calibration_page([Calibrated(limited, fresh), Calibrated(other, fresh)], [], ["no FMA here"])
+    assert page_with(both, page) == calibration_page(
+        [Calibrated(limited, stale), Calibrated(other, fresh)], [], ["no FMA here"]
+    )
+    new = Calibrated(Limited("10-fog", "images", "mist", 0.01, ()), fresh)
+    more = calibration_page([Calibrated(limited, fresh), Calibrated(other, fresh), new], [], ["no FMA here"])
+    assert page_with(both, calibration_page([new], [], [])) == more
 
 
 def test_limits_are_written_without_an_exponent() -> None:

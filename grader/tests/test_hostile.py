@@ -34,7 +34,7 @@ from raysteps.sandbox.task import Sandbox
 CORPUS = read_corpus()
 _IS_ORDINARY = os.geteuid() != 0
 _AT_ONCE = 3
-_SLACK = 2.0  # seconds, for what the grader and the kernel do around a program
+_SLACK = 6.0  # seconds, for what the grader and the kernel do around a program on a machine that is busy with others
 _NUMBERS_WITHOUT_ENTRY = {33}  # docs/hostile.md says why
 _USUAL = ["failed", "crashed", "timeout", "partial"]
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -257,6 +257,6 @@ def test_the_page_names_every_attack(project: Project) -> None:
 @pytest.mark.skipif(_IS_ORDINARY, reason="for root, who can become somebody else")
 def test_the_same_as_an_ordinary_user(ordinary_user: subprocess.Popen[str] | None) -> None:
     assert ordinary_user is not None
-    output, _ = ordinary_user.communicate(timeout=600)
+    output, _ = ordinary_user.communicate(timeout=1800)
     assert ordinary_user.returncode == 0, output[-8000:]
     assert re.search(r"\d+ passed", output), output[-2000:]

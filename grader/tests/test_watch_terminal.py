@@ -20,7 +20,7 @@ from raysteps.commands.watch.keys import letters
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
-_PATIENCE = 20
+_PATIENCE = 90
 _FAKES = Path(__file__).with_name("watch_fakes.py")
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
 

@@ -28,7 +28,7 @@ from raysteps.programs.pictures import write_png
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 WORKER = (sys.executable, str(Path(__file__)), "worker")
-_PATIENCE = 20
+_PATIENCE = 90
 
 
 def wait_for(what: Callable[[], object], why: str = "it took too long") -> None:

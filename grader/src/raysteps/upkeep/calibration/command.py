@@ -13,7 +13,7 @@ from raysteps.kit.project import Project
 from raysteps.upkeep.calibration.manifest import write_limits
 from raysteps.upkeep.calibration.marks import marks
 from raysteps.upkeep.calibration.measuring import Calibrated, calibrate_step
-from raysteps.upkeep.calibration.report import calibration_page, calibration_table, complaints
+from raysteps.upkeep.calibration.report import calibration_page, calibration_table, complaints, page_with
 from raysteps.upkeep.calibration.settings import Setting, all_settings
 
 
@@ -51,6 +51,9 @@ def calibrate(project: Project, only: Sequence[str], console: Console, say: Say,
     if not check:
         _write(kit, found)
         page = project.root / "docs" / "calibration.md"
-        if not only and write_if_changed(page, calibration_page(found, settings, left_out).encode()):
+        text = calibration_page(found, settings, left_out)
+        if only and page.is_file():
+            text = page_with(page.read_text(encoding="utf-8"), text)
+        if write_if_changed(page, text.encode()):
             print(f"{page.relative_to(project.root).as_posix()} written")
     return 1 if problems else 0

@@ -1,6 +1,7 @@
 """What a calibration found: as a table for a terminal, as docs/calibration.md, and in words what to do."""
 
 import math
+import re
 from collections.abc import Sequence
 
 from rich.markup import escape
@@ -91,6 +92,25 @@ def calibration_page(found: Sequence[Calibrated], settings: Sequence[Setting], l
     lines += ["The visible tests and the judge's questions have to find these.", ""]
     lines += _unseen_everywhere(found)
     return "\n".join(lines) + "\n"
+
+
+def _renewed(lines: list[str], head: str, step: str, new: list[str]) -> list[str]:
+    """Lines of a step's begin with `head` and its name; those of a new step come after the last one's."""
+    own = [number for number, line in enumerate(lines) if line.startswith(f"{head}{step}")]
+    near = own or [number + 1 for number, line in enumerate(lines) if re.match(rf"{re.escape(head)}\d\d-", line)][-1:]
+    at = near[0] if near else len(lines)
+    return lines[:at] + new + [line for number, line in enumerate(lines[at:], at) if number not in own]
+
+
+def page_with(page: str, measured: str) -> str:
+    """The page with the steps that another page, of some steps only, has measured anew."""
+    lines, others = page.split("\n"), measured.split("\n")
+    for head, end in (("| ", " |"), ("- ", ":")):
+        of_steps = [line for line in others if re.match(rf"{re.escape(head)}\d\d-", line)]
+        for step in dict.fromkeys(line.removeprefix(head).partition(end)[0] for line in of_steps):
+            new = [line for line in of_steps if line.startswith(f"{head}{step}{end}")]
+            lines = _renewed(lines, head, f"{step}{end}", new)
+    return "\n".join(lines)
 
 
 def complaints(found: Sequence[Calibrated], *, check: bool) -> list[str]:
