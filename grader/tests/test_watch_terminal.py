@@ -25,6 +25,12 @@ _FAKES = Path(__file__).with_name("watch_fakes.py")
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
 
 
+def _take_the_terminal() -> None:
+    """And hear Ctrl-C there, even where the tests run in the background and do not."""
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Terminal:
     """A pseudo-terminal in which `watch` runs with the fake worker."""
 
@@ -40,7 +46,7 @@ class Terminal:
             stderr=self._slave,
             env=os.environ | {"TERM": "xterm", "COLUMNS": "120"},
             start_new_session=True,
-            preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0) and None,
+            preexec_fn=_take_the_terminal,
         )
 
     def wait(self, text: str) -> str:
