@@ -15,7 +15,7 @@ from raysteps.kit.project import Project
 from raysteps.release.leaks.finding import find_leaks
 from raysteps.release.leaks.secrets import Secrets
 from raysteps.release.leaks.words import Sequences
-from raysteps.release.set_up import not_searched, to_search
+from raysteps.release.searching import not_searched, to_search
 
 _PROGRAM = b"\x7fELF\2\1\1\0"  # a leak wherever it is searched
 _MADE = (".venv/bin/python", "build/release/bin/raytrace", "grader/src/raysteps.egg-info/SOURCES.txt",

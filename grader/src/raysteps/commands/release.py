@@ -16,7 +16,7 @@ from raysteps.release.leaks.finding import Leak, find_leaks, leaks_in_history
 from raysteps.release.leaks.secrets import Secrets, gather
 from raysteps.release.making import first_steps, release, written_files
 from raysteps.release.replacing import usable
-from raysteps.release.set_up import not_searched
+from raysteps.release.searching import not_searched
 
 _MOST_SHOWN = 20
 

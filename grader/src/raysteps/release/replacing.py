@@ -3,13 +3,13 @@
 import glob
 import shutil
 import tempfile
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.release.set_up import FOLDERS, is_made_anew
 from raysteps.students.listing import PLACE, Listed, mark, read_release
+from raysteps.students.set_up import FOLDERS, HISTORY, is_made_anew
 
-_NOT_OURS = (".git", *FOLDERS)  # may lie in a release that somebody keeps under version control
+_NOT_OURS = (HISTORY, *FOLDERS)  # may lie in a release that somebody keeps under version control
 
 
 def _is_as_released(path: Path, listed: Listed) -> bool:
@@ -33,7 +33,7 @@ def usable(out: Path) -> None:
         name = path.relative_to(out).as_posix()
         if name.split("/")[0] in _NOT_OURS or name == PLACE or (path.is_dir() and not path.is_symlink()):
             continue
-        if name not in known and is_made_anew(PurePosixPath(name)):
+        if name not in known and is_made_anew(name):
             continue
         if name not in known or not _is_as_released(path, known[name]):
             what = "is not of the release" if name not in known else "is not as it was released"

@@ -11,7 +11,7 @@ from raysteps.release.leaks.pieces import Piece, pieces
 from raysteps.release.leaks.secrets import Secrets
 from raysteps.release.leaks.shape import strange
 from raysteps.release.leaks.words import words_in
-from raysteps.release.set_up import to_search
+from raysteps.release.searching import to_search
 
 _LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")
 # Where the kit keeps what it knows. A release has no folder or file of such a name.
