@@ -38,7 +38,7 @@ void run(const InspectOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_program("inspect", "inspect", [argc, argv] {
+    return run_program("inspect", [argc, argv] {
         const InspectOptions options = parse_inspect_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
             std::fputs(k_inspect_usage, stdout);

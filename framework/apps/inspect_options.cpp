@@ -9,7 +9,7 @@
 
 namespace raysteps {
 
-const char* const k_inspect_usage = R"(Usage: inspect SCENE.nff X Y [options]
+const char* const k_inspect_usage = R"(Usage: raysteps inspect SCENE.nff X Y [options]
 
 Prints the life of one pixel: its rays, the boxes and surfaces that they were tested against, and the light.
 X and Y count pixels from the top left corner, from 0.

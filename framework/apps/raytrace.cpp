@@ -1,4 +1,5 @@
-// raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with.
+// raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with. `./raysteps render` runs it, and
+// makes a PNG of the picture where one is asked for.
 #include <algorithm>
 #include <cstdio>
 
@@ -88,7 +89,7 @@ void run(const RaytraceOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_program("raytrace", "render", [argc, argv] {
+    return run_program("render", [argc, argv] {
         const RaytraceOptions options = parse_options(utf8_arguments(argc, argv));
         if (options.help) {
             std::fputs(k_raytrace_usage, stdout);

@@ -56,7 +56,7 @@ void run(const ViewOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_program("view", "view", [argc, argv] {
+    return run_program("view", [argc, argv] {
         const ViewOptions options = parse_view_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
             std::fputs(k_view_usage, stdout);

@@ -8,7 +8,7 @@
 
 namespace raysteps {
 
-const char* const k_view_usage = R"(Usage: view SCENE.nff [options]
+const char* const k_view_usage = R"(Usage: raysteps view SCENE.nff [options]
 
 Shows the picture in a window while it is traced.
 

@@ -1,6 +1,7 @@
 """The command `hint`."""
 
 import dataclasses
+import re
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ from course_fakes import printed, small_project, text
 from raysteps.commands.course.hints import Hints, print_hint
 from raysteps.common.errors import UsageError
 from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.kit.project import Project, here
 
 
 @pytest.fixture
@@ -25,7 +26,7 @@ def _said(course: Project, step: Step, *, level: int | None = None, all_: bool =
 
 def test_one_level_at_a_time_until_there_is_no_more(course: Project, steps: list[Step]) -> None:
     first, *others = steps
-    for level, left in ((1, "2 more hints"), (2, "1 more hint"), (3, "that was the last hint"), (3, "the last hint")):
+    for level, left in ((1, "2 more hints"), (2, "1 more hint"), (3, "that was the last hint")):
         said = _said(course, first)
         assert f"hint {level} of 3" in said
         assert left in said
@@ -33,10 +34,24 @@ def test_one_level_at_a_time_until_there_is_no_more(course: Project, steps: list
     assert "hint 1 of" in _said(course, others[0])
 
 
+def test_after_the_last_one_it_says_where_to_go_on(course: Project, steps: list[Step]) -> None:
+    for step in steps:
+        _said(course, step, all_=True)
+        said = _said(course, step)
+        assert said.startswith(f"You have read all {len(step.hints)} hints of step {step.number}; ")
+        assert not any(hint.strip() in said for hint in step.hints)
+        handout = re.findall(r"steps/\S+\.md", said)[0]
+        headings = re.findall(r"^## (.+)$", (here().root / handout).read_text(encoding="utf-8"), re.MULTILINE)
+        assert set(re.findall(r'"(.+?)"', said)) <= set(headings)
+        assert f"./raysteps inspect SCENE X Y --step {step.index}" in said
+        assert "hint 1 of" in _said(course, step, again=True)
+
+
 def test_a_level_by_its_number(course: Project, steps: list[Step]) -> None:
     assert "hint 2 of 3" in _said(course, steps[0], level=2)
     assert "hint 1 of 3" in _said(course, steps[0], level=1)
     assert "hint 3 of 3" in _said(course, steps[0])
+    assert "hint 3 of 3" in _said(course, steps[0], level=3)
 
 
 @pytest.mark.parametrize("level", [0, 4, -1])

@@ -11,7 +11,7 @@ from raysteps.commands.course.listing import list_steps, next_step
 from raysteps.commands.course.remembered import recall, remember
 from raysteps.commands.course.standing import next_of, standings
 from raysteps.kit.manifest import Step, read_steps
-from raysteps.kit.project import Project
+from raysteps.kit.project import Project, here
 
 _CODE = "int answer() { return 42; }\n"
 
@@ -41,6 +41,18 @@ def test_at_the_beginning(course: Project) -> None:
     assert text(console).count("not started") == 9
     assert "→  01" in text(console)
     assert text(console).endswith("next: ./raysteps watch 01\n")
+
+
+def test_points_are_those_that_check_shows(course: Project, steps: list[Step]) -> None:
+    """A students' kit sees less than the whole kit, in which there are hidden cases."""
+    for kit, points in ((course, "6.5"), (here(), "10")):
+        console = printed()
+        list_steps(kit, console)
+        assert f"01 Camera rays {points} " in " ".join(text(console).split())
+        assert ("Points of the visible part" in text(console)) != kit.has_reference
+    console = printed()
+    next_step(course, console)
+    assert text(console).startswith("01 Camera rays (6.5 points)")
 
 
 def test_comments_and_line_ends_are_no_start(course: Project, steps: list[Step]) -> None:
@@ -101,7 +113,7 @@ def test_what_to_do_next(course: Project, steps: list[Step], monkeypatch: pytest
     console = printed()
     assert next_step(course, console) == 0
     assert text(console).splitlines() == [
-        "01 Camera rays (10 points): not started",
+        "01 Camera rays (6.5 points): not started",
         "  read   steps/01-camera-rays/README.md",
         "  write  steps/01-camera-rays/camera_rays.cpp (point_at, view_frame and primary_ray are still to be written)",
         "  type   ./raysteps watch 01",

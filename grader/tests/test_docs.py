@@ -1,11 +1,16 @@
-"""The documents lead to what is there."""
+"""The documents lead to what is there, and can be read as they stand in an editor."""
 
+import re
 from pathlib import Path
 
 import pytest
 
 from raysteps.kit.project import Project
 from raysteps.upkeep.site.links import dead_links
+
+_WIDEST = 120  # columns
+_FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+_NOT_TO_BREAK = re.compile(r"\|.*|!\[.*\]\(\S+\)")  # a row of a table, a picture
 
 
 def _documents(project: Project) -> list[Path]:
@@ -26,3 +31,30 @@ def test_every_link_within_the_kit_leads_somewhere(project: Project) -> None:
 def test_the_commands_that_keep_grades_true_are_described(project: Project, command: str) -> None:
     texts = " ".join(document.read_text(encoding="utf-8") for document in _documents(project))
     assert f"./raysteps {command}" in texts
+
+
+def test_no_line_is_wider_than_a_terminal(project: Project) -> None:
+    """But for tables, pictures and what programs print."""
+    for document in _documents(project):
+        lines = _FENCED.sub("", document.read_text(encoding="utf-8")).splitlines()
+        wide = [line for line in lines if len(line) > _WIDEST and not _NOT_TO_BREAK.fullmatch(line)]
+        assert wide == [], document
+
+
+def test_the_paper_is_explained_where_it_is_first_named(project: Project) -> None:
+    """Nobody else's paper, such as Whitted's, is called so."""
+    explanation = project.root / "docs" / "paper.md"
+    linked = []
+    for page in [project.root / "README.md", *project.steps.glob("*/README.md")]:
+        first = re.search(
+            r"(?:\[(?:what the handouts call )?\W?)?[Tt]he paper\b[^]\n]*(?:\]\(([^)]+)\))?", page.read_text("utf-8")
+        )
+        if first is not None:
+            assert first[1], f"{page}: {first[0]}"
+            assert (page.parent / first[1]).resolve() == explanation.resolve(), page
+            linked.append(page.parent.name[:2])
+    assert set(linked) >= {"04", "05", "06", "07", "08", "09"}
+    text = explanation.read_text(encoding="utf-8")
+    for number in ("10 to 40 %", "50 to 70 %", "over 8000", "3251", "(250, 200)"):
+        assert number in text
+    assert all(f"(../steps/{folder.name}/README.md)" in text for folder in project.steps.glob("[0-9]*"))

@@ -96,7 +96,7 @@ def test_a_handout_tells_how_its_step_is_graded(project: Project, step: Step) ->
     for share, words in (
         (step.weight_tests, "are for the tests"),
         (step.weight_images, "for the pictures"),
-        (step.weight_hidden, "for the judge's own inputs"),
+        (step.weight_hidden, "for inputs and scenes that you do not see"),
         (step.weight_together, "for working with your own steps"),
     ):
         assert f"{100 * share:g} % {words}" in graded, words

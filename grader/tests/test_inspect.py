@@ -67,8 +67,6 @@ def script(folder: Path, text: str) -> Path:
     ("words", "says"),
     [
         (["scene.nff", "1", "2"], "scene.nff: expected a scene, found no file"),
-        (["scene.nff", "one", "2"], "X: expected a pixel, a whole number from 0 on, found 'one'"),
-        (["scene.nff", "1", "-2"], "Y: expected a pixel, a whole number from 0 on, found '-2'"),
         (["scene.nff", "1", "2", "--step", "10"], "there is no step '10'"),
         (["scene.nff", "1", "2", "--impl", "reference", "--against", "reference"], "expected your own steps"),
     ],
@@ -76,6 +74,15 @@ def script(folder: Path, text: str) -> Path:
 def test_what_cannot_be_inspected_is_said(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", *words]) == 2
     assert says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["80,60"], ["80,60", "1"], ["one", "2"], ["80", "-6"], ["80x60"]])
+def test_a_pixel_that_is_not_two_numbers_is_said(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["inspect", "scene.nff", *words])
+    assert caught.value.code == 2
+    wrong = next(word for word in words if not word.isdecimal())
+    assert f"expected X and Y, two whole numbers from 0 on like 80 60, found '{wrong}'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -23,8 +23,8 @@ _ROOMS = {
 }  # fmt: skip
 _PARTS = {
     "commands": {
-        "check", "compare", "ending", "for_students", "progress", "render", "report", "report_page", "unfinished",
-        "update", "view",
+        "check", "compare", "ending", "for_students", "own_build", "progress", "render", "report", "report_page",
+        "unfinished", "update", "view",
     },
     "commands/inspect": {"command", "html", "page_rays", "page_space", "pair", "programs", "tree", "values"},
     "exports": {"formats", "reading"},

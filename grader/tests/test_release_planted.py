@@ -1,11 +1,14 @@
 """Something secret in a file that goes out is found there, whatever the file is for."""
 
+import argparse
 import json
 import subprocess
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
+from raysteps.commands import release as command
 from raysteps.common.errors import UsageError
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.git_listing import places
@@ -105,6 +108,21 @@ def test_only_files_of_a_step_are_taken_and_none_that_git_does_not_know(
         git("add", name)
         assert before is None or path.write_bytes(before)
     assert not (tmp_path / "second").exists()
+
+
+def test_a_step_that_git_does_not_know_is_told_before_anything_is_built(
+    copy: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def built(*_: object) -> None:
+        raise AssertionError("the kit was built")
+
+    monkeypatch.setattr(command, "build_kit", built)
+    subprocess.run(["git", "init", "--quiet", copy.root], check=True)
+    subprocess.run(["git", "-C", copy.root, "add", ".", ":!steps/09-bvh"], check=True)
+    wish = argparse.Namespace(check=None, out=tmp_path / "out", steps=None, course="Course")
+    with pytest.raises(UsageError, match=r"steps/09-bvh/bvh\.hpp.*: would go out, but git does not know it"):
+        command.run(copy, wish, Console(quiet=True))
+    assert not (tmp_path / "out").exists()
 
 
 def test_what_is_public_though_it_is_alike_is_still_there(project: Project) -> None:

@@ -8,6 +8,8 @@ from raysteps.cli import main
 from raysteps.commands.render import run_raytrace, take_impl
 from raysteps.commands.unfinished import advice, as_far_as_written
 from raysteps.common.errors import UsageError
+from raysteps.common.process import run
+from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.manifest import read_steps
 from raysteps.kit.project import Project
 from raysteps.kit.stubs import stub_for
@@ -32,7 +34,7 @@ def test_a_crash_of_the_renderer_is_a_failure(tmp_path: Path, capsys: pytest.Cap
     with pytest.raises(SystemExit) as caught:
         run_raytrace(program, [])
     assert caught.value.code == 1
-    assert "raytrace-mine crashed (SIGSEGV: memory" in capsys.readouterr().err
+    assert "your program crashed (SIGSEGV: memory" in capsys.readouterr().err
 
 
 def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -88,3 +90,23 @@ def test_a_picture_goes_as_far_as_is_written_and_does_without_a_tree(
     project: Project, tmp_path: Path, written: tuple[int, ...], words: list[str], more: list[str]
 ) -> None:
     assert as_far_as_written(_written(project, tmp_path, *written), words) == more
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (
+            ["scene.nff"],
+            2,
+            "raysteps render: expected -o FILE for the picture\nAll options: ./raysteps render --help\n",
+        ),
+        (["scene.nff", "-o", "a.png"], 2, "as only ./raysteps render writes PNG, found 'a.png'"),
+        (["--help"], 0, "Usage: raysteps render SCENE.nff -o OUT.png"),
+    ],
+)
+def test_the_renderer_speaks_of_the_command_that_a_person_types(
+    kit: BuiltKit, words: list[str], code: int, said: str
+) -> None:
+    outcome = run([kit.reference("raytrace"), *words], seconds=60)
+    assert outcome.code == code
+    assert said in outcome.stdout + outcome.stderr

@@ -1,6 +1,7 @@
 """What the command `update` says, and which repository it changes."""
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from raysteps import students_cli
 from raysteps.commands import update as command
 from raysteps.common.errors import UsageError
 from raysteps.kit.project import Project
-from raysteps.students.listing import PLACE
+from raysteps.students.listing import PLACE, mark
 
 __all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
@@ -27,6 +28,7 @@ def test_it_names_what_it_did(mine: Path, newer: Path, capsys: pytest.CaptureFix
     (mine / OWN[0]).unlink()
     (mine / OWN[2]).parent.mkdir()
     (mine / OWN[2]).write_bytes(b"my c")
+    before, after = (mark((root / PLACE).read_bytes())[:12] for root in (mine, newer))
     assert _run(mine, newer) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Files of the kit: 3 replaced, 1 added, 0 removed.",
@@ -37,13 +39,39 @@ def test_it_names_what_it_did(mine: Path, newer: Path, capsys: pytest.CaptureFix
         "steps/01-a/a.cpp was not there; the stub is put back",
         "steps/02-b/b.cpp is as you left it, but its stub is another one now: compare with grader/stubs/02-b/b.cpp",
         "steps/03-c/c.cpp is as you left it, but the kit has a stub for it now: compare with grader/stubs/03-c/c.cpp",
-        "Course: from kit mine with 2 steps to kit newer with 3 steps. Your own files are as they were.",
+        "Your own files are as they were: steps/01-a/helpers.cpp, steps/02-b/b.cpp, steps/03-c/c.cpp and notes.txt.",
+        f"Course: from release {before} with 2 steps to release {after} with 3 steps.",
     ]
     assert _run(mine, newer) == 0
     assert capsys.readouterr().out.splitlines() == [
         "The kit is up to date: nothing had to be changed.",
-        "Course: from kit newer with 3 steps to kit newer with 3 steps. Your own files are as they were.",
+        "Your own files are as they were: steps/01-a/helpers.cpp, steps/02-b/b.cpp, steps/03-c/c.cpp, "
+        "framework/core/gone.hpp.mine, framework/core/ray.hpp.mine and 1 more.",
+        f"Course: release {after} with 3 steps.",
     ]
+
+
+def test_what_setting_up_made_is_not_the_students_own(
+    tmp_path: Path, newer: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    root = release(tmp_path / "untouched", OLD, STEPS[:2])
+    for name in (".venv/a", "build/b", ".git/c", "grader/__pycache__/d", "grader/raysteps.egg-info/e"):
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_bytes(b"made")
+    assert _run(root, newer) == 0
+    assert "Your own files are as they were: there are none yet.\n" in capsys.readouterr().out
+
+
+def test_two_kits_that_differ_in_one_handout_have_two_names(
+    mine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Though they were made from the same framework and tests."""
+    other = release(tmp_path / "again" / "mine", OLD | {"steps/01-a/README.md": b"better handout\n"}, STEPS[:2])
+    assert _run(mine, other) == 0
+    said = capsys.readouterr().out
+    found = re.search(r"from release (\w{12}) with 2 steps to release (\w{12}) with 2 steps\.", said)
+    assert found is not None
+    assert found[1] != found[2]
 
 
 def test_an_older_kit_is_called_so(mine: Path, newer: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -90,7 +90,10 @@ TEST_CASE("diffuse: kd times colours times cosine", "[03-phong-shading][diffuse]
 TEST_CASE("diffuse: a light behind the surface adds nothing and takes nothing", "[03-phong-shading][diffuse][part]") {
     const Fill fill = diffuse_fill({1.0F, 1.0F, 1.0F}, 1.0F);
     const Light light = light_of(k_white);
-    CHECK_THAT(diffuse(fill, light, k_up, leaning(45.0F)), IsNear(Color(0.707107F)));
+    {
+        INFO("for comparison, a light at 45 degrees on the seen side: cos(45) = 0.7071");
+        CHECK_THAT(diffuse(fill, light, k_up, leaning(45.0F)), IsNear(Color(0.707107F)));
+    }
     INFO("the cosine is negative here: without max(l . n, 0) the colour would be below 0");
     CHECK_THAT(diffuse(fill, light, k_up, leaning(120.0F)), IsNear(k_black));
     CHECK_THAT(diffuse(fill, light, k_up, leaning(180.0F)), IsNear(k_black));
@@ -156,7 +159,11 @@ TEST_CASE("specular: light and eye may change places", "[03-phong-shading][specu
 
 TEST_CASE("specular: no highlight from behind", "[03-phong-shading][specular][part]") {
     const Light light = light_of(k_white);
-    CHECK_THAT(specular(shiny_fill(1.0F, 2.0F), light, k_up, leaning(60.0F), leaning(-30.0F)), IsNear(Color(0.75F)));
+    {
+        INFO("for comparison, a light at 60 degrees, r at -60 and the eye at -30: cos(30)^2 = 0.75");
+        CHECK_THAT(specular(shiny_fill(1.0F, 2.0F), light, k_up, leaning(60.0F), leaning(-30.0F)),
+                   IsNear(Color(0.75F)));
+    }
     SECTION("light below the floor, eye above: black, although r . v = cos(40) is not 0") {
         const glm::vec3 below = leaning(-100.0F);
         CHECK_THAT(specular(shiny_fill(1.0F, 2.0F), light, k_up, below, leaning(60.0F)), IsNear(k_black));

@@ -57,8 +57,11 @@ TEST_CASE("shadow_ray for any hit and light", "[04-shadows][shadow_ray][any]") {
         CAPTURE(hit.position, hit.normal, light.position);
         const Ray ray = shadow_ray(hit, light);
         CAPTURE(ray);
-        REQUIRE(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
-        REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+        {
+            INFO("the start is off the surface, on the side of the normal, by no more than 0.01");
+            REQUIRE(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+            REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+        }
         REQUIRE_THAT(ray.direction, IsUnitLength());
         INFO("the ray must pass through the light");
         const glm::vec3 reached = ray.origin + glm::distance(ray.origin, light.position) * ray.direction;

@@ -10,11 +10,13 @@ from raysteps.commands.progress import progress
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count
 from raysteps.kit.kit_building import build_kit
+from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
 from raysteps.release.leaks.finding import Leak, find_leaks, leaks_in_history
-from raysteps.release.leaks.secrets import gather
-from raysteps.release.making import first_steps, release
+from raysteps.release.leaks.secrets import Secrets, gather
+from raysteps.release.making import first_steps, release, written_files
 from raysteps.release.replacing import usable
+from raysteps.release.searching import not_searched
 
 _MOST_SHOWN = 20
 
@@ -43,27 +45,51 @@ def refuse_inside(project: Project, out: Path) -> None:
         raise UsageError(f"{out}: lies in the kit's own folder; expected one elsewhere, such as ../{out.name}")
 
 
+def _check(secrets: Secrets, folder: Path, console: Console) -> int:
+    """0 only when all of the folder was searched, as all of it may be handed out."""
+    if not folder.is_dir():
+        raise UsageError(f"{folder}: expected the folder of a release")
+    left_out = not_searched(folder)
+    leaks = _tell(console, find_leaks(secrets, folder))
+    if not leaks:
+        console.print(f"No solution was found in {'what was searched' if left_out else 'it'}.")
+    if left_out:
+        _say(
+            console,
+            f"Not searched: {left_out}. Setting up and trying a kit makes these; they are no part of a release and "
+            "may hold anything. Take them away and check again before you hand this folder out",
+        )
+    return 1 if leaks or left_out else 0
+
+
+def _say(console: Console, text: str) -> None:
+    console.print(escape(text), highlight=False, soft_wrap=True)
+
+
+def _chosen(project: Project, text: str | None, console: Console) -> list[Step]:
+    steps = first_steps(text, read_steps(project))
+    if text is not None and "-" not in text and len(steps) > 1:
+        _say(console, f"steps {steps[0].index}-{steps[-1].index}: a kit begins with step {steps[0].number}")
+    return steps
+
+
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when nothing leaks, else 1."""
     if not project.has_reference:
         raise UsageError("a students' kit cannot be released; expected the whole kit, with solutions/")
-    secrets = gather(project)
     if arguments.check is not None:
-        if not arguments.check.is_dir():
-            raise UsageError(f"{arguments.check}: expected the folder of a release")
-        found = find_leaks(secrets, arguments.check)
-        if not _tell(console, found):
-            console.print("No solution was found in it.")
-        return 1 if found else 0
-    if "\n" in arguments.course or not arguments.course.strip():
+        return _check(gather(project), arguments.check, console)
+    course = arguments.course.strip()
+    if "\n" in arguments.course or not course:
         raise UsageError("--course: expected a name of one line")
     out = arguments.out.resolve()
     refuse_inside(project, out)
     usable(out)
+    steps = _chosen(project, arguments.steps, console)
+    written_files(project, steps, course)  # what may not go out is told before anything is built
+    secrets = gather(project)
     with console.status("starting") as status:
         say = progress(console, status)
-        kit = build_kit(project, say)
-        steps = first_steps(arguments.steps, kit.steps)
 
         def leaks(folder: Path, history: Path) -> bool:
             told = [_tell(console, find_leaks(secrets, folder)), _tell(console, leaks_in_history(secrets, history))]
@@ -71,10 +97,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
                 console.print(escape(f"{history}: its history tells this for good; name a new folder with --out"))
             return any(told)
 
-        written = release(kit, steps, arguments.course.strip(), out, leaks, say)
+        written = release(build_kit(project, say), steps, course, out, leaks, say)
     if not written:
         console.print("Nothing was written.")
         return 1
-    told = f"{count(len(steps), 'step')}, no solution in any file: {arguments.out}"
-    console.print(escape(told), highlight=False, soft_wrap=True)
+    _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
+    left_out = not_searched(out)
+    if left_out:
+        _say(console, f"Kept from before, and not searched: {left_out}")
     return 0

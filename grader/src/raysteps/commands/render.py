@@ -1,15 +1,14 @@
 """The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
 
-import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from raysteps.commands.own_build import why_own_steps_do_not_build
 from raysteps.commands.unfinished import advice, as_far_as_written, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.process import Outcome
-from raysteps.common.text import printable, shorten
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project, here
@@ -35,26 +34,18 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
     return impl, rest
 
 
-def _first_error(output: str) -> str:
-    found = re.search(
-        r"^.*(?:error: |error [A-Z]+[0-9]+: |undefined reference to|undefined symbol|duplicate symbol).*$", output, re.M
-    )
-    return shorten(printable(found.group()), 300) if found else "see above"
-
-
 def _say(text: str) -> None:
     print(f"raysteps: {text}; the first time takes a minute or two", file=sys.stderr, flush=True)
 
 
 def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
-    """Builds a program from the student's steps; the compiler speaks only when that fails."""
+    """Builds a program from the student's steps; what the compiler says is told only when that fails."""
     if not tree.program(target).exists():
         _say("building")
     with tree.locked():
         outcome = tree.build([target])
     if outcome.code != 0:
-        error = _first_error(outcome.stdout + outcome.stderr)
-        raise StudentBuildError(f"{what_failed(outcome)}\nYour steps do not build: {error}")
+        raise StudentBuildError(why_own_steps_do_not_build(tree.project, outcome))
     return tree.program(target)
 
 
@@ -74,12 +65,17 @@ def build_program(tree: BuildTree, name: str, impl: str) -> Path:
     return (build_mine if impl == "mine" else build_reference)(tree, f"{name}-{impl}")
 
 
+def whose(program: Path) -> str:
+    """A program as people speak of it."""
+    return "your program" if program.stem.endswith("-mine") else "the reference's program"
+
+
 def run_raytrace(program: Path, args: list[str]) -> None:
     """Runs the program on this terminal, so that its progress bar shows."""
     code = subprocess.run([program, *args], check=False).returncode
     name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_words
     if name is not None:
-        print(f"raysteps: {program.name} crashed ({name}) while it rendered", file=sys.stderr)
+        print(f"raysteps: {whose(program)} crashed ({name}) while it rendered", file=sys.stderr)
         raise SystemExit(1)
     if code != 0:
         raise SystemExit(code)

@@ -9,9 +9,12 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, listed
 from raysteps.kit.project import Project
-from raysteps.students.listing import PLACE, Release, read_release
+from raysteps.students.listing import PLACE, Release, mark, read_release
+from raysteps.students.own_files import own_files
 from raysteps.students.source import Source, open_source
 from raysteps.students.updating import Changes, Update
+
+_MOST_NAMED = 5
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,6 +47,13 @@ def _tell_own(console: Console, changes: Changes) -> None:
             _say(console, f"{path} is as you left it, but {words} now: compare with {stub}")
 
 
+def _tell_kept(console: Console, names: list[str]) -> None:
+    """The student's own, by name as far as there is room."""
+    shown, more = names[:_MOST_NAMED], len(names) - _MOST_NAMED
+    words = listed([*shown, f"{more} more"] if more > 0 else shown) if names else "there are none yet"
+    _say(console, f"Your own files are as they were: {words}.")
+
+
 def _tell(console: Console, changes: Changes, old: Release, new: Release) -> None:
     if changes.any:
         numbers = ((changes.replaced, "replaced"), (changes.added, "added"), (changes.removed, "removed"))
@@ -56,11 +66,11 @@ def _tell(console: Console, changes: Changes, old: Release, new: Release) -> Non
     if gone:
         _say(console, f"This kit has no {listed(gone)}. If it is an older one, update once more with the newest.")
     _tell_own(console, changes)
-    _say(
-        console,
-        f"{new.course}: from kit {old.kit[:12]} with {count(len(old.steps), 'step')} "
-        f"to kit {new.kit[:12]} with {count(len(new.steps), 'step')}. Your own files are as they were.",
-    )
+
+
+def _named(release: Release, listing: bytes) -> str:
+    """Two that differ in any file have two names."""
+    return f"release {mark(listing)[:12]} with {count(len(release.steps), 'step')}"
 
 
 def _refuse_wrong(root: Path, old: Release, source: Source, *, course_changed: bool) -> None:
@@ -82,8 +92,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     old = read_release(root)
     if old is None:
         raise UsageError(f"{root / PLACE}: is missing; expected a repository that came from a release of the kit")
+    before = _named(old, (root / PLACE).read_bytes())
     with open_source(arguments.kit or project.root) as source:
         _refuse_wrong(root, old, source, course_changed=arguments.course_changed)
         changes = Update(root, old, source).run()
+        now = _named(source.release, source.listing)
         _tell(console, changes, old, source.release)
+        told = {*changes.kept, *changes.outdated}
+        _tell_kept(console, [name for name in own_files(root, source.release) if name not in told])
+        _say(console, f"{source.release.course}: {now if now == before else f'from {before} to {now}'}.")
     return 0

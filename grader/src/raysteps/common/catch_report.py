@@ -46,21 +46,47 @@ def _location(element: Element) -> str:
     return shorten(" ".join(printable(place).split()), 200)
 
 
-def _first_failure(case: Element) -> Failure | None:
-    notes: list[str] = []
-    for element in case.iter():
+_NEGATED = re.compile(r"!\((?P<asked>.+)\)", re.DOTALL)
+
+
+def _compared(element: Element) -> tuple[str, str]:
+    """What was asked for, and what came instead; `!(f())` and `!true` as people say it."""
+    original, expanded = _text(element.find("Original")), _text(element.find("Expanded"))
+    asked = _NEGATED.fullmatch(original)
+    if asked is not None and expanded in ("!true", "!(true)"):
+        return f"{asked['asked']} is false", "true"
+    return original, expanded
+
+
+def _failure(element: Element, notes: list[str]) -> Failure | None:
+    """Of an element that is an assertion which failed."""
+    told = "\n".join(notes)
+    if element.tag == "Expression" and element.get("success") == "false":
+        problem = element.find("Exception")
+        if problem is None:
+            problem = element.find("FatalErrorCondition")
+        original, expanded = _compared(element)
+        return Failure(original, expanded if problem is None else f"threw: {_text(problem)}", _location(element), told)
+    if element.tag in ("Failure", "Exception", "FatalErrorCondition"):
+        return Failure(element.tag, _text(element), _location(element), told)
+    return None
+
+
+def _first_failure(room: Element, sections: tuple[str, ...] = ()) -> Failure | None:
+    """With the notes before it; the names of the sections around it are notes, too."""
+    notes = list(sections)
+    for element in room:
         if element.tag in ("Info", "Warning"):
             notes.append(_text(element))
-        elif element.tag == "Expression" and element.get("success") == "false":
-            problem = element.find("Exception")
-            if problem is None:
-                problem = element.find("FatalErrorCondition")
-            thrown = f"threw: {_text(problem)}" if problem is not None else _text(element.find("Expanded"))
-            return Failure(_text(element.find("Original")), thrown, _location(element), "\n".join(notes))
-        elif element.tag in ("Failure", "Exception", "FatalErrorCondition"):
-            return Failure(element.tag, _text(element), _location(element), "\n".join(notes))
-        elif element.tag == "Expression":
-            notes.clear()
+            continue
+        if element.tag == "Section":
+            found = _first_failure(element, (*sections, shorten(printable(element.get("name", "")))))
+        else:
+            found = _failure(element, notes)
+        if found is not None:
+            return found
+        if element.tag == "Expression":
+            notes = list(sections)
     return None
 
 

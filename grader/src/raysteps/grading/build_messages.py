@@ -52,6 +52,11 @@ def _errors(output: str) -> list[_Error]:
     ]
 
 
+def errors_in(output: str, file: str) -> bool:
+    """Whether the compiler complains about the file of this name."""
+    return any(error.file == file for error in _errors(output))
+
+
 def _context(source: str, line: int, column: int) -> str:
     """The line with one before and one after, and a mark under the column."""
     lines = source.splitlines()
@@ -102,6 +107,11 @@ def undefined_message(names: tuple[str, ...]) -> str:
     """A helper that was declared and forgotten, or has another signature where it is defined."""
     shown = listed([shorten(name, 200) for name in names[:5]])
     return f"It does not build: {shown} is called, but defined nowhere. Is the signature the same in both places?"
+
+
+def is_of_a_linker(output: str) -> bool:
+    """Whether a function is missing, or there twice."""
+    return bool(_MISSING.search(output) or _TWICE.search(output))
 
 
 def link_message(ran: Ran) -> str:

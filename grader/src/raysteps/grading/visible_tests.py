@@ -40,7 +40,7 @@ def _result(case: TestOutcome) -> TestResult:
     return TestResult(
         case.name,
         False,
-        failure.notes or "What the test asks for is not so; read it.",
+        failure.notes,
         failure.expression,
         failure.expanded,
         failure.location,

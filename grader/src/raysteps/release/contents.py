@@ -31,6 +31,7 @@ _DOCS = {  # what a student looks up
     "inspect.md",
     "maps.md",
     "pages.md",
+    "paper.md",
     "students.md",
     "view.md",
     "watch.md",

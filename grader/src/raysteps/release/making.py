@@ -9,6 +9,7 @@ from raysteps.common.files import write_bytes
 from raysteps.common.text import listed
 from raysteps.kit.built_kit import BuiltKit, Say
 from raysteps.kit.manifest import Step, read_all_steps
+from raysteps.kit.project import Project
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.given import write_all_given
 from raysteps.release.links import add_pictures, unlink_missing
@@ -45,19 +46,24 @@ def _refuse_gaps(steps: list[Step], absent: list[Step]) -> None:
         )
 
 
-def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
-    """All files into an empty folder."""
-    absent = [step for step in read_all_steps(kit.project) if step not in steps]
+def written_files(project: Project, steps: list[Step], course: str) -> dict[str, bytes]:
+    """All but what the reference draws, so that nothing has to be built for it. What may not go out is refused."""
+    absent = [step for step in read_all_steps(project) if step not in steps]
     _refuse_gaps(steps, absent)
-    files = kit_contents(kit.project, steps, absent)
-    files["grader/pyproject.toml"] = pyproject((kit.project.root / "grader" / "pyproject.toml").read_text("utf-8"))
+    files = kit_contents(project, steps, absent)
+    files["grader/pyproject.toml"] = pyproject((project.root / "grader" / "pyproject.toml").read_text("utf-8"))
     files["README.md"] = readme(course, steps)
     files |= {name: for_editor(files[name], steps) for name in _EDITORS if name in files}
     word_for_students(files, steps)
-    add_pictures(files, kit.project.root)
-    refuse_untracked(kit.project.root, files)
+    add_pictures(files, project.root)
+    refuse_untracked(project.root, files)
     unlink_missing(files)
-    for name, data in files.items():
+    return files
+
+
+def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
+    """All files into an empty folder."""
+    for name, data in written_files(kit.project, steps, course).items():
         write_bytes(folder / name, data)
     for name in _EXECUTABLE:
         (folder / name).chmod(0o755)
@@ -90,13 +96,16 @@ def first_steps(text: str | None, steps: list[Step]) -> list[Step]:
     """`1-4` or `4` for the first four, nothing for all of them."""
     if text is None:
         return steps
+    start = str(steps[0].index)
     first, dash, last = text.partition("-")
-    numbers = [word for word in ((first, last) if dash else (str(steps[0].index), first)) if word.isdecimal()]
-    known = {step.index for step in steps}
-    if len(numbers) != 2 or int(numbers[0]) != steps[0].index or int(numbers[1]) not in known:
-        such = f"{steps[0].index}-{steps[min(3, len(steps) - 1)].index}"
+    if not dash:
+        first, last = start, first
+    if not (first.isdecimal() and last.isdecimal()) or int(first) != steps[0].index:
+        such = f"{start}-{steps[min(3, len(steps) - 1)].index}"
         raise UsageError(
             f"--steps {text}: expected the first and the last, such as {such}; "
             "each step builds on those before it, so none can be left out among them"
         )
-    return [step for step in steps if step.index <= int(numbers[1])]
+    if int(last) not in {step.index for step in steps}:
+        raise UsageError(f"--steps {text}: there is no step {last}; the steps are {', '.join(it.id for it in steps)}")
+    return [step for step in steps if step.index <= int(last)]

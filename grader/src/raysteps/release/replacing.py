@@ -7,13 +7,9 @@ from pathlib import Path
 
 from raysteps.common.errors import UsageError
 from raysteps.students.listing import PLACE, Listed, mark, read_release
+from raysteps.students.set_up import FOLDERS, HISTORY, is_made_anew
 
-_NOT_OURS = (".git", ".venv", "build")  # may lie in a release that somebody keeps under version control
-
-
-def _is_made_anew(name: str) -> bool:
-    """What setting up a kit leaves in its package."""
-    return any(part == "__pycache__" or part.endswith(".egg-info") for part in name.split("/"))
+_NOT_OURS = (HISTORY, *FOLDERS)  # may lie in a release that somebody keeps under version control
 
 
 def _is_as_released(path: Path, listed: Listed) -> bool:
@@ -37,7 +33,7 @@ def usable(out: Path) -> None:
         name = path.relative_to(out).as_posix()
         if name.split("/")[0] in _NOT_OURS or name == PLACE or (path.is_dir() and not path.is_symlink()):
             continue
-        if name not in known and _is_made_anew(name):
+        if name not in known and is_made_anew(name):
             continue
         if name not in known or not _is_as_released(path, known[name]):
             what = "is not of the release" if name not in known else "is not as it was released"

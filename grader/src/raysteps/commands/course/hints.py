@@ -2,13 +2,13 @@
 
 import json
 from dataclasses import dataclass
-from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
+from raysteps.common.systems import own_command
 from raysteps.common.text import count
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
@@ -66,14 +66,26 @@ class Hints:
         return Hint(level, len(step.hints), step.hints[level - 1].strip("\n"), before)
 
     def following(self, step: Step) -> Hint | None:
-        """The next one, or the last once more when there is no other; none where a step has no hints."""
-        if not step.hints:
-            return None
-        return self.level(step, min(self.reached(step) + 1, len(step.hints)))
+        """The next one; none where there is no other, see `no_other`."""
+        reached = self.reached(step)
+        return self.level(step, reached + 1) if reached < len(step.hints) else None
 
     def seen(self, step: Step) -> list[Hint]:
         """Those that were read."""
         return [self.level(step, level) for level in range(1, self.reached(step) + 1)]
+
+
+def no_other(step: Step) -> str:
+    """That all hints were read, and where to go on."""
+    handout = f"steps/{step.id}/README.md"
+    if not step.hints:
+        return f"Step {step.number} has no hints. What to do stands in {handout}."
+    all_hints = f"all {count(len(step.hints), 'hint')}" if len(step.hints) > 1 else "the only hint"
+    return (
+        f"You have read {all_hints} of step {step.number}; `{own_command()} hint {step.number} --again` shows them.\n"
+        f'Go on in {handout}: "A worked example" and "Wrong pictures and their causes".\n'
+        f"`{own_command()} inspect SCENE X Y --step {step.index}` follows one wrong pixel."
+    )
 
 
 def _print(console: Console, step: Step, hints: list[Hint]) -> None:
@@ -86,13 +98,17 @@ def _print(console: Console, step: Step, hints: list[Hint]) -> None:
     console.print(f"{last.left}{more}", style="dim", highlight=False)
 
 
+def _say(console: Console, text: str) -> None:
+    console.print(escape(text), highlight=False)
+
+
 def print_hint(
     project: Project, step: Step, console: Console, *, level: int | None = None, all_: bool = False, again: bool = False
 ) -> int:
     """The next one, or those that were asked for."""
     hints = Hints(project)
     if not step.hints:
-        console.print(f"Step {step.number} has no hints. What to do stands in steps/{Path(step.id) / 'README.md'}.")
+        _say(console, no_other(step))
     elif all_:
         _print(console, step, [hints.level(step, each) for each in range(1, len(step.hints) + 1)])
     elif again:
@@ -103,6 +119,8 @@ def print_hint(
             console.print(f"No hint of step {step.number} was read yet: ./raysteps hint {step.number}", highlight=False)
     else:
         hint = hints.level(step, level) if level is not None else hints.following(step)
-        assert hint is not None
-        _print(console, step, [hint])
+        if hint is None:
+            _say(console, no_other(step))
+        else:
+            _print(console, step, [hint])
     return 0

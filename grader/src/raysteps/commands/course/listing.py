@@ -7,10 +7,17 @@ from rich.table import Table
 from raysteps.commands.course.standing import Standing, next_of, shown, standings
 from raysteps.common.systems import own_command
 from raysteps.common.text import listed, number
+from raysteps.grading.scoring import most_points
 from raysteps.kit.manifest import Step
 from raysteps.kit.project import Project
 
 _ALL_DONE = "All steps are done. `./raysteps render` draws any scene in scenes/ with them."
+
+_OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your course gives the rest."
+
+
+def _points(project: Project, step: Step) -> str:
+    return number(most_points(step, judged=project.has_reference))
 
 
 def _color(standing: Standing) -> str:
@@ -26,8 +33,8 @@ def _has_points(standing: Standing) -> bool:
     return standing.last is not None and standing.last.points > 0
 
 
-def print_list(console: Console, found: list[Standing], following: Step | None) -> None:
-    """One row for each step; an arrow stands at the next one."""
+def print_list(project: Project, console: Console, found: list[Standing], following: Step | None) -> None:
+    """One row for each step, with the points that `check` shows; an arrow stands at the next one."""
     table = Table(box=None, pad_edge=False)
     for heading in ("", "step", "", "points", "state"):
         table.add_column(heading, justify="right" if heading == "points" else "left")
@@ -35,15 +42,17 @@ def print_list(console: Console, found: list[Standing], following: Step | None) 
         step, color = standing.step, _color(standing)
         title = f"{escape(step.title)}{' (bonus)' if step.bonus else ''}"
         state = f"[{color}]{escape(standing.words)}[/{color}]"
-        table.add_row("→" if step == following else "", step.number, title, number(step.points), state)
+        table.add_row("→" if step == following else "", step.number, title, _points(project, step), state)
     console.print(table)
+    if not project.has_reference:
+        console.print(_OF_THE_VISIBLE_PART, style="dim")
 
 
 def list_steps(project: Project, console: Console) -> int:
     """Quick: nothing is built or run."""
     found = standings(project)
     following = next_of(found)
-    print_list(console, found, following)
+    print_list(project, console, found, following)
     told = f"next: {own_command()} watch {following.number}" if following is not None else _ALL_DONE
     console.print(f"\n{told}", highlight=False)
     return 0
@@ -62,7 +71,7 @@ def next_step(project: Project, console: Console) -> int:
         console.print(_ALL_DONE, highlight=False)
         return 0
     standing = next(each for each in found if each.step == step)
-    points = f"{number(step.points)} points{', bonus' if step.bonus else ''}"
+    points = f"{_points(project, step)} points{', bonus' if step.bonus else ''}"
     console.print(
         f"[bold]{step.number} {escape(step.title)}[/bold] ({points}): {escape(standing.words)}", highlight=False
     )

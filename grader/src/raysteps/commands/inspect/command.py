@@ -12,7 +12,7 @@ from raysteps.commands.inspect.html import write_page
 from raysteps.commands.inspect.pair import Difference
 from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
 from raysteps.commands.inspect.values import Record
-from raysteps.commands.render import build_program
+from raysteps.commands.render import build_program, whose
 from raysteps.commands.unfinished import as_far_as_written, unfinished, usual_step
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed
@@ -22,11 +22,18 @@ from raysteps.kit.manifest import choose, read_steps
 from raysteps.kit.project import Project
 
 
+def _pixel(word: str) -> str:
+    """One of the two; told at once, as whoever writes both in one word would hear that Y is missing."""
+    if not re.fullmatch(r"[0-9]{1,5}", word):
+        raise argparse.ArgumentTypeError(f"expected X and Y, two whole numbers from 0 on like 80 60, found '{word}'")
+    return word
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which pixel of which picture, and whose steps."""
     parser.add_argument("scene", metavar="SCENE", help="such as scenes/lessons/three-spheres.nff")
-    parser.add_argument("x", metavar="X", help="pixels from the left, from 0")
-    parser.add_argument("y", metavar="Y", help="pixels from the top, from 0")
+    parser.add_argument("x", metavar="X", type=_pixel, help="pixels from the left, from 0")
+    parser.add_argument("y", metavar="Y", type=_pixel, help="pixels from the top, from 0")
     parser.add_argument("--step", metavar="N", help="with what the course has after step N (8, or the kit's last step)")
     parser.add_argument("--size", metavar="WxH", help="pixels of the picture (the scene's own)")
     parser.add_argument("--depth", metavar="D", help="longest chain of rays, the eye ray included (5)")
@@ -45,9 +52,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
-    for name, text in (("X", arguments.x), ("Y", arguments.y)):
-        if not re.fullmatch(r"[0-9]{1,5}", text):
-            raise UsageError(f"{name}: expected a pixel, a whole number from 0 on, found '{text}'")
     steps = read_steps(project)
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
@@ -73,7 +77,7 @@ def _say_unfinished(project: Project, wish: Wish) -> None:
 def _tell_problem(inspected: Inspected, program: Path, wish: Wish) -> None:
     good = last_good_step(program, wish)
     up_to = f" With --step {good} it comes to its end." if 0 < good < wish.step else ""
-    print(f"raysteps: {program.name} {inspected.problem}{up_to}", file=sys.stderr)
+    print(f"raysteps: {whose(program)} {inspected.problem}{up_to}", file=sys.stderr)
 
 
 def _write_json(arguments: argparse.Namespace, inspected: Inspected, console: Console) -> None:

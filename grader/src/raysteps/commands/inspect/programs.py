@@ -63,7 +63,7 @@ def inspect(program: Path, wish: Wish, *, seconds: float = _SECONDS) -> Inspecte
         outcome = run([program, *wish.words(), "--json", file], seconds=seconds, cap=_MOST_BYTES)
         said = printable(outcome.stderr).strip()
         if outcome.code == _USAGE and not outcome.timed_out:
-            raise UsageError(said.removeprefix("inspect: ") or "inspect gave up without a word")
+            raise UsageError(said.removeprefix("raysteps inspect: ") or "inspect gave up without a word")
         problem = _problem(outcome)
         record = None if problem else _read(file)
     if not problem and record is None:

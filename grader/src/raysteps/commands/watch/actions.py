@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from raysteps.commands.course.hints import Hints
+from raysteps.commands.course.hints import Hints, no_other
 from raysteps.commands.course.listing import print_list
 from raysteps.commands.course.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.commands.course.standing import next_of, shown, standings
@@ -60,7 +60,8 @@ class Actions:
         session, step = self._session, self._session.view.step
         hint = Hints(session.project).following(step)
         if hint is None:
-            session.showing.line(f"Step {step.number} has no hints.")
+            for line in no_other(step).splitlines():
+                session.showing.line(line)
             return
         session.showing.line(f"hint {hint.level} of {hint.of}", "bold")
         for line in hint.text.splitlines():
@@ -78,8 +79,8 @@ class Actions:
             session.go_to(step)
 
     def _list(self) -> None:
-        found = standings(self._session.project)
-        print_list(self._session.showing.console, found, self._session.view.step)
+        project = self._session.project
+        print_list(project, self._session.showing.console, standings(project), self._session.view.step)
 
     def _check(self) -> None:
         session = self._session

@@ -11,6 +11,7 @@ from raysteps.release.leaks.pieces import Piece, pieces
 from raysteps.release.leaks.secrets import Secrets
 from raysteps.release.leaks.shape import strange
 from raysteps.release.leaks.words import words_in
+from raysteps.release.searching import to_search
 
 _LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")
 # Where the kit keeps what it knows. A release has no folder or file of such a name.
@@ -116,7 +117,6 @@ def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
 
 
 def find_leaks(secrets: Secrets, folder: Path) -> list[Leak]:
-    """In every file, in git's objects, and in what files hold."""
-    files = [path for path in sorted(folder.rglob("*")) if path.relative_to(folder).parts[0] != ".git"]
-    found = [leak for path in files for leak in _in_file(secrets, folder, path)]
+    """In every file, in what files hold, and in git's objects; not in what setting up the kit has made there."""
+    found = [leak for path in to_search(folder) for leak in _in_file(secrets, folder, path)]
     return [*found, *leaks_in_history(secrets, folder)]

@@ -1,6 +1,7 @@
 """The tables of docs/benchmarks.md, as Markdown."""
 
 from collections.abc import Iterable, Sequence
+from textwrap import fill
 from typing import Any
 
 from raysteps.upkeep.bench.render_tables import COMPARED, against_embree, against_povray, faster, median_of, names_of
@@ -57,7 +58,8 @@ def _one_build(build: dict[str, Any]) -> str:
     means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
     mean_rows = [(name, f"{mean:.2f}") for name, mean in means if mean and name != _PEER]
     means_table = markdown(("structure", "time of a ray against Embree's, geometric mean"), mean_rows)
-    lines = [f"**The {build['build']} build.** {machine_line(build['machine'])}", table]
+    machine = fill(f"**The {build['build']} build.** {machine_line(build['machine'])}", 120, break_on_hyphens=False)
+    lines = [machine, table]
     return "\n\n".join([*lines, means_table] if mean_rows else lines)
 
 

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Sequence
+from textwrap import wrap
 
 from rich.markup import escape
 from rich.table import Table
@@ -12,6 +13,7 @@ from raysteps.upkeep.calibration.measuring import SEEDS, Calibrated
 from raysteps.upkeep.calibration.settings import Setting
 
 _HEADINGS = ("step", "picture", "worst correct solution", "mildest mistake", "margin", "limit")
+_WIDEST = 120  # columns of a document
 _INTRODUCTION = f"""# Calibration of the pictures
 
 *Made by `./raysteps dev calibrate`; not written by hand.*
@@ -76,7 +78,8 @@ def _unseen_everywhere(found: Sequence[Calibrated]) -> list[str]:
     for step in dict.fromkeys(one.limited.step for one in found):
         hidden_from = [set(one.gate.unseen) for one in found if one.limited.step == step]
         names = sorted(set.intersection(*hidden_from)) if hidden_from else []
-        lines.append(f"- {step}: {', '.join(names) if names else 'none'}")
+        text = f"- {step}: {', '.join(names) if names else 'none'}"
+        lines += wrap(text, _WIDEST, subsequent_indent="  ", break_on_hyphens=False)
     return lines
 
 

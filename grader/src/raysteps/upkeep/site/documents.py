@@ -9,7 +9,7 @@ from raysteps.kit.project import Project
 COMMANDS_PAGE = Path("docs/commands.md")  # made from the command line itself, so not in the repository
 MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
-    ("For students", ("students", "where-students-work")),
+    ("For students", ("students", "where-students-work", "paper")),
     ("For instructors", ("instructors", "class", "exports", "release")),
     ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
     ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),

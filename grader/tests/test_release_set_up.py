@@ -1,0 +1,94 @@
+"""A release in which somebody set up and tried the kit: what that made is not searched, and this is told."""
+
+import argparse
+import subprocess
+from io import StringIO
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from raysteps.commands import release
+from raysteps.common.errors import UsageError
+from raysteps.kit.manifest import Step
+from raysteps.kit.project import Project
+from raysteps.release.leaks.finding import find_leaks
+from raysteps.release.leaks.secrets import Secrets
+from raysteps.release.leaks.words import Sequences
+from raysteps.release.searching import not_searched, to_search
+
+_PROGRAM = b"\x7fELF\2\1\1\0"  # a leak wherever it is searched
+_MADE = (".venv/bin/python", "build/release/bin/raytrace", "grader/src/raysteps.egg-info/SOURCES.txt",
+         "grader/src/raysteps/__pycache__/cli.pyc", "scenes/__pycache__/generate.pyc")  # fmt: skip
+_OTHER = ("docs/build/a.o", "steps/.venv/b", "notes/.git/c", "x.egg-info", "raysteps")
+
+
+def _write(folder: Path, *names: str) -> Path:
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(_PROGRAM)
+    return folder
+
+
+def _checked(project: Project, folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[int, str]:
+    monkeypatch.setattr(release, "gather", lambda _: Secrets(Sequences(), {}, None))
+    console = Console(width=200, record=True, file=StringIO())
+    code = release.run(project, argparse.Namespace(check=folder), console)
+    return code, console.export_text()
+
+
+def test_only_what_setting_up_makes_is_left_out(tmp_path: Path) -> None:
+    _write(tmp_path, *_MADE, *_OTHER)
+    searched = {path.relative_to(tmp_path).as_posix() for path in to_search(tmp_path) if path.is_file()}
+    assert searched == set(_OTHER)
+    assert not_searched(tmp_path) == ".venv, build, grader/src/raysteps.egg-info and 2 folders __pycache__"
+    assert {leak.place for leak in find_leaks(Secrets(Sequences(), {}, None), tmp_path)} == set(_OTHER)
+
+
+def test_a_link_or_a_file_of_such_a_name_is_searched(tmp_path: Path) -> None:
+    _write(tmp_path / "elsewhere", "a")
+    _write(tmp_path / "kit", "build")
+    (tmp_path / "kit" / ".venv").symlink_to(tmp_path / "elsewhere")
+    assert not_searched(tmp_path / "kit") == ""
+    assert [path.name for path in to_search(tmp_path / "kit")] == [".venv", "build"]
+
+
+def test_a_check_that_left_something_out_is_none(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "README.md").write_text("nothing\n", encoding="utf-8")
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
+    assert _checked(project, tmp_path, monkeypatch) == (0, "No solution was found in it.\n")
+
+    _write(tmp_path, ".venv/bin/python", "build/x")
+    code, said = _checked(project, tmp_path, monkeypatch)
+    assert code == 1
+    assert "No solution was found in what was searched.\nNot searched: .venv and build. " in said
+    assert "Take them away and check again" in said
+
+    _write(tmp_path, "raytrace")
+    code, said = _checked(project, tmp_path, monkeypatch)
+    assert code == 1
+    assert "No solution" not in said
+    assert "leak  raytrace: something compiled" in said
+    assert "Not searched: .venv and build" in said
+
+
+def test_a_folder_that_cannot_be_looked_through_is_told(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="gone: cannot be looked through: No such file"):
+        to_search(tmp_path / "gone")
+
+
+def test_one_number_is_said_to_begin_with_the_first_step(
+    project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def built(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(release, "written_files", built)
+    for text, words in (("3", "steps 1-3: a kit begins with step 01\n"), ("1-3", ""), ("1", ""), (None, "")):
+        console = Console(width=200, record=True, file=StringIO())
+        wish = argparse.Namespace(check=None, out=tmp_path / "new", steps=text, course="Course")
+        with pytest.raises(KeyboardInterrupt):
+            release.run(project, wish, console)
+        assert console.export_text() == words
