@@ -22,6 +22,15 @@ class Keys:
     after: str = ""
 
 
+@dataclass(frozen=True)
+class Ending:
+    """How a program comes to its end, and what says that it went well."""
+
+    keys: Keys | None = None
+    codes: tuple[int, ...] = (0,)
+    says: str = ""
+
+
 @contextmanager
 def _terminal() -> Iterator[tuple[int, int]]:
     """The person's end, and the program's."""
@@ -38,8 +47,9 @@ def _end(process: "subprocess.Popen[str]") -> None:
         os.killpg(process.pid, signal.SIGKILL)
 
 
-def typed_at(name: str, words: list[str], here: Path, environment: dict[str, str], keys: Keys | None) -> str:
+def typed_at(name: str, words: list[str], here: Path, environment: dict[str, str], ending: Ending) -> str:
     """What a program printed that went well. With keys it reads from a terminal."""
+    keys = ending.keys
     printed = ""
     with _terminal() as (mine, its):
         process = subprocess.Popen(
@@ -68,5 +78,6 @@ def typed_at(name: str, words: list[str], here: Path, environment: dict[str, str
         finally:
             late.cancel()
             _end(process)
-    assert code == 0, f"{name}: exit code {code}\n{printed}"
+    assert code in ending.codes, f"{name}: exit code {code}\n{printed}"
+    assert ending.says in printed, f"{name}: expected it to say '{ending.says}'\n{printed}"
     return printed

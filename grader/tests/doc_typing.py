@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from doc_only_read import why_not
-from doc_terminal import Keys, typed_at
+from doc_terminal import Ending, Keys, typed_at
 from doc_workshop import Workshop, copy_of
 
 from raysteps.commands.view import check_glfw
@@ -25,9 +25,11 @@ _CLASSROOM = {
     "COMMIT_URL": f"{_AT}/commit/1",
     "RELEASE_URL": f"{_AT}/releases/1",
 }
-
-
-_KEYS = {"reset": Keys("y\n"), "watch": Keys("q", "Passed")}
+_ENDINGS = {
+    "grade": Ending(codes=(0, 1)),  # a part of a submission was not handed in
+    "reset": Ending(Keys("y\n"), says="is the stub again"),
+    "watch": Ending(Keys("q", "Passed")),
+}
 
 
 def _matches(pattern: Path, here: Path) -> list[str]:
@@ -72,7 +74,7 @@ class Typist:
             words[:2] = ["./raysteps"]
         key = (str(here), *words)
         if key not in self.printed:
-            self.printed[key] = self._typed(one, words, here)
+            self.printed[key] = self._typed(str(one), words, here)
         return self.printed[key]
 
     def _expanded(self, words: tuple[str, ...], here: Path) -> list[str]:
@@ -84,31 +86,31 @@ class Typist:
             made += _matches(Path(own), here) or [own]
         return made
 
-    def _typed(self, one: Typed, words: list[str], here: Path) -> str:
+    def _typed(self, what: str, words: list[str], here: Path) -> str:
         if words[0] == "./raysteps":
-            return self._raysteps(one, words[1:], here)
+            return self._raysteps(what, words[1:], here)
         if words[0] == "python":
             words = [sys.executable, *words[1:]]
-        return self._run(one, words, here, here)
+        return self._run(what, words, here, here)
 
-    def _raysteps(self, one: Typed, words: list[str], here: Path) -> str:
-        package = here
-        match words[0]:
+    def _raysteps(self, what: str, words: list[str], here: Path) -> str:
+        name, package = words[0], here
+        match name:
             case "dev":  # changes the kit, so that its programs would have to be built anew
                 package = here = self._aside()
             case "update":
                 package = here = self._students_kit(newer="--into" in words)
             case "inspect" | "view":
                 package = self.workshop.original.root  # which has their programs
-        if words[0] in ("inspect", "render", "view") and "--impl" not in words:
+        if name in ("inspect", "render", "view") and "--impl" not in words:
             words = [*words, "--impl", "reference"]  # nobody knows what the steps are there, or has built the copy's
         start = [sys.executable, "-P", "-m", "raysteps"]
-        if words[0] == "view":
+        if name == "view":
             if not _can_view(self.workshop.original):
                 return ""
             start = ["xvfb-run", "-a", *start]
             words = words if "--screenshot" in words else [*words, "--screenshot", "view.ppm"]  # so that it ends
-        return self._run(one, [*start, *words], here, package, _KEYS.get(words[0]))
+        return self._run(what, [*start, *words], here, package, _ENDINGS.get(name))
 
     def _aside(self) -> Path:
         root = self.workshop.folder / "aside" / "kit"
@@ -119,14 +121,12 @@ class Typist:
         folder = self.workshop.folder
         if not (folder / "course-2").is_dir():
             shutil.copytree(folder / "graphics-101", folder / "my-repository")
-            line = 'release --out ../course-2 --steps 1-5 --course "Graphics 101"'
-            words = ("./raysteps", "release", "--out", "../course-2", "--steps", "1-5", "--course", "Graphics 101")
-            root = self.workshop.kit.root
-            self._typed(Typed(Path("course-2"), 0, line, words), list(words), root)
+            words = ["release", "--out", "../course-2", "--steps", "1-5", "--course", "Graphics 101"]
+            self._raysteps("a newer release", words, self.workshop.kit.root)
             shutil.make_archive(str(folder / "course-2"), "zip", folder, "course-2")
         return folder / ("course-2" if newer else "graphics-101")
 
-    def _run(self, one: Typed, words: list[str], here: Path, package: Path, keys: Keys | None = None) -> str:
+    def _run(self, what: str, words: list[str], here: Path, package: Path, ending: Ending | None = None) -> str:
         output = self.workshop.folder / "output.txt"
         environment = {
             **{name: value for name, value in os.environ.items() if name not in ("CI", "RAYSTEPS_COURSE")},
@@ -135,4 +135,4 @@ class Typist:
             "GITHUB_OUTPUT": str(output),
             "PYTHONPATH": str(package / "grader" / "src"),
         }
-        return typed_at(str(one), words, here, environment, keys)
+        return typed_at(what, words, here, environment, ending or Ending())

@@ -5,7 +5,7 @@ import subprocess
 import tarfile
 import zipfile
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.fingerprint import fingerprint
@@ -14,15 +14,24 @@ from raysteps.kit.project import Project
 from raysteps.upkeep.site.markdown import blocks
 
 _GRADEBOOK = """Student,ID,SIS User ID,SIS Login ID,Section,Ray tracer (12)
-    Points Possible,,,,,120
+    Points Possible,,,,,100
 "Lee, Ann",101,4711,ann,A,
 "Ray, Bob",102,4712,bob,A,
 """
 _WORKSHEET = """Identifier,"Full name","ID number","Email address",Status,Grade,"Maximum Grade","Grade can be changed",\
 "Last modified (submission)","Last modified (grade)","Feedback comments"
-"Participant 101","Ann Lee",4711,ann@example.edu,"Submitted for grading",,120.00,Yes,-,-,
-"Participant 102","Bob Ray",4712,bob@example.edu,"Submitted for grading",,120.00,Yes,-,-,
+"Participant 101","Ann Lee",4711,ann@example.edu,"Submitted for grading",,100.00,Yes,-,-,
+"Participant 102","Bob Ray",4712,bob@example.edu,"Submitted for grading",,100.00,Yes,-,-,
 """
+# What is copied: a person's own submissions and grades may lie beside it.
+_FILES = (
+    ".clang-format", ".editorconfig", ".gitattributes", ".gitignore", "CMakeLists.txt", "CMakePresets.json", "LICENSE",
+    "README.md", "raysteps",
+)  # fmt: skip
+_FOLDERS = (
+    ".devcontainer", ".github", ".vscode", "bench", "cmake", "course", "docs", "framework", "grader", "scenes",
+    "solutions", "steps",
+)  # fmt: skip
 _CAMERA, _OCTREE = "01-camera-rays/camera_rays.cpp", "06-octree/octree.cpp"  # quick to grade; in one, work is counted
 
 
@@ -57,8 +66,9 @@ def copy_of(kit: BuiltKit, root: Path) -> Project:
     """What git knows of the kit, with right steps, as a repository. It has the programs that were built for the
     original: they are the same, unless a source of the kit is not known to git."""
     project, copy = kit.project, Project(root)
-    for place in places(project.root):
-        if (project.root / place).is_file():
+    for place in (*map(PurePosixPath, _FILES), *places(project.root, _FOLDERS)):
+        belongs = place.parts[0] in (*_FILES, *_FOLDERS) and "__pycache__" not in place.parts
+        if belongs and (project.root / place).is_file():
             (root / place).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(project.root / place, root / place)
     _repository(root)

@@ -53,6 +53,7 @@ def test_what_is_only_read_is_in_the_documents(project: Project) -> None:
     typed = [one for one in there if not why_not(one)]
     assert len(typed) > 120
     assert {_family(one) for one in typed} == {*_FAMILIES, _OTHERS}
+    assert len([shown for shown in outputs_of(project) if shown.command in typed]) > 18
 
 
 @pytest.mark.slow
