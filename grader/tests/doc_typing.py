@@ -1,6 +1,7 @@
 """Types commands of the documents in a workshop, as a person would."""
 
 import os
+import re
 import shutil
 import sys
 from dataclasses import dataclass, field
@@ -79,10 +80,10 @@ class Typist:
 
     def _expanded(self, words: tuple[str, ...], here: Path) -> list[str]:
         """As a shell expands them, with a home and a /tmp of the workshop's own."""
+        folder = str(self.workshop.folder)
         made: list[str] = []
         for word in words:
-            own = word.replace("~/", f"{self.workshop.home}/") if word.startswith("~/") else word
-            own = f"{self.workshop.folder}{own}" if own.startswith("/tmp/") else own
+            own = re.sub("^~(?=/)|^(?=/tmp/)", lambda found: f"{folder}/home" if found[0] else folder, word)
             made += _matches(Path(own), here) or [own]
         return made
 
@@ -127,12 +128,12 @@ class Typist:
         return folder / ("course-2" if newer else "graphics-101")
 
     def _run(self, what: str, words: list[str], here: Path, package: Path, ending: Ending | None = None) -> str:
-        output = self.workshop.folder / "output.txt"
         environment = {
-            **{name: value for name, value in os.environ.items() if name not in ("CI", "RAYSTEPS_COURSE")},
+            **{name: value for name, value in os.environ.items() if name != "RAYSTEPS_COURSE"},
             **_CLASSROOM,
+            "CI": "1",  # so that no browser opens
             "COLUMNS": "120",
-            "GITHUB_OUTPUT": str(output),
+            "GITHUB_OUTPUT": str(self.workshop.folder / "output.txt"),
             "PYTHONPATH": str(package / "grader" / "src"),
         }
         return typed_at(what, words, here, environment, ending or Ending())

@@ -66,4 +66,4 @@ def test_the_commands_do_what_the_documents_say(project: Project, kit: BuiltKit,
             for one, printed in typist.block(block).items():
                 wrong = _missing(shown.get(one, Shown(one, ())).lines, printed)
                 assert wrong == "", f"{one}: this line was not printed, or not in its place\n{printed}"
-    assert len(typist.printed) > 15
+    assert len(typist.printed) > 5
