@@ -131,6 +131,7 @@ class Typist:
         environment = {
             **{name: value for name, value in os.environ.items() if name != "RAYSTEPS_COURSE"},
             **_CLASSROOM,
+            "CCACHE_BASEDIR": str(package),  # what was compiled for the original is the copy's, too
             "CI": "1",  # so that no browser opens
             "COLUMNS": "120",
             "GITHUB_OUTPUT": str(self.workshop.folder / "output.txt"),
