@@ -147,14 +147,14 @@ class Shown:
 
 
 def _shown(document: Path, text: str) -> Iterator[Shown]:
-    """Output stands in a block of its own, below that of its command, or below a line that says "prints". `render`
-    prints nothing."""
+    """Output stands in a block of its own, right below that of its command, or below words that begin or end with
+    "prints". `render` prints nothing."""
     lines = text.splitlines()
     for above, below in itertools.pairwise(blocks(text)):
         speaking = [one for one in commands(document, above) if one.words[1:2] != ("render",)]
         end = above.line + above.body.count("\n")  # the line of the fence below it
-        apart = below.line - end
-        follows = apart == 3 or (apart == 5 and lines[end + 1].startswith("prints"))
+        words = re.findall(r"\w+", " ".join(lines[end : below.line - 2]))
+        follows = not words or "prints" in (words[0], words[-1])
         if follows and speaking and below.tag in ("", "text") and not is_shell(below):
             yield Shown(speaking[-1], tuple(below.body.splitlines()))
 

@@ -5,7 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 _FENCE = re.compile(
-    r"^ {0,3}(?P<fence>`{3,}|~{3,})(?P<tag>[^`\n]*)\n(?P<body>.*?)^ {0,3}(?P=fence)[ \t]*$", re.MULTILINE | re.DOTALL
+    r"^(?P<indent> {0,3})(?P<fence>`{3,}|~{3,})(?P<tag>[^`\n]*)\n(?P<body>.*?)^ {0,3}(?P=fence)[ \t]*$",
+    re.MULTILINE | re.DOTALL,
 )
 _HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t#]*$", re.MULTILINE)
 _CODE = re.compile(r"(?<!`)(`+)(?!`)(.+?)(?<!`)\1(?!`)", re.DOTALL)
@@ -15,7 +16,8 @@ _FORMULA = re.compile(r"\$\$(.+?)\$\$|(?<![\\$\w])\$(?![\s$])([^$]+?)(?<![\s\\])
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block of code; `line` is that of its first line of text, from 1."""
+    """A fenced block of code; `line` is that of its first line of text, from 1. The body is without what the fence, as
+    within a list, is indented by."""
 
     tag: str
     body: str
@@ -23,7 +25,8 @@ class Block:
 
 
 def _block(text: str, found: re.Match[str]) -> Block:
-    return Block(found["tag"].strip(), found["body"], text.count("\n", 0, found.start("body")) + 1)
+    body = re.sub(rf"^ {{0,{len(found['indent'])}}}", "", found["body"], flags=re.MULTILINE)
+    return Block(found["tag"].strip(), body, text.count("\n", 0, found.start("body")) + 1)
 
 
 def blocks(text: str) -> list[Block]:

@@ -1,0 +1,43 @@
+"""Which commands of the documents no test types, and why."""
+
+from raysteps.upkeep.site.shell import Typed
+
+_TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
+_FIGURES = "takes minutes; `test` does what --check does"
+
+COMMANDS = {
+    "./raysteps test": "is what runs the tests",
+    "./raysteps dev check": _TRUTH,
+    "./raysteps dev check --only 02": _TRUTH,
+    "./raysteps dev check --pairs 40": _TRUTH,
+    "./raysteps dev check --only 10": "builds a kit with one more step, which takes minutes; test_new_step does so",
+    "./raysteps dev calibrate": "takes 15 minutes; test_calibration measures one picture from end to end",
+    "./raysteps dev mistakes": "takes minutes; `test` does what --check does",
+    "./raysteps figures": _FIGURES,
+    "./raysteps figures --check": _FIGURES,
+    "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
+        "shows a mistake that somebody made; test_inspect_mutants makes such"
+    ),
+    "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
+        "needs a cluster; test_class_cluster has one"
+    ),
+}
+
+SOMEBODY_ELSES = {
+    "../.venv/bin/python": "runs a test; `test --full` runs all",
+    ".venv/bin/dask": "starts a cluster; test_class_cluster does it",
+    ".venv/bin/pip": "installs",
+    "brew": "installs",
+    "docker": "takes minutes, and needs a network",
+    "java": "JPlag is no part of the kit",
+    "sbatch": "needs a cluster of Slurm",
+    "winget": "installs",
+    "wsl": "installs",
+}
+
+
+def why_not(one: Typed) -> str:
+    """Empty where the command is typed."""
+    if one.is_synopsis:
+        return "says what may be written"
+    return COMMANDS.get(" ".join(one.words)) or SOMEBODY_ELSES.get(one.words[0], "")

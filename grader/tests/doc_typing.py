@@ -1,0 +1,140 @@
+"""Types commands of the documents in a workshop, as a person would."""
+
+import os
+import re
+import shutil
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from doc_only_read import why_not
+from doc_terminal import Ending, Keys, typed_at
+from doc_workshop import Workshop, copy_of
+
+from raysteps.commands.view import check_glfw
+from raysteps.common.errors import UsageError
+from raysteps.kit.building import release_tree
+from raysteps.kit.built_kit import BuiltKit
+from raysteps.kit.project import Project
+from raysteps.upkeep.site.shell import Typed
+
+_AT = "https://github.com/course/checkout"
+_CLASSROOM = {
+    "CLASSROOM": "course",
+    "ASSIGNMENT": "ray-tracer",
+    "SUBMISSION_TAG": "submit/1",
+    "COMMIT_URL": f"{_AT}/commit/1",
+    "RELEASE_URL": f"{_AT}/releases/1",
+}
+_ENDINGS = {
+    "grade": Ending(codes=(0, 1)),  # a part of a submission was not handed in
+    "reset": Ending(Keys("y\n"), says="is the stub again"),
+    "watch": Ending(Keys("q", "Passed")),
+}
+
+
+def _matches(pattern: Path, here: Path) -> list[str]:
+    if not any(sign in pattern.name for sign in "*?["):
+        return []
+    return sorted(str(pattern.parent / found.name) for found in (here / pattern.parent).glob(pattern.name))
+
+
+def _can_view(project: Project) -> bool:
+    try:
+        check_glfw(release_tree(project))
+    except UsageError:
+        return False
+    return shutil.which("xvfb-run") is not None
+
+
+@dataclass
+class Typist:
+    """Types each command once, and knows what it printed."""
+
+    workshop: Workshop
+    built: BuiltKit
+    printed: dict[tuple[str, ...], str] = field(default_factory=dict)
+
+    def block(self, block: list[Typed]) -> dict[Typed, str]:
+        """What the commands of a block printed, each in the folder where those before it lead."""
+        here = self.workshop.kit.root
+        found = {}
+        for one in block:
+            if one.words[0] == "cd":
+                here = (here / one.words[1]).resolve(strict=True)
+            elif not why_not(one) and self._is_there(one.words[0]):
+                found[one] = self._once(one, here)
+        return found
+
+    def _is_there(self, program: str) -> bool:
+        return "/" in program or program == "python" or shutil.which(program) is not None
+
+    def _once(self, one: Typed, here: Path) -> str:
+        words = self._expanded(one.words, here)
+        if words[:2] == ["python", "raysteps"]:
+            words[:2] = ["./raysteps"]
+        key = (str(here), *words)
+        if key not in self.printed:
+            self.printed[key] = self._typed(str(one), words, here)
+        return self.printed[key]
+
+    def _expanded(self, words: tuple[str, ...], here: Path) -> list[str]:
+        """As a shell expands them, with a home and a /tmp of the workshop's own."""
+        folder = str(self.workshop.folder)
+        made: list[str] = []
+        for word in words:
+            own = re.sub("^~(?=/)|^(?=/tmp/)", lambda found: f"{folder}/home" if found[0] else folder, word)
+            made += _matches(Path(own), here) or [own]
+        return made
+
+    def _typed(self, what: str, words: list[str], here: Path) -> str:
+        if words[0] == "./raysteps":
+            return self._raysteps(what, words[1:], here)
+        if words[0] == "python":
+            words = [sys.executable, *words[1:]]
+        return self._run(what, words, here, here)
+
+    def _raysteps(self, what: str, words: list[str], here: Path) -> str:
+        name, package = words[0], here
+        match name:
+            case "dev":  # changes the kit, so that its programs would have to be built anew
+                package = here = self._aside()
+            case "update":
+                package = here = self._students_kit(newer="--into" in words)
+            case "inspect" | "view":
+                package = self.workshop.original.root  # which has their programs
+        if name in ("inspect", "render", "view") and "--impl" not in words:
+            words = [*words, "--impl", "reference"]  # nobody knows what the steps are there, or has built the copy's
+        start = [sys.executable, "-P", "-m", "raysteps"]
+        if name == "view":
+            if not _can_view(self.workshop.original):
+                return ""
+            start = ["xvfb-run", "-a", *start]
+            words = words if "--screenshot" in words else [*words, "--screenshot", "view.ppm"]  # so that it ends
+        return self._run(what, [*start, *words], here, package, _ENDINGS.get(name))
+
+    def _aside(self) -> Path:
+        root = self.workshop.folder / "aside" / "kit"
+        return root if root.is_dir() else copy_of(self.built, root).root
+
+    def _students_kit(self, *, newer: bool) -> Path:
+        """The release that was made before, and beside it a newer one, unpacked and as a zip."""
+        folder = self.workshop.folder
+        if not (folder / "course-2").is_dir():
+            shutil.copytree(folder / "graphics-101", folder / "my-repository")
+            words = ["release", "--out", "../course-2", "--steps", "1-5", "--course", "Graphics 101"]
+            self._raysteps("a newer release", words, self.workshop.kit.root)
+            shutil.make_archive(str(folder / "course-2"), "zip", folder, "course-2")
+        return folder / ("course-2" if newer else "graphics-101")
+
+    def _run(self, what: str, words: list[str], here: Path, package: Path, ending: Ending | None = None) -> str:
+        environment = {
+            **{name: value for name, value in os.environ.items() if name != "RAYSTEPS_COURSE"},
+            **_CLASSROOM,
+            "CCACHE_BASEDIR": str(package),  # what was compiled for the original is the copy's, too
+            "CI": "1",  # so that no browser opens
+            "COLUMNS": "120",
+            "GITHUB_OUTPUT": str(self.workshop.folder / "output.txt"),
+            "PYTHONPATH": str(package / "grader" / "src"),
+        }
+        return typed_at(what, words, here, environment, ending or Ending())
