@@ -30,6 +30,15 @@ def test_complete_reports(text: str) -> None:
     assert (bad.failure.location, bad.failure.notes) == ("a_test.cpp:9", "inner\nthe ray goes up")
 
 
+def test_sections_without_end_hold_nothing_up() -> None:
+    """A forged report: what lies deeper than any test of ours is not looked for."""
+    deep = '<Section name="a">' * 5000 + "<Failure/>" + "</Section>" * 5000
+    outcomes = parse_report(VERSION_3.replace('<Section name="inner">', f'{deep}<Section name="inner">').encode())
+    assert outcomes is not None
+    assert outcomes[1].failure is not None
+    assert outcomes[1].failure.expression == "a == b"
+
+
 @pytest.mark.parametrize(
     "text",
     [

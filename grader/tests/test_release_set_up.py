@@ -30,6 +30,10 @@ def _write(folder: Path, *names: str) -> Path:
     return folder
 
 
+def _places(folder: Path, *, tried: bool) -> set[str]:
+    return {leak.place for leak in find_leaks(Secrets(Sequences(), {}, None), folder, tried=tried)}
+
+
 def _checked(project: Project, folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[int, str]:
     monkeypatch.setattr(release, "gather", lambda _: Secrets(Sequences(), {}, None))
     console = Console(width=200, record=True, file=StringIO())
@@ -39,10 +43,15 @@ def _checked(project: Project, folder: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 def test_only_what_setting_up_makes_is_left_out(tmp_path: Path) -> None:
     _write(tmp_path, *_MADE, *_OTHER)
-    searched = {path.relative_to(tmp_path).as_posix() for path in to_search(tmp_path) if path.is_file()}
-    assert searched == set(_OTHER)
+    found = to_search(tmp_path, tried=True)
+    assert {path.relative_to(tmp_path).as_posix() for path in found if path.is_file()} == set(_OTHER)
     assert not_searched(tmp_path) == ".venv, build, grader/src/raysteps.egg-info and 2 folders __pycache__"
-    assert {leak.place for leak in find_leaks(Secrets(Sequences(), {}, None), tmp_path)} == set(_OTHER)
+    assert _places(tmp_path, tried=True) == set(_OTHER)
+
+
+def test_in_a_new_release_nothing_is_left_out(tmp_path: Path) -> None:
+    _write(tmp_path, *_MADE, *_OTHER)
+    assert _places(tmp_path, tried=False) == {*_MADE, *_OTHER}
 
 
 def test_a_link_or_a_file_of_such_a_name_is_searched(tmp_path: Path) -> None:
@@ -50,7 +59,14 @@ def test_a_link_or_a_file_of_such_a_name_is_searched(tmp_path: Path) -> None:
     _write(tmp_path / "kit", "build")
     (tmp_path / "kit" / ".venv").symlink_to(tmp_path / "elsewhere")
     assert not_searched(tmp_path / "kit") == ""
-    assert [path.name for path in to_search(tmp_path / "kit")] == [".venv", "build"]
+    assert _places(tmp_path / "kit", tried=True) == {".venv", "build"}
+
+
+def test_a_release_has_no_links(tmp_path: Path) -> None:
+    """Whoever packs it may follow them, to wherever they lead."""
+    (tmp_path / "kit").mkdir()
+    (tmp_path / "kit" / "docs").symlink_to(tmp_path / "solved")
+    assert _places(tmp_path / "kit", tried=True) == {"docs"}
 
 
 def test_a_check_that_left_something_out_is_none(
@@ -76,7 +92,7 @@ def test_a_check_that_left_something_out_is_none(
 
 def test_a_folder_that_cannot_be_looked_through_is_told(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="gone: cannot be looked through: No such file"):
-        to_search(tmp_path / "gone")
+        to_search(tmp_path / "gone", tried=True)
 
 
 def test_one_number_is_said_to_begin_with_the_first_step(

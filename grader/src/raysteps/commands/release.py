@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from raysteps.commands.progress import progress
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count
+from raysteps.common.text import count, listed
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.manifest import Step, read_steps
 from raysteps.kit.project import Project
@@ -17,6 +17,7 @@ from raysteps.release.leaks.secrets import Secrets, gather
 from raysteps.release.making import first_steps, release, written_files
 from raysteps.release.replacing import usable
 from raysteps.release.searching import not_searched
+from raysteps.students.set_up import FOLDERS
 
 _MOST_SHOWN = 20
 
@@ -25,8 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Where to, and what of it; or what to look through."""
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("--out", type=Path, metavar="DIR", help="a new or empty folder, or an earlier release")
-    where.add_argument("--check", type=Path, metavar="DIR", help="look for solutions in every file there")
-    parser.add_argument("--steps", metavar="1-N", help="the first steps only, such as 1-4")
+    where.add_argument("--check", type=Path, metavar="DIR", help="look for solutions in a folder that is to go out")
+    parser.add_argument("--steps", metavar="1-N", help="the first steps only, such as 1-4, or 4")
     parser.add_argument("--course", default="Raysteps", metavar="NAME", help="for the README (Raysteps)")
 
 
@@ -50,7 +51,7 @@ def _check(secrets: Secrets, folder: Path, console: Console) -> int:
     if not folder.is_dir():
         raise UsageError(f"{folder}: expected the folder of a release")
     left_out = not_searched(folder)
-    leaks = _tell(console, find_leaks(secrets, folder))
+    leaks = _tell(console, find_leaks(secrets, folder, tried=True))
     if not leaks:
         console.print(f"No solution was found in {'what was searched' if left_out else 'it'}.")
     if left_out:
@@ -102,7 +103,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         console.print("Nothing was written.")
         return 1
     _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
-    left_out = not_searched(out)
-    if left_out:
-        _say(console, f"Kept from before, and not searched: {left_out}")
+    kept = [name for name in FOLDERS if (out / name).is_dir()]
+    if kept:
+        _say(console, f"Kept from before, and not searched: {listed(kept)}")
     return 0

@@ -11,6 +11,7 @@ from raysteps.common.text import printable, shorten
 
 _MAX_BYTES = 2 << 20
 _MAX_TAGS = 50_000  # a report of our tests has some hundred
+_MAX_SECTIONS = 50  # one in the other; ours are two or three
 _TAG = re.compile(r"\[([^\]]*)\]")
 
 
@@ -60,20 +61,24 @@ def _compared(element: Element) -> tuple[str, str]:
 
 def _failure(element: Element, notes: list[str]) -> Failure | None:
     """Of an element that is an assertion which failed."""
-    told = "\n".join(notes)
     if element.tag == "Expression" and element.get("success") == "false":
         problem = element.find("Exception")
         if problem is None:
             problem = element.find("FatalErrorCondition")
         original, expanded = _compared(element)
-        return Failure(original, expanded if problem is None else f"threw: {_text(problem)}", _location(element), told)
+        return Failure(
+            original, expanded if problem is None else f"threw: {_text(problem)}", _location(element), "\n".join(notes)
+        )
     if element.tag in ("Failure", "Exception", "FatalErrorCondition"):
-        return Failure(element.tag, _text(element), _location(element), told)
+        return Failure(element.tag, _text(element), _location(element), "\n".join(notes))
     return None
 
 
 def _first_failure(room: Element, sections: tuple[str, ...] = ()) -> Failure | None:
-    """With the notes before it; the names of the sections around it are notes, too."""
+    """With the notes before it; the names of the sections around it are notes, too. Nobody looks deeper than a test of
+    ours goes."""
+    if len(sections) > _MAX_SECTIONS:
+        return None
     notes = list(sections)
     for element in room:
         if element.tag in ("Info", "Warning"):

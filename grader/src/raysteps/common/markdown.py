@@ -93,9 +93,12 @@ def with_targets(text: str, new: Callable[[str], str]) -> str:
 def unlinked(text: str, is_known: Callable[[str], bool]) -> str:
     """The text with only the words of a link, or of a picture, whose target is not known."""
     for found in reversed(list(_LINK.finditer(prose(text)))):
-        if not is_known(found["target"]):
-            start = found.start() - text.startswith("!", found.start() - 1)
-            text = text[:start] + text[slice(*found.span("text"))] + text[found.end() :]
+        start, end = found.span()
+        words = unlinked(text[slice(*found.span("text"))], is_known)  # a picture may be what is linked
+        if is_known(found["target"]):
+            text = f"{text[: start + 1]}{words}]({found['target']}){text[end:]}"
+        else:
+            text = text[: start - (text[:start].endswith("!"))] + words + text[end:]
     return text
 
 

@@ -12,6 +12,7 @@ from raysteps.kit.project import Project
 from raysteps.kit.stubs import pristine_stub
 from raysteps.release.absent import absent_files
 from raysteps.release.packages import package_files
+from raysteps.students.set_up import is_made_anew
 
 _ROOT = {
     ".clang-format",
@@ -45,7 +46,7 @@ _NOT_FOR_STUDENTS = re.compile(
 _OF_A_STEP = re.compile(r"steps/[^/]+/(README\.md|step\.toml|[^/]+(\.hpp|_test\.cpp|\.png|\.svg))")
 _OVERLAY, _WORKFLOW = "grader/src/raysteps/release/overlay", "course/github-workflow.yml"
 _MOST_NAMED = 5
-_SKIPPED = {"__pycache__", "build", ".venv", ".git"}
+_SKIPPED = {"build", ".venv", ".git"}
 
 
 def refuse_untracked(root: Path, files: Collection[str]) -> None:
@@ -57,6 +58,11 @@ def refuse_untracked(root: Path, files: Collection[str]) -> None:
             f"{listed(found[:_MOST_NAMED])}: would go out, but git does not know it; `git add` what belongs to the "
             "kit, and take away the rest"
         )
+
+
+def _is_made(place: PurePosixPath) -> bool:
+    """By setting up and trying a kit, wherever it lies."""
+    return is_made_anew(place.as_posix()) or not _SKIPPED.isdisjoint(place.parts)
 
 
 def _belongs(place: PurePosixPath, steps: Collection[str]) -> bool:
@@ -78,15 +84,15 @@ def _readable(path: Path) -> bytes:
 
 def _overlay(folder: Path) -> dict[str, bytes]:
     """Files that only a students' kit has, such as its workflow."""
-    return {
-        path.relative_to(folder).as_posix(): _readable(path) for path in sorted(folder.rglob("*")) if path.is_file()
-    }
+    files = [path for path in sorted(folder.rglob("*")) if path.is_file()]
+    named = {path.relative_to(folder): path for path in files}
+    return {place.as_posix(): _readable(path) for place, path in named.items() if not _is_made(PurePosixPath(place))}
 
 
 def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dict[str, bytes]:
     """Files by path, without those that are made: pictures, README and the list of all files."""
     chosen = {step.id for step in steps}
-    known = [place for place in places(project.root) if not _SKIPPED.intersection(place.parts)]
+    known = [place for place in places(project.root) if not _is_made(place)]
     files = {
         place.as_posix(): _readable(project.root / place)
         for place in known

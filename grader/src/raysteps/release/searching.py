@@ -4,15 +4,17 @@ from pathlib import Path
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, listed
-from raysteps.students.set_up import CACHE, all_places
+from raysteps.students.set_up import CACHE, HISTORY, all_places
 
 
 def _refuse(error: OSError) -> None:
     raise UsageError(f"{error.filename}: cannot be looked through: {error.strerror or error}") from error
 
 
-def to_search(folder: Path) -> list[Path]:
-    """All that may be of a release: no history, and nothing that setting up a kit makes."""
+def to_search(folder: Path, *, tried: bool) -> list[Path]:
+    """All files and folders but the history; where the kit was set up and tried, without what that makes."""
+    if not tried:
+        return sorted(path for path in folder.rglob("*") if path.relative_to(folder).parts[0] != HISTORY)
     return sorted(place.path for place in all_places(folder, _refuse) if not place.made)
 
 

@@ -107,6 +107,7 @@ def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
     if named:
         yield Leak(place.as_posix(), None, "its name", f"a release has nothing called {min(named)}")
     if path.is_symlink():
+        yield Leak(place.as_posix(), None, "whatever it was made of", "a link; a release has none")
         yield from _leaks_in(secrets, place.as_posix(), str(path.readlink()).encode())
     elif path.is_file():
         data = path.read_bytes()
@@ -116,7 +117,8 @@ def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
         yield from _leaks_in(secrets, place.as_posix(), data)
 
 
-def find_leaks(secrets: Secrets, folder: Path) -> list[Leak]:
-    """In every file, in what files hold, and in git's objects; not in what setting up the kit has made there."""
-    found = [leak for path in to_search(folder) for leak in _in_file(secrets, folder, path)]
+def find_leaks(secrets: Secrets, folder: Path, *, tried: bool = False) -> list[Leak]:
+    """In every file, in what files hold, and in git's objects. Where the kit was tried, not in what setting it up has
+    made there."""
+    found = [leak for path in to_search(folder, tried=tried) for leak in _in_file(secrets, folder, path)]
     return [*found, *leaks_in_history(secrets, folder)]
