@@ -13,6 +13,7 @@ namespace raysteps {
 const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.png [options]
 
   -o FILE                 the picture, PNG or binary PPM by the ending of the name
+                          (PPM only where raytrace is called without ./raysteps)
   --step N                render with what the course has after step N (8, or the last step of the kit)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise

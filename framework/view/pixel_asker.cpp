@@ -50,7 +50,7 @@ std::string PixelAsker::inspected(const Question& question) {
             question.camera_moved ? "# the camera as it was moved\n" + write_viewpoint(shot.camera) : "";
         return camera + inspect_text(record);
     } catch (const std::exception& error) {
-        return "view: this pixel cannot be inspected: " + std::string(error.what()) + "\n";
+        return "raysteps view: this pixel cannot be inspected: " + std::string(error.what()) + "\n";
     }
 }
 

@@ -122,7 +122,7 @@ private:
             throw std::runtime_error("this picture cannot be made: " + problem);
         }
         if (!problem.empty() && problem != problem_) {
-            std::fprintf(stderr, "view: this picture cannot be made: %s\n", problem.c_str());
+            std::fprintf(stderr, "raysteps view: this picture cannot be made: %s\n", problem.c_str());
         }
         problem_ = problem;
     }
@@ -171,7 +171,7 @@ private:
             write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
             say("saved " + display_name(path) + "\n");
         } catch (const std::exception& error) {
-            std::fprintf(stderr, "view: %s\n", error.what());
+            std::fprintf(stderr, "raysteps view: %s\n", error.what());
         }
     }
 
@@ -183,7 +183,7 @@ private:
 
     void leave() {
         if (!progressive_.stop(k_patience) || !asker_.idle_within(k_patience)) {
-            std::fputs("view: a step did not come to an end, and was left\n", stderr);
+            std::fputs("raysteps view: a step did not come to an end, and was left\n", stderr);
             std::_Exit(0);  // a thread that hangs cannot be joined
         }
     }

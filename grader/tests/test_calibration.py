@@ -70,6 +70,10 @@ def test_a_margin_under_two_is_a_complaint() -> None:
     assert "| 02-intersection | balls-twin | 0.1 % (a) | 10 % (mild) | 100 | 0.01 |  |" in page
     assert "- no FMA here" in page
     other = Limited("04-shadows", "images", "corner", 0.01, ())
+    unseen = tuple(f"a-mistake-with-a-long-name-{number}" for number in range(9))
+    fresh = replace(fresh, unseen=unseen)
+    stale = replace(stale, unseen=unseen[:7])
+    page = calibration_page([Calibrated(limited, stale)], [], ["no FMA here"])
     both = calibration_page([Calibrated(limited, fresh), Calibrated(other, fresh)], [], ["no FMA here"])
     assert page_with(both, page) == calibration_page(
         [Calibrated(limited, stale), Calibrated(other, fresh)], [], ["no FMA here"]

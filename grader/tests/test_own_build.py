@@ -47,7 +47,26 @@ def test_an_error_in_a_header_is_of_the_step_that_was_built(course: Project) -> 
 
 def test_a_function_that_is_gone_is_named(course: Project) -> None:
     said = "FAILED: bin/raytrace-mine\nld: trace.cpp: undefined reference to `raysteps::shade(int)'\n"
-    assert _told(course, said).startswith("your steps do not build: raysteps::shade(int) is missing. The file must")
+    assert _told(course, said).startswith("step 03 does not build: shade(int) is missing. The file must define it")
+
+
+def test_a_helper_that_is_defined_nowhere_is_of_the_step_that_calls_it(course: Project) -> None:
+    called = "ld: /kit/steps/03-phong-shading/phong_shading.cpp:12: undefined reference to `raysteps::helper(int)'\n"
+    assert _told(course, f"FAILED: bin/raytrace-mine\n{called}").startswith(
+        "step 03 does not build: raysteps::helper(int) is called, but defined nowhere."
+    )
+
+
+def test_a_file_of_the_kit_that_fails_is_not_the_students_fault(course: Project) -> None:
+    kits = "FAILED: framework/CMakeFiles/kit.dir/core/box.cpp.o\n../core/box.cpp:7:2: error: kit broken\n"
+    told = _told(course, f"{_NINJA}{kits}{_STOPPED}")
+    assert told.startswith("your steps do not build:\n[1/7]")
+    assert "box.cpp:7:2: error: kit broken" in told
+
+
+def test_a_build_that_was_stopped_is_told(course: Project) -> None:
+    outcome = Outcome(-9, timed_out=True, stdout="[1/9] Building", stderr="", seconds=1800.0)
+    assert why_own_steps_do_not_build(course, outcome) == "your steps do not build: it was stopped after 1800 s"
 
 
 def test_what_is_not_understood_is_shown_from_its_failure_on(course: Project) -> None:

@@ -75,11 +75,16 @@ def test_in_every_kind_of_file_that_goes_out(
         f"{package}/release/overlay/notes.md": solution,
     }
     (copy.root / "course.toml").write_text(f"seed = {_SEED}\n", encoding="utf-8")
-    for name, words in planted.items():
+    made = (
+        "framework/core/notes.egg-info/a.txt",
+        "scenes/__pycache__/b.txt",
+        f"{package}/release/overlay/c.egg-info/d",
+    )
+    for name, words in [*planted.items(), *((name, solution) for name in made)]:
         _plant(copy, name, words)
     found = {leak.place for leak in find_leaks(gather(copy), _release(copy, tmp_path / "kit", monkeypatch))}
     places_out = {name.removeprefix(f"{package}/release/overlay/") for name in planted}
-    assert found == places_out
+    assert found == places_out, "what setting up makes does not go out"
 
 
 def test_only_files_of_a_step_are_taken_and_none_that_git_does_not_know(

@@ -114,6 +114,15 @@ def is_of_a_linker(output: str) -> bool:
     return bool(_MISSING.search(output) or _TWICE.search(output))
 
 
+def missing_name(output: str) -> tuple[str, str] | None:
+    """The first function that the linker does not find, and the line in which it says so."""
+    missing = _MISSING.search(output)
+    if missing is None or _TWICE.search(output):
+        return None
+    start, end = output.rfind("\n", 0, missing.start()) + 1, output.find("\n", missing.end())
+    return missing["name"] or missing["other"], output[start : end if end >= 0 else len(output)]
+
+
 def link_message(ran: Ran) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:

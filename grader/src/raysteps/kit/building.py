@@ -100,4 +100,5 @@ def what_failed(outcome: Outcome) -> str:
     """The part of a failed build that a person needs: from its first failure on."""
     text = printable(outcome.stdout + outcome.stderr)
     starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400, text.find("error C") - 400) if at > 0]
-    return shorten(text[min(starts, default=0) :], 6000)
+    start = min(starts, default=0)
+    return shorten(text[text.rfind("\n", 0, start) + 1 :], 6000)

@@ -97,23 +97,28 @@ def calibration_page(found: Sequence[Calibrated], settings: Sequence[Setting], l
     return "\n".join(lines) + "\n"
 
 
-def _renewed(lines: list[str], head: str, step: str, new: list[str]) -> list[str]:
-    """Lines of a step's begin with `head` and its name; those of a new step come after the last one's."""
-    own = [number for number, line in enumerate(lines) if line.startswith(f"{head}{step}")]
-    near = own or [number + 1 for number, line in enumerate(lines) if re.match(rf"{re.escape(head)}\d\d-", line)][-1:]
-    at = near[0] if near else len(lines)
-    return lines[:at] + new + [line for number, line in enumerate(lines[at:], at) if number not in own]
+def _entries(page: str) -> list[str]:
+    """Its lines, each with the indented ones that go on with it."""
+    return re.split(r"\n(?!  )", page)
+
+
+def _renewed(entries: list[str], head: str, step: str, new: list[str]) -> list[str]:
+    """Entries of a step begin with `head` and its name; those of a new step come after the last one's."""
+    own = [number for number, entry in enumerate(entries) if entry.startswith(f"{head}{step}")]
+    of_steps = [number for number, entry in enumerate(entries) if re.match(rf"{re.escape(head)}\d\d-", entry)]
+    at = own[0] if own else [len(entries), *(number + 1 for number in of_steps)][-1]
+    return entries[:at] + new + [entry for number, entry in enumerate(entries[at:], at) if number not in own]
 
 
 def page_with(page: str, measured: str) -> str:
     """The page with the steps that another page, of some steps only, has measured anew."""
-    lines, others = page.split("\n"), measured.split("\n")
+    entries, others = _entries(page), _entries(measured)
     for head, end in (("| ", " |"), ("- ", ":")):
-        of_steps = [line for line in others if re.match(rf"{re.escape(head)}\d\d-", line)]
-        for step in dict.fromkeys(line.removeprefix(head).partition(end)[0] for line in of_steps):
-            new = [line for line in of_steps if line.startswith(f"{head}{step}{end}")]
-            lines = _renewed(lines, head, f"{step}{end}", new)
-    return "\n".join(lines)
+        of_steps = [entry for entry in others if re.match(rf"{re.escape(head)}\d\d-", entry)]
+        for step in dict.fromkeys(entry.removeprefix(head).partition(end)[0] for entry in of_steps):
+            new = [entry for entry in of_steps if entry.startswith(f"{head}{step}{end}")]
+            entries = _renewed(entries, head, f"{step}{end}", new)
+    return "\n".join(entries)
 
 
 def complaints(found: Sequence[Calibrated], *, check: bool) -> list[str]:
