@@ -30,8 +30,8 @@ _ENDINGS = {
     "reset": Ending(Keys("[y/N]", "y\n", "is the stub again")),
     "watch": Ending(Keys("Passed", "q", "Stopped watching.")),
 }
-# These change nothing that they look at. `release` is slow, too, and refuses a folder that is there.
-_SAME_ANSWER = {"inspect", "release", "render"}
+# What is done before makes no difference to these; but `release` refuses a folder that is there.
+_SAME_ANSWER = {"demo", "inspect", "release", "render"}
 
 
 def _matches(pattern: Path, here: Path) -> list[str]:
