@@ -1,4 +1,4 @@
-"""Which commands of the documents no test types, and why."""
+"""Which commands of the documents no test types, and why; and whose programs may be typed at all."""
 
 from raysteps.upkeep.site.shell import Typed
 
@@ -34,6 +34,15 @@ SOMEBODY_ELSES = {
     "winget": "installs",
     "wsl": "installs",
 }
+
+_HARMLESS = {"cd", "cmake", "cp", "mkdir", "sqlite3", "tar", "zip"}
+
+
+def may_be_typed(one: Typed) -> bool:
+    """Programs of the kit, and a few that do no more than their words say."""
+    first, *rest = one.words
+    is_python = first == "python" and rest[:1] in (["raysteps"], ["scenes/generate.py"])
+    return is_python or first == "./raysteps" or first.startswith("build/") or first in _HARMLESS
 
 
 def why_not(one: Typed) -> str:

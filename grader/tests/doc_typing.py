@@ -1,13 +1,12 @@
 """Types commands of the documents in a workshop, as a person would."""
 
-import os
 import re
 import shutil
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from doc_only_read import why_not
+from doc_only_read import may_be_typed, why_not
 from doc_terminal import Ending, Keys, typed_at
 from doc_workshop import Workshop, copy_of
 
@@ -28,9 +27,11 @@ _CLASSROOM = {
 }
 _ENDINGS = {
     "grade": Ending(codes=(0, 1)),  # a part of a submission was not handed in
-    "reset": Ending(Keys("y\n"), says="is the stub again"),
-    "watch": Ending(Keys("q", "Passed")),
+    "reset": Ending(Keys("[y/N]", "y\n", "is the stub again")),
+    "watch": Ending(Keys("Passed", "q", "Stopped watching.")),
 }
+# What is done before makes no difference to these; but `release` refuses a folder that is there.
+_SAME_ANSWER = {"demo", "inspect", "release", "render"}
 
 
 def _matches(pattern: Path, here: Path) -> list[str]:
@@ -49,11 +50,11 @@ def _can_view(project: Project) -> bool:
 
 @dataclass
 class Typist:
-    """Types each command once, and knows what it printed."""
+    """Types commands, those that would only say the same again once."""
 
     workshop: Workshop
     built: BuiltKit
-    printed: dict[tuple[str, ...], str] = field(default_factory=dict)
+    said: dict[tuple[str, ...], str] = field(default_factory=dict)
 
     def block(self, block: list[Typed]) -> dict[Typed, str]:
         """What the commands of a block printed, each in the folder where those before it lead."""
@@ -63,20 +64,24 @@ class Typist:
             if one.words[0] == "cd":
                 here = (here / one.words[1]).resolve(strict=True)
             elif not why_not(one) and self._is_there(one.words[0]):
-                found[one] = self._once(one, here)
+                assert may_be_typed(one), f"{one}: somebody else's program, which may do anything"
+                try:
+                    found[one] = self._answer(one, here)
+                except AssertionError as wrong:
+                    raise AssertionError(f"{one}: {wrong}") from wrong
         return found
 
     def _is_there(self, program: str) -> bool:
         return "/" in program or program == "python" or shutil.which(program) is not None
 
-    def _once(self, one: Typed, here: Path) -> str:
+    def _answer(self, one: Typed, here: Path) -> str:
         words = self._expanded(one.words, here)
         if words[:2] == ["python", "raysteps"]:
             words[:2] = ["./raysteps"]
         key = (str(here), *words)
-        if key not in self.printed:
-            self.printed[key] = self._typed(str(one), words, here)
-        return self.printed[key]
+        if key not in self.said or not _SAME_ANSWER.intersection(words[1:2]):
+            self.said[key] = self._typed(words, here)
+        return self.said[key]
 
     def _expanded(self, words: tuple[str, ...], here: Path) -> list[str]:
         """As a shell expands them, with a home and a /tmp of the workshop's own."""
@@ -87,14 +92,14 @@ class Typist:
             made += _matches(Path(own), here) or [own]
         return made
 
-    def _typed(self, what: str, words: list[str], here: Path) -> str:
+    def _typed(self, words: list[str], here: Path) -> str:
         if words[0] == "./raysteps":
-            return self._raysteps(what, words[1:], here)
+            return self._raysteps(words[1:], here)
         if words[0] == "python":
             words = [sys.executable, *words[1:]]
-        return self._run(what, words, here, here)
+        return self._run(words, here, here)
 
-    def _raysteps(self, what: str, words: list[str], here: Path) -> str:
+    def _raysteps(self, words: list[str], here: Path) -> str:
         name, package = words[0], here
         match name:
             case "dev":  # changes the kit, so that its programs would have to be built anew
@@ -111,7 +116,7 @@ class Typist:
                 return ""
             start = ["xvfb-run", "-a", *start]
             words = words if "--screenshot" in words else [*words, "--screenshot", "view.ppm"]  # so that it ends
-        return self._run(what, [*start, *words], here, package, _ENDINGS.get(name))
+        return self._run([*start, *words], here, package, _ENDINGS.get(name))
 
     def _aside(self) -> Path:
         root = self.workshop.folder / "aside" / "kit"
@@ -123,18 +128,19 @@ class Typist:
         if not (folder / "course-2").is_dir():
             shutil.copytree(folder / "graphics-101", folder / "my-repository")
             words = ["release", "--out", "../course-2", "--steps", "1-5", "--course", "Graphics 101"]
-            self._raysteps("a newer release", words, self.workshop.kit.root)
+            self._raysteps(words, self.workshop.kit.root)
             shutil.make_archive(str(folder / "course-2"), "zip", folder, "course-2")
         return folder / ("course-2" if newer else "graphics-101")
 
-    def _run(self, what: str, words: list[str], here: Path, package: Path, ending: Ending | None = None) -> str:
-        environment = {
-            **{name: value for name, value in os.environ.items() if name != "RAYSTEPS_COURSE"},
+    def _run(self, words: list[str], here: Path, package: Path, ending: Ending | None = None) -> str:
+        settings = {
             **_CLASSROOM,
-            "CCACHE_BASEDIR": str(package),  # what was compiled for the original is the copy's, too
+            "CCACHE_BASEDIR": str(package),  # for the `cmake --build` that is typed: the copy shares it
             "CI": "1",  # so that no browser opens
             "COLUMNS": "120",
             "GITHUB_OUTPUT": str(self.workshop.folder / "output.txt"),
+            "HOME": str(self.workshop.home),
             "PYTHONPATH": str(package / "grader" / "src"),
         }
-        return typed_at(what, words, here, environment, ending or Ending())
+        start = ["env", "-u", "RAYSTEPS_COURSE", *(f"{name}={value}" for name, value in settings.items())]
+        return typed_at([*start, *words], here, ending or Ending())

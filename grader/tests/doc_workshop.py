@@ -1,5 +1,6 @@
 """A copy of the kit to type the commands of the documents in, with what the documents take for granted."""
 
+import os
 import shutil
 import subprocess
 import tarfile
@@ -53,7 +54,8 @@ class Workshop:
 
 def _git(root: Path, *words: str) -> None:
     own = ("-c", "user.name=Ann", "-c", "user.email=ann@example.edu", "-c", "core.autocrlf=false")
-    subprocess.run(["git", "-C", root, *own, *words], check=True, capture_output=True, timeout=60)
+    nobodys = os.environ | {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
+    subprocess.run(["git", "-C", root, *own, *words], check=True, capture_output=True, timeout=60, env=nobodys)
 
 
 def _repository(root: Path) -> None:

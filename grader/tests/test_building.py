@@ -1,6 +1,7 @@
 """The build folder of the kit."""
 
 import json
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -29,9 +30,10 @@ def test_a_build_folder_of_another_clone_is_configured_anew(tmp_path: Path) -> N
     assert not (tree.folder / "CMakeFiles").exists()
 
 
+_TYPE = "RelWithDebInfo"  # what the compiler knows of the folder is in what it makes only with -g
 _PRESETS = {
     "version": 3,
-    "configurePresets": [{"name": "release", "cacheVariables": {"CMAKE_BUILD_TYPE": "Release"}}],
+    "configurePresets": [{"name": "release", "cacheVariables": {"CMAKE_BUILD_TYPE": _TYPE}}],
 }
 _LISTS = """cmake_minimum_required(VERSION 3.22)
 project(tiny LANGUAGES CXX)
@@ -55,10 +57,32 @@ def _hits() -> int:
     return int(counted["direct_cache_hit"]) + int(counted["preprocessed_cache_hit"])
 
 
+@pytest.mark.skipif(not shutil.which("ninja"), reason="needs ninja")
+def test_a_launcher_that_is_gone_is_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    launcher = tmp_path / "launcher"
+    launcher.write_text('#!/bin/sh\nexec "$@"\n')
+    launcher.chmod(0o755)
+    tree = release_tree(_tiny(tmp_path / "kit"))
+    monkeypatch.setenv("CMAKE_CXX_COMPILER_LAUNCHER", str(launcher))
+    tree.configure()
+    monkeypatch.delenv("CMAKE_CXX_COMPILER_LAUNCHER")
+    assert tree.cached("CMAKE_CXX_COMPILER_LAUNCHER") == str(launcher)
+    assert tree.is_configured()
+    launcher.unlink()
+    assert not tree.is_configured()
+    outcome = tree.build([])
+    assert outcome.code == 0, outcome.stdout + outcome.stderr
+    assert tree.is_configured()
+
+
 @pytest.mark.skipif(not (shutil.which("ccache") and shutil.which("ninja")), reason="needs ccache and ninja")
 def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("CMAKE_CXX_COMPILER_LAUNCHER", "CCACHE_DIR", "CCACHE_NOHASHDIR"):
+    own = [name for name in os.environ if name.startswith("CCACHE_")]
+    for name in (*own, "CMAKE_CXX_COMPILER_LAUNCHER", "CCACHE_DIR", "CCACHE_NOHASHDIR"):
         monkeypatch.setenv(name, "")  # so that what is set now is forgotten again
+        monkeypatch.delenv(name)
+    (tmp_path / "ccache.conf").touch()
+    monkeypatch.setenv("CCACHE_CONFIGPATH", str(tmp_path / "ccache.conf"))
     use_compiler_cache(Project(tmp_path))
     for name, hits in (("one", 0), ("far/the other", 1)):
         tree = release_tree(_tiny(tmp_path / name))

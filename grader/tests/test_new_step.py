@@ -135,7 +135,6 @@ def test_a_new_step_is_graded_and_shown_and_no_other_file_is_edited(
 ) -> None:
     root = tmp_path / "kit"
     monkeypatch.setenv("PYTHONPATH", str(root / "grader" / "src"))
-    monkeypatch.setenv("CCACHE_BASEDIR", str(root))
     for file in kit_files(project):
         path = root / file.place
         path.parent.mkdir(parents=True, exist_ok=True)

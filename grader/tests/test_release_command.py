@@ -83,7 +83,6 @@ def test_it_is_made_and_checked_in_an_empty_folder(
     table = tomllib.loads((out / "grader" / "pyproject.toml").read_text(encoding="utf-8"))
     room = _room(tmp_path / "room", table["project"]["dependencies"])
     monkeypatch.delenv("PYTHONPATH", raising=False)
-    monkeypatch.setenv("CCACHE_BASEDIR", str(out))
     stub = _alone(out, room, "check", "01")
     assert stub.code == 1, stub.stdout + stub.stderr
     assert "not-started" in stub.stdout

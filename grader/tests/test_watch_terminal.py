@@ -1,19 +1,15 @@
 """`watch` on a terminal: keys, saves, and an end that leaves everything as it was."""
 
-import fcntl
 import os
-import re
-import select
 import signal
 import subprocess
 import sys
-import termios
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from course_fakes import small_project, write_own
+from terminals import Terminal
 from watch_fakes import wait_for
 
 from raysteps.commands.watch.keys import letters
@@ -22,58 +18,11 @@ from raysteps.kit.project import Project
 
 _PATIENCE = 90
 _FAKES = Path(__file__).with_name("watch_fakes.py")
-_COLORS = re.compile(r"\x1b\[[0-9;]*m")
 
 
-def _take_the_terminal() -> None:
-    """And hear Ctrl-C there, even where the tests run in the background and do not."""
-    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-class Terminal:
-    """A pseudo-terminal in which `watch` runs with the fake worker."""
-
-    def __init__(self, project: Project, *words: str) -> None:
-        self._master, self._slave = os.openpty()
-        self.before = termios.tcgetattr(self._slave)
-        self._seen = ""
-        self._at = 0
-        self.process = subprocess.Popen(
-            [sys.executable, str(_FAKES), str(project.root), *words],
-            stdin=self._slave,
-            stdout=self._slave,
-            stderr=self._slave,
-            env=os.environ | {"TERM": "xterm", "COLUMNS": "120"},
-            start_new_session=True,
-            preexec_fn=_take_the_terminal,
-        )
-
-    def wait(self, text: str) -> str:
-        """Everything up to this text, which must be new."""
-        end = time.monotonic() + _PATIENCE
-        while (found := self._seen.find(text, self._at)) < 0:
-            assert time.monotonic() < end, f"no '{text}' in:\n{self._seen[self._at :]}"
-            if select.select([self._master], [], [], 0.1)[0]:
-                self._seen = _COLORS.sub("", self._seen + os.read(self._master, 65536).decode())
-        before, self._at = self._seen[self._at : found], found + len(text)
-        return before
-
-    def press(self, keys: str) -> None:
-        os.write(self._master, keys.encode())
-
-    def end(self) -> int:
-        return self.process.wait(_PATIENCE)
-
-    def is_as_before(self) -> bool:
-        return termios.tcgetattr(self._slave) == self.before
-
-    def close(self) -> None:
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
-        os.close(self._master)
-        os.close(self._slave)
+def _watch(project: Project, *words: str) -> Terminal:
+    """`watch` with the fake worker."""
+    return Terminal([sys.executable, _FAKES, project.root, *words])
 
 
 @pytest.fixture
@@ -100,7 +49,7 @@ def _scratch(course: Project) -> list[Path]:
 
 def test_a_lesson(course: Project, steps: list[Step], terminals: list[Terminal]) -> None:
     own = write_own(course, steps[0], "// wrong")
-    terminals.append(terminal := Terminal(course))
+    terminals.append(terminal := _watch(course))
     terminal.wait("Page: http://127.0.0.1:")
     terminal.wait("01 Camera rays: watching")
     terminal.wait("✗ 1 of 2 tests right, 0 of 1 picture right.")
@@ -144,7 +93,7 @@ def test_a_lesson(course: Project, steps: list[Step], terminals: list[Terminal])
 
 def test_crashes_and_hangs_do_not_stop_the_loop(course: Project, steps: list[Step], terminals: list[Terminal]) -> None:
     own = write_own(course, steps[2], "// crash")
-    terminals.append(terminal := Terminal(course, "3", "--no-browser", "--poll"))
+    terminals.append(terminal := _watch(course, "3", "--no-browser", "--poll"))
     terminal.wait("Files are polled: --poll.")
     terminal.wait("This run ended before it was done (exit code -9): it gets dark")
     own.write_text("// hang")
@@ -175,7 +124,7 @@ def test_an_end_from_outside(
     course: Project, steps: list[Step], terminals: list[Terminal], number: signal.Signals
 ) -> None:
     write_own(course, steps[0], "// program")
-    terminals.append(terminal := Terminal(course, "01"))
+    terminals.append(terminal := _watch(course, "01"))
     log = course.root.parent / "log.txt"
     wait_for(lambda: log.is_file() and log.read_text())
     os.kill(terminal.process.pid, number)

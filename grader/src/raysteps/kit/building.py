@@ -17,6 +17,7 @@ from raysteps.kit.project import Project
 
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
+_LAUNCHER = "CMAKE_CXX_COMPILER_LAUNCHER"
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,13 @@ class BuildTree:
         generated = home == self.project.root.as_posix() and any(
             (self.folder / name).is_file() for name in ("build.ninja", "Makefile")
         )
-        return generated and self.cached("RAYSTEPS_MINE_DIR") == self.mine.as_posix()
+        is_same = generated and self.cached("RAYSTEPS_MINE_DIR") == self.mine.as_posix()
+        return is_same and not self._launcher_is_gone()
+
+    def _launcher_is_gone(self) -> bool:
+        """CMake remembers what starts the compiler, such as ccache. It may not be installed any more."""
+        launcher = self.cached(_LAUNCHER).partition(";")[0]
+        return launcher != "" and shutil.which(launcher) is None
 
     def forget_other_home(self) -> None:
         """CMake refuses a build folder whose sources were elsewhere, as in a clone that was moved or copied."""
@@ -67,6 +74,8 @@ class BuildTree:
         self.forget_other_home()
         command: list[str | Path] = ["cmake", "--preset", self.preset, "-S", self.project.root, "-B", self.folder]
         command += [f"-DRAYSTEPS_MINE_DIR={self.mine.as_posix()}", *self.options]
+        if self._launcher_is_gone():
+            command.append(f"-U{_LAUNCHER}")
         generator = self.cached("CMAKE_GENERATOR") or ("Ninja" if shutil.which("ninja") else "")
         command += ["-G", generator] if generator else []
         outcome = run(command, seconds=_CONFIGURE_SECONDS, cwd=self.project.root)
@@ -76,7 +85,7 @@ class BuildTree:
     def build(self, targets: list[str]) -> Outcome:
         """Builds the targets (all of them when there are none)."""
         self.configure()
-        cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for who uses ccache: copies of the kit share it
+        cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for whoever uses ccache: copies of the kit share it
         command: list[str | Path] = ["cmake", "-E", "env", cached, "cmake", "--build", self.folder]
         if "CMAKE_BUILD_PARALLEL_LEVEL" not in os.environ:
             command.append("--parallel")

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from raysteps.commands.view import build_view
+from raysteps.commands.render import build_program
+from raysteps.commands.view import check_glfw
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.kit.building import release_tree
 from raysteps.kit.built_kit import BuiltKit
@@ -25,10 +26,15 @@ class CannotDraw(Exception):
 def _screenshot(program: Path, scene: Path, folder: Path) -> Pixels:
     shown = folder / "shown.ppm"
     words: list[str | Path] = [program, scene, *_SIZE, "--screenshot", shown, "--strip"]
-    with hidden_screen() as environment:
-        done = subprocess.run(
-            words, cwd=folder, env=environment, capture_output=True, text=True, timeout=_SECONDS, check=False
-        )
+    try:
+        with hidden_screen() as environment:
+            done = subprocess.run(
+                words, cwd=folder, env=environment, capture_output=True, text=True, timeout=_SECONDS, check=False
+            )
+    except NoScreen as missing:
+        raise CannotDraw(str(missing)) from missing
+    except subprocess.TimeoutExpired as late:
+        raise GraderFault(f"the window did not end by itself within {_SECONDS} s: {program}") from late
     if done.returncode != 0:
         raise GraderFault(f"the window cannot be shown: {done.stderr.strip()}")
     return read_ppm(shown)
@@ -37,12 +43,14 @@ def _screenshot(program: Path, scene: Path, folder: Path) -> Pixels:
 def window(kit: BuiltKit) -> Pixels:
     """A scene with its strip, and the work map that the key M shows."""
     scene = kit.project.scenes / "lessons" / "glass.nff"
+    tree = release_tree(kit.project)
     try:
-        program = build_view(release_tree(kit.project), "reference")
-        with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-            shown = _screenshot(program, scene, Path(folder))
-    except (UsageError, NoScreen) as missing:
+        check_glfw(tree)
+    except UsageError as missing:
         raise CannotDraw(str(missing)) from missing
+    program = build_program(tree, "view", "reference")
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        shown = _screenshot(program, scene, Path(folder))
     costs = reference_picture(kit, scene, (*_SIZE, "--map", "tests"))
     gap = np.full((shown.shape[0], 12, 3), 255, np.uint8)
     return np.concatenate([shown, gap, costs], axis=1)
