@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from hostile import as_user
@@ -16,9 +16,16 @@ from raysteps.kit.built_kit import BuiltKit
 KIT_VARIABLE = "RAYSTEPS_TEST_KIT"  # a built kit that this user can read
 
 
+def _users_of_processes() -> Iterator[int]:
+    for path in Path("/proc").iterdir():
+        with suppress(OSError):  # it is gone
+            if path.name.isdigit():
+                yield path.stat().st_uid
+
+
 def _free_user() -> int:
     """A number that nobody has and nobody uses, beside those that the sandbox lends."""
-    used = {path.stat().st_uid for path in Path("/proc").iterdir() if path.name.isdigit()}
+    used = set(_users_of_processes())
     known = {entry.pw_uid for entry in pwd.getpwall()}
     return next(user for user in range(61200, 61300) if user not in used | known)
 
