@@ -67,6 +67,11 @@ def _rows(table: Path) -> set[str]:
         return set()
 
 
+def _groups(own: str) -> set[str]:
+    """A group that ends meanwhile is passed over."""
+    return {f"{root}/{name}" for root, names, _ in os.walk("/sys/fs/cgroup") for name in names if own in name}
+
+
 @dataclass(frozen=True)
 class Traces:
     """A look at the machine. `spared` are roots of processes that others started on purpose."""
@@ -80,9 +85,7 @@ class Traces:
         found |= {f"mount {line}" for line in Path("/proc/mounts").read_text("utf-8", "replace").splitlines()}
         found |= set().union(*(_names(folder) for folder in (*_SHARED, self.temporary)))
         found |= set().union(*(_rows(table) for table in _TABLES))
-        groups = Path("/sys/fs/cgroup")
-        own = f"raysteps-{os.getpid()}-"
-        return found | {str(path) for depth in ("*", "*/*", "*/*/*") for path in groups.glob(depth) if own in path.name}
+        return found | _groups(f"raysteps-{os.getpid()}-")
 
     def left_since(self, before: set[str], seconds: float = 5.0) -> set[str]:
         """What is new and stays: the kernel takes a moment to clear up behind a namespace."""
