@@ -116,7 +116,8 @@ class Typist:
                 return ""
             start = ["xvfb-run", "-a", *start]
             words = words if "--screenshot" in words else [*words, "--screenshot", "view.ppm"]  # so that it ends
-        return self._run([*start, *words], here, package, _ENDINGS.get(name))
+        ending = Ending() if words == ["watch"] else _ENDINGS.get(name)  # where all steps are done it says so and ends
+        return self._run([*start, *words], here, package, ending)
 
     def _aside(self) -> Path:
         root = self.workshop.folder / "aside" / "kit"
