@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.students.listing import PLACE, Listed, mark, read_release
+from raysteps.students.listing import PLACE, Listed, read_release
 from raysteps.students.set_up import FOLDERS, HISTORY, is_made_anew
 
 _NOT_OURS = (HISTORY, *FOLDERS)  # may lie in a release that somebody keeps under version control
@@ -14,7 +14,7 @@ _NOT_OURS = (HISTORY, *FOLDERS)  # may lie in a release that somebody keeps unde
 
 def _is_as_released(path: Path, listed: Listed) -> bool:
     try:
-        return not path.is_symlink() and mark(path.read_bytes()) == listed.mark
+        return listed.is_at(path)
     except OSError as error:
         raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from error
 

@@ -28,6 +28,10 @@ class Listed:
     owner: Owner = "kit"
     executable: bool = False
 
+    def is_at(self, path: Path) -> bool:
+        """Whether the file is there as it was released. Nobody looks behind a link; OSError where it cannot be read."""
+        return not path.is_symlink() and mark(path.read_bytes()) == self.mark
+
 
 @dataclass(frozen=True)
 class Release:

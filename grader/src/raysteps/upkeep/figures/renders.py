@@ -11,7 +11,7 @@ from raysteps.common.files import write_bytes
 from raysteps.kit.built_kit import BuiltKit
 from raysteps.kit.scenes import generated
 from raysteps.kit.stubs import stub_for
-from raysteps.programs.pictures import Pixels
+from raysteps.programs.pictures import Pixels, apart, read_png
 from raysteps.programs.rendering import reference_picture
 from raysteps.upkeep.figures.variants import Variant
 
@@ -108,11 +108,10 @@ def _png(pixels: Pixels) -> bytes:
 def is_current(path: Path, pixels: Pixels) -> bool:
     """Whether the file shows this picture, up to what another compiler or library of letters moves."""
     try:
-        with Image.open(path) as image:
-            kept = np.asarray(image.convert("RGB"), dtype=np.int16)
-    except OSError:
+        kept = read_png(path)
+    except (OSError, ValueError):
         return False
-    return kept.shape == pixels.shape and float(np.abs(kept - pixels.astype(np.int16)).mean()) <= _MOST_APART
+    return kept.shape == pixels.shape and float(apart(kept, pixels).mean()) <= _MOST_APART
 
 
 def write(path: Path, pixels: Pixels) -> None:
