@@ -16,15 +16,15 @@ from typing import Any
 
 from rich.console import Console
 
-from raysteps.classroom.command import add_arguments, run
-from raysteps.classroom.graders import Say
+from raysteps.classroom.jobs import Say
+from raysteps.cli.grade_class import add_arguments, run
 from raysteps.common.errors import GraderFault, RaystepsError
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import here
-from raysteps.results.document import write_document
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import here
 from raysteps.results.model import ImageResult, Results, StepResult, Timing
-from raysteps.sandbox.isolation import Isolation
-from raysteps.submission.intake import Submission
+from raysteps.results.store import write_document
+from raysteps.sandbox.task import Isolation
+from raysteps.submission.load import Submission
 
 FAKE = "class_fakes:make"
 FIRST = "01-camera-rays/camera_rays.cpp"

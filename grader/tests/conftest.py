@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.kit_building import build_kit
-from raysteps.kit.manifest import Step, read_steps
-from raysteps.kit.project import Project, here
-from raysteps.kit.stubs import stub_for, without_markers
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project, here
+from raysteps.course.stubs import stub_for, without_markers
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 pytest_plugins = ["browser"]
 

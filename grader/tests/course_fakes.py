@@ -6,9 +6,9 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.kit.manifest import Step, read_steps
-from raysteps.kit.project import Project, here
-from raysteps.kit.stubs import stub_for
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project, here
+from raysteps.course.stubs import stub_for
 from raysteps.results.model import Results, StepResult
 
 

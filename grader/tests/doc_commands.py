@@ -13,15 +13,14 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
-from raysteps import students_cli
-from raysteps.cli import _parser
-from raysteps.commands.render import take_impl
+from raysteps.cli.app import new_parser
+from raysteps.cli.render import take_impl
 from raysteps.common.errors import RaystepsError
 from raysteps.common.markdown import blocks
-from raysteps.kit.project import Project
-from raysteps.upkeep.site.documents import documents
-from raysteps.upkeep.site.shell import Typed, commands, is_shell, mentioned, typed
-from raysteps.upkeep.site.usage import usage, usage_parser
+from raysteps.course.project import Project, here
+from tools.site.command_page import usage, usage_parser
+from tools.site.documents import documents
+from tools.site.links import Typed, commands, is_shell, mentioned, typed
 
 OTHER_PROGRAMS = {
     "apt-get", "brew", "cd", "cmake", "code", "cp", "ctest", "dnf", "docker", "git", "jplag", "java", "mkdir",
@@ -68,7 +67,7 @@ def scene_generator(project: Project) -> ModuleType:
 @cache
 def _command_line(command: str) -> argparse.ArgumentParser:
     """The whole kit's, or a students' kit's for what only that has."""
-    return students_cli._parser() if command == "update" else _parser()
+    return new_parser(Project(Path("a students' kit")) if command == "update" else here())
 
 
 @cache

@@ -10,12 +10,12 @@ from doc_only_read import may_be_typed, why_not
 from doc_terminal import Ending, Keys, typed_at
 from doc_workshop import Workshop, copy_of
 
-from raysteps.commands.view import check_glfw
+from raysteps.cli.view import check_glfw
 from raysteps.common.errors import UsageError
-from raysteps.kit.building import release_tree
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.project import Project
-from raysteps.upkeep.site.shell import Typed
+from raysteps.course.project import Project
+from raysteps.toolchain.cmake import release_tree
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.site.links import Typed
 
 _AT = "https://github.com/course/checkout"
 _CLASSROOM = {

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from raysteps.common.markdown import blocks
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.fingerprint import fingerprint
-from raysteps.kit.git_listing import places
-from raysteps.kit.project import Project
+from raysteps.course.project import Project, places
+from raysteps.toolchain.build_kit import fingerprint
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _GRADEBOOK = """Student,ID,SIS User ID,SIS Login ID,Section,Ray tracer (12)
     Points Possible,,,,,100

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.process import run
-from raysteps.kit.building import BuildTree, release_tree, what_failed
-from raysteps.kit.description import Description, read_description
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
+from raysteps.toolchain.description import Description, read_description
 
 _TARGETS = ["inspect-reference", "raytrace-reference"]
 _SECONDS = 300

@@ -6,7 +6,7 @@ from typing import Any
 
 import jsonschema
 
-import raysteps.commands.inspect
+import raysteps.inspector
 
 _COUNTS = {"box_tests": 2, "boxes_entered": 1, "candidates": 1, "surface_tests": 1, "unique_surfaces": 1}
 _BALL = {"color": [0.9, 0.4, 0.1], "kd": 0.7, "ks": 0.3, "shine": 30, "transmittance": 0, "index": 1}
@@ -75,6 +75,6 @@ def ball_record(*, lit: bool = True) -> dict[str, Any]:
     record |= {"counts": dict(_COUNTS), "left_out": {"rays": 0, "boxes": 0, "tests": 0}}
     near = {"kind": "sphere", "radii": [1], "color": [0.9, 0.4, 0.1]}
     record["near"] = [{"surface": 0, "points": [[0, 0, 0]], **near}, {"surface": 1, "points": [[0, 0, 2.5]], **near}]
-    schema = Path(raysteps.commands.inspect.__file__).with_name("inspect.schema.json")
+    schema = Path(raysteps.inspector.__file__).with_name("inspect.schema.json")
     jsonschema.validate(record, json.loads(schema.read_text(encoding="utf-8")))
     return record

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.kit.manifest import Step
-from raysteps.programs.pictures import difference, write_png
+from raysteps.course.manifest import Step
+from raysteps.images.compare import difference, write_png
 from raysteps.results.model import (
     CaseGroup,
     Cumulative,
@@ -19,7 +19,7 @@ from raysteps.results.model import (
     StepResult,
     TestResult,
 )
-from raysteps.results.work import Work
+from raysteps.results.work_ratio import Work
 
 NASTY = "<script>alert(1)</script>"
 Pixels = npt.NDArray[np.uint8]

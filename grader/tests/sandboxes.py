@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.project import here
+from raysteps.course.project import here
 from raysteps.sandbox.bubblewrap import Bubblewrap
-from raysteps.sandbox.choice import VARIABLE, find_sandbox
-from raysteps.sandbox.mode import AsRoot
+from raysteps.sandbox.detect import VARIABLE, find_sandbox
+from raysteps.sandbox.namespaces import AsRoot
 from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task
 from raysteps.sandbox.users import can_lend_users
 

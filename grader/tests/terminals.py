@@ -11,7 +11,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.common.families import end_all
+from raysteps.common.process import end_all
 
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
 

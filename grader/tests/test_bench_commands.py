@@ -9,17 +9,14 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from raysteps.cli import main
+from raysteps.cli.app import main
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import run
-from raysteps.kit.project import Project
-from raysteps.upkeep.bench.asking import ask
-from raysteps.upkeep.bench.documents import keep, kept
-from raysteps.upkeep.bench.pages import bench_docs
-from raysteps.upkeep.bench.pinning import can_pin, pinned
-from raysteps.upkeep.bench.programs import portable, what_is_missing
-from raysteps.upkeep.bench.scale import KINDS
-from raysteps.upkeep.bench.scenes import checked
+from raysteps.course.project import Project
+from tools.bench.docs import bench_docs
+from tools.bench.programs import ask, can_pin, checked, pinned, portable, what_is_missing
+from tools.bench.records import keep, kept
+from tools.bench.scale import KINDS
 
 
 @pytest.mark.parametrize(

@@ -4,11 +4,10 @@ import math
 
 import pytest
 
-from raysteps.upkeep.bench.axes import linear_axis, log_axis, tick_text
-from raysteps.upkeep.bench.numbers import geometric_mean, growth
-from raysteps.upkeep.bench.scale import growth_of, sizes
-from raysteps.upkeep.bench.spread import spread_of
-from raysteps.upkeep.bench.threads import thread_counts
+from tools.bench.charts import linear_axis, log_axis, tick_text
+from tools.bench.records import geometric_mean, growth, spread_of
+from tools.bench.scale import growth_of, sizes
+from tools.bench.threads import thread_counts
 
 
 def test_the_geometric_mean_of_a_ratio_and_its_inverse_is_1() -> None:

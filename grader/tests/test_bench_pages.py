@@ -4,13 +4,12 @@ import defusedxml.ElementTree
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.kit.project import Project
-from raysteps.upkeep.bench.axes import Axis, linear_axis, log_axis
-from raysteps.upkeep.bench.documents import NAMES
-from raysteps.upkeep.bench.page_tables import markdown
-from raysteps.upkeep.bench.pages import replace_part
-from raysteps.upkeep.bench.render_tables import against_embree, names_of
-from raysteps.upkeep.bench.svg import Chart, Series, svg_text
+from raysteps.course.project import Project
+from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
+from tools.bench.docs import replace_part
+from tools.bench.page_tables import markdown
+from tools.bench.records import NAMES
+from tools.bench.render import against_embree, names_of
 
 _SVG = "{http://www.w3.org/2000/svg}"
 

@@ -7,10 +7,7 @@ import pytest
 from PIL import Image
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.upkeep.bench.brightness import brightness_difference, linear_picture
-from raysteps.upkeep.bench.flat_scene import read_flat
-from raysteps.upkeep.bench.pov_scene import pov_text
-from raysteps.upkeep.bench.povray import trace_seconds
+from tools.bench.povray import brightness_difference, linear_picture, pov_text, read_flat, trace_seconds
 
 _VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 90\nhither 1\nresolution 64 64\nb 0.1 0.2 0.3\n"
 _SHAPES = """l 1 2 3 0.5 0.6 0.7

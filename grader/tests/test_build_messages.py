@@ -3,8 +3,8 @@
 import pytest
 
 from raysteps.common.process import Outcome
+from raysteps.course.manifest import Step
 from raysteps.grading.build_messages import compile_message, forbidden_message, link_message
-from raysteps.kit.manifest import Step
 from raysteps.sandbox.task import Ran, Stopped
 
 SOURCE = "#include <a>\n\nint one;\nint two = nope;\nint three;\n"

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.building import BuildTree, release_tree
-from raysteps.kit.project import Project
-from raysteps.upkeep.compiler_cache import use_compiler_cache
+from raysteps.course.project import Project
+from raysteps.toolchain.cmake import BuildTree, release_tree
+from tools.selftest.programs import use_compiler_cache
 
 
 def test_a_build_folder_of_another_clone_is_configured_anew(tmp_path: Path) -> None:

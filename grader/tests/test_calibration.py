@@ -7,19 +7,25 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step, read_step
-from raysteps.kit.project import Project
-from raysteps.mistakes.alternatives import read_alternatives
-from raysteps.upkeep.calibration.gate import Gate, Share, gate_between, plain
-from raysteps.upkeep.calibration.manifest import with_limits
-from raysteps.upkeep.calibration.marks import mark
-from raysteps.upkeep.calibration.measuring import Calibrated
-from raysteps.upkeep.calibration.report import calibration_page, complaints, page_with
-from raysteps.upkeep.calibration.scenes import Limited, View, limited_pictures
-from raysteps.upkeep.calibration.settings import KIT, all_settings, fused_flags, own_setting
-from raysteps.upkeep.calibration.shares import PictureShares
-from raysteps.upkeep.entrants import Entrant, right_ones
+from raysteps.course.manifest import Step, read_step
+from raysteps.course.mutants import read_alternatives
+from raysteps.course.project import Project
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.calibration.calibrate import calibration_page, complaints, page_with, with_limits
+from tools.calibration.full_marks import mark
+from tools.calibration.gate import Gate, Share, gate_between, plain
+from tools.calibration.measure import (
+    KIT,
+    Calibrated,
+    Limited,
+    PictureShares,
+    View,
+    all_settings,
+    fused_flags,
+    limited_pictures,
+    own_setting,
+)
+from tools.test_submissions import Entrant, right_ones
 
 _PIXELS = 20_000
 

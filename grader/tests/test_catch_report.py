@@ -2,7 +2,7 @@
 
 import pytest
 
-from raysteps.common.catch_report import Failure, parse_report
+from raysteps.toolchain.catch2 import Failure, parse_report
 
 CASES = """<TestCase name="good" tags="[04-shadows][is_lit]" filename="/k/a_test.cpp" line="3">
 <OverallResult success="true"/></TestCase>

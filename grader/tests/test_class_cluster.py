@@ -16,7 +16,7 @@ import pytest
 from class_fakes import grade_class, start_class, write_entry
 
 import raysteps.classroom.cluster
-from raysteps.classroom.keys import without_times
+from raysteps.classroom.session import without_times
 from raysteps.common.errors import GraderFault, UsageError
 
 pytest.importorskip("distributed")

@@ -9,15 +9,21 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.keys import submission_key, without_times
-from raysteps.classroom.messages import Answer, Job
-from raysteps.classroom.records import Registered, Registration, RunFacts
-from raysteps.classroom.spreadsheet import csv_bytes, safe_cell
-from raysteps.classroom.tables import VERSION, open_database, transaction
-from raysteps.common.cells import FORMULA_SIGNS
+from raysteps.classroom.class_files import csv_bytes, safe_cell
+from raysteps.classroom.database import (
+    VERSION,
+    ClassDatabase,
+    Registered,
+    Registration,
+    RunFacts,
+    open_database,
+    transaction,
+)
+from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.session import submission_key, without_times
+from raysteps.common.csv_safety import FORMULA_SIGNS
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.submission.intake import Submission
+from raysteps.submission.load import Submission
 
 _SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from class_fakes import FIRST, grade_class, write_entry
 
-import raysteps.classroom.command
+import raysteps.cli.grade_class
 from raysteps.common.errors import UsageError
 
 _AGAIN = "is used again"
@@ -102,7 +102,7 @@ def test_the_line_to_go_on_drops_them_too(
         raise KeyboardInterrupt
 
     assert course.grade(*course.both()) == 0
-    monkeypatch.setattr(raysteps.classroom.command, "make_grader", build)
+    monkeypatch.setattr(raysteps.cli.grade_class, "make_grader", build)
     monkeypatch.chdir(course.handed_in.parent)
     course.policy.rename("none")
     assert course.grade("--resume", "--roster", "none", "--late-policy", "./none") == 130

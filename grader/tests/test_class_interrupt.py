@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 from class_fakes import FAKE, start_class, write_entry
 
-from raysteps.classroom.keys import without_times
-from raysteps.classroom.messages import Job
-from raysteps.submission.intake import Submission
+from raysteps.classroom.jobs import Job
+from raysteps.classroom.session import without_times
+from raysteps.submission.load import Submission
 
 _PATIENCE = 60
 

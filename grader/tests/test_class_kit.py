@@ -6,10 +6,10 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.classroom.command import add_arguments, run
-from raysteps.classroom.keys import without_times
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.classroom.session import without_times
+from raysteps.cli.grade_class import add_arguments, run
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 
 
 def test_solved_and_unsolved(tmp_path: Path, project: Project, steps: list[Step], solved: dict[str, str]) -> None:

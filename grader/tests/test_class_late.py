@@ -4,8 +4,7 @@ from datetime import timedelta
 
 import pytest
 
-from raysteps.classroom.late_policy import LatePolicy, parse_late_policy
-from raysteps.classroom.lateness import apply_policy, with_zone
+from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
 from raysteps.common.errors import UsageError
 
 _POLICY = """

@@ -11,9 +11,8 @@ from typing import Any
 import pytest
 from class_fakes import grade_class, write_entry
 
-from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.database import ClassDatabase, reading
 from raysteps.classroom.entries import Shard
-from raysteps.classroom.reading import reading
 from raysteps.common.errors import UsageError
 
 _FIRST, _SECOND = ([f"s{number}" for number in range(8) if Shard(index, 2).holds(f"s{number}")] for index in (1, 2))

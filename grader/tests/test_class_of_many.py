@@ -16,9 +16,9 @@ from typing import Any
 
 import pytest
 
-from raysteps.classroom.keys import without_times
-from raysteps.classroom.sample_class import make_class
-from raysteps.kit.project import Project
+from raysteps.classroom.session import without_times
+from raysteps.course.project import Project
+from tools.sample_class import make_class
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("many programs")]
 

@@ -8,14 +8,11 @@ import pytest
 from class_documents import STEPS, document, missing, result, student, submission
 from class_fakes import grade_class, write_entry
 
-from raysteps.classroom.page import class_source, remake_class_page
+from raysteps.classroom.class_files import class_source, remake_class_page
 from raysteps.common.errors import UsageError
-from raysteps.reports.class_attention import groups, marks
-from raysteps.reports.class_mistakes import common_mistakes
-from raysteps.reports.class_report import class_page
-from raysteps.reports.class_rows import aliases, table_rows
-from raysteps.reports.class_statistics import share_bars, span, step_figures, times, total_bars
-from raysteps.reports.drawing import divided, histogram
+from raysteps.report.class_attention import common_mistakes, groups, marks
+from raysteps.report.class_page import aliases, class_page, table_rows
+from raysteps.report.class_statistics import divided, histogram, share_bars, span, step_figures, times, total_bars
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
 

@@ -11,14 +11,14 @@ from typing import Any
 import pytest
 from class_fakes import grade_class, write_entry
 
-import raysteps.classroom.command
+import raysteps.classroom.entries
 import raysteps.classroom.session
-import raysteps.classroom.taking_in
-import raysteps.submission.intake
-from raysteps.classroom.arguments import add_arguments, line_to_go_on, read_order
-from raysteps.classroom.messages import Answer, Job
-from raysteps.classroom.pool import LocalPool
-from raysteps.classroom.tables import transaction
+import raysteps.cli.grade_class
+import raysteps.submission.load
+from raysteps.classroom.database import transaction
+from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.local_pool import LocalPool
+from raysteps.cli.grade_class import add_arguments, line_to_go_on, read_order
 
 
 @pytest.fixture(autouse=True)
@@ -63,7 +63,7 @@ def test_results_of_before_an_interruption_are_listed(
     for number in (2, 3, 4):
         write_entry(handed_in, f"s{number}", f"// points {number + 5}\n")
     with monkeypatch.context() as patch:
-        patch.setattr(raysteps.classroom.command, "LocalPool", _Broken)
+        patch.setattr(raysteps.cli.grade_class, "LocalPool", _Broken)
         assert grade_class(handed_in, "--out", out, "--resume", "--jobs", 1) == 130
     document = _document(out)
     assert document["run"]["reused"] == 1
@@ -79,7 +79,7 @@ def test_no_table_of_earlier_results_stays_beside_new_ones(
     out = tmp_path / "out"
     assert grade_class(handed_in, "--out", out) == 0
     with monkeypatch.context() as patch:
-        patch.setattr(raysteps.classroom.command, "LocalPool", _Broken)
+        patch.setattr(raysteps.cli.grade_class, "LocalPool", _Broken)
         patch.setattr(_Broken, "how", _Killed)
         with pytest.raises(_Killed):
             grade_class(handed_in, "--out", out, "--jobs", 1)
@@ -110,7 +110,7 @@ def test_half_written_files_of_a_killed_run_go_away(tmp_path: Path, handed_in: P
 def test_tables_stay_when_nothing_was_graded(tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "out"
     assert grade_class(handed_in, "--out", out) == 0
-    monkeypatch.setattr(raysteps.classroom.command, "LocalPool", _Broken)
+    monkeypatch.setattr(raysteps.cli.grade_class, "LocalPool", _Broken)
     monkeypatch.setattr(_Broken, "how", _Killed)
     monkeypatch.setattr(_Broken, "amount", 0)
     with pytest.raises(_Killed):
@@ -126,7 +126,7 @@ def test_interrupted_while_the_kit_is_built(
 
     out = tmp_path / "out"
     with monkeypatch.context() as patch:
-        patch.setattr(raysteps.classroom.command, "make_grader", build)
+        patch.setattr(raysteps.cli.grade_class, "make_grader", build)
         assert grade_class(handed_in, "--out", out, "--jobs", 2) == 130
     line = f"./raysteps grade-class {handed_in} --out {out} --jobs 2 --resume"
     assert line in capsys.readouterr().out
@@ -138,14 +138,14 @@ def test_interrupted_while_the_kit_is_built(
 def test_whatever_one_submission_brings_about_the_class_goes_on(
     tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    known = raysteps.submission.intake.take_in
+    known = raysteps.submission.load.take_in
 
     def take_in(path: Path, steps: Any) -> Any:
         if path.name == "s2":
             raise KeyError("odd")
         return known(path, steps)
 
-    monkeypatch.setattr(raysteps.classroom.taking_in, "take_in", take_in)
+    monkeypatch.setattr(raysteps.classroom.entries, "take_in", take_in)
     out = tmp_path / "out"
     assert grade_class(handed_in, "--out", out) == 4
     document = _document(out)
@@ -156,13 +156,13 @@ def test_whatever_one_submission_brings_about_the_class_goes_on(
 
 def test_each_submission_is_written_once(tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     written: list[str] = []
-    known = raysteps.classroom.files.write_submission
+    known = raysteps.classroom.class_files.write_submission
 
     def write(database: Any, out: Path, name: str) -> None:
         written.append(name)
         known(database, out, name)
 
-    for place in (raysteps.classroom.session, raysteps.classroom.files):
+    for place in (raysteps.classroom.session, raysteps.classroom.class_files):
         monkeypatch.setattr(place, "write_submission", write)
     assert grade_class(handed_in, "--out", tmp_path / "out") == 0
     assert sorted(written) == ["s1", "s2", "s3", "s4"]

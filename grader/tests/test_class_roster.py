@@ -4,8 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.classroom.matching import match
-from raysteps.classroom.roster import Student, read_roster
+from raysteps.classroom.roster import Student, match, read_roster
 from raysteps.common.errors import UsageError
 
 

@@ -14,9 +14,9 @@ import pytest
 from class_fakes import FIRST, grade_class, write_entry
 from rich.console import Console
 
-from raysteps.classroom.keys import without_times
+from raysteps.classroom.session import without_times
 from raysteps.common.errors import UsageError
-from raysteps.results.document import validate
+from raysteps.results.store import validate
 
 
 @pytest.fixture(autouse=True)

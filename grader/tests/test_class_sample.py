@@ -5,12 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.classroom.sample_class import KINDS, MISTAKES, make_class
-from raysteps.classroom.sample_forms import FORMS
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import same_code
-from raysteps.submission.intake import take_in
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.course.stubs import same_code
+from raysteps.submission.load import take_in
+from tools.sample_class import FORMS, KINDS, MISTAKES, make_class
 
 
 def _files(folder: Path) -> dict[str, bytes]:

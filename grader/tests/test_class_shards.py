@@ -8,7 +8,7 @@ import pytest
 from class_fakes import grade_class, write_entry
 
 from raysteps.classroom.entries import Shard
-from raysteps.classroom.keys import without_times
+from raysteps.classroom.session import without_times
 from raysteps.common.errors import UsageError
 
 

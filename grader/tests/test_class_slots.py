@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from raysteps.classroom import cluster_task
-from raysteps.classroom.messages import Answer, Job
-from raysteps.submission.intake import Submission
+from raysteps.classroom import cluster as cluster_task
+from raysteps.classroom.jobs import Answer, Job
+from raysteps.submission.load import Submission
 
 _SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from raysteps.cli import main
-from raysteps.programs.pictures import write_png
+from raysteps.cli.app import main
+from raysteps.images.compare import write_png
 
 
 def _picture(path: Path, *, red: int = 10, size: tuple[int, int] = (4, 6)) -> str:

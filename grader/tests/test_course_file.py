@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from raysteps.classroom.arguments import add_arguments, read_order
+from raysteps.cli import export as exports
+from raysteps.cli.grade_class import add_arguments, read_order
 from raysteps.common.errors import UsageError
-from raysteps.exports import command as exports
-from raysteps.kit.course import PLACE, Course, read_course
-from raysteps.kit.project import Project, here
+from raysteps.course.project import Project, here
+from raysteps.course.settings import PLACE, Course, read_course
 
 
 @pytest.fixture

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from course_fakes import printed, small_project, text
 
-from raysteps.commands.course.hints import Hints, print_hint
 from raysteps.common.errors import UsageError
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project, here
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project, here
+from raysteps.progress.hints import Hints, print_hint
 
 
 @pytest.fixture

@@ -5,13 +5,12 @@ from pathlib import Path
 import pytest
 from course_fakes import printed, small_project, text, write_own
 
-from raysteps import cli
-from raysteps.commands import for_students
-from raysteps.commands.course.reset import loss, reset
+from raysteps.cli import app as cli
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import outdated_stubs, write_stubs
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.course.stubs import outdated_stubs, write_stubs
+from raysteps.progress.reset import loss, reset
 
 
 @pytest.fixture
@@ -80,7 +79,7 @@ def test_without_a_terminal_it_must_be_said(
     course: Project, steps: list[Step], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source = _edit(course, steps[0])
-    monkeypatch.setattr(for_students, "here", lambda: course)
+    monkeypatch.setattr(cli, "here", lambda: course)
     assert cli.main(["reset", "1"]) == 2
     assert "there is no terminal to ask on; say --yes" in capsys.readouterr().err
     assert (course.steps / steps[0].path).read_text() == source

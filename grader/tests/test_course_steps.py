@@ -5,13 +5,10 @@ from pathlib import Path
 import pytest
 from course_fakes import checked, printed, small_project, text, write_own
 
-from raysteps import cli
-from raysteps.commands import for_students
-from raysteps.commands.course.listing import list_steps, next_step
-from raysteps.commands.course.remembered import recall, remember
-from raysteps.commands.course.standing import next_of, standings
-from raysteps.kit.manifest import Step, read_steps
-from raysteps.kit.project import Project, here
+from raysteps.cli import app as cli
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project, here
+from raysteps.progress.standing import list_steps, next_of, next_step, recall, remember, standings
 
 _CODE = "int answer() { return 42; }\n"
 
@@ -149,7 +146,7 @@ def test_a_step_that_was_not_handed_in_is_not_remembered(course: Project, steps:
 def test_from_the_command_line(
     course: Project, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(for_students, "here", lambda: course)
+    monkeypatch.setattr(cli, "here", lambda: course)
     assert [cli.main([word]) for word in ("list", "next", "hint")] == [0, 0, 0]
     assert "Camera rays, hint 1 of 3" in capsys.readouterr().out
     assert cli.main(["hint", "10"]) == 2

@@ -8,15 +8,15 @@ from typing import Any
 import pytest
 from conftest import MakeSubmission, Sources
 
+from raysteps.course.manifest import Step
+from raysteps.course.mutants import read_mutants
 from raysteps.exports.items import step_text
-from raysteps.grading.one import grade_one
-from raysteps.grading.settings import Settings
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.mistakes.catalogue import read_mutants
+from raysteps.grading.options import Settings
+from raysteps.grading.pipeline import grade_one
 from raysteps.results.model import Results
-from raysteps.sandbox.choice import find_sandbox
-from raysteps.submission.intake import take_in
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.submission.load import take_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _FOLDER = Path(__file__).parent / "held_out"
 _CASES: list[dict[str, Any]] = tomllib.loads((_FOLDER / "cases.toml").read_text(encoding="utf-8"))["cases"]

@@ -6,19 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from raysteps.diagnosis.answers import Answers, Questions, Said
-from raysteps.diagnosis.evidence import Evidence, Picture
-from raysteps.diagnosis.fingerprints import Fingerprint, read_known, write_known
-from raysteps.diagnosis.matching import Match, agreement, match
-from raysteps.diagnosis.naming import name_mistakes
-from raysteps.diagnosis.pairs import pair_score
-from raysteps.diagnosis.sameness import likeness
-from raysteps.judge.drawing import Draw
+from raysteps.course.manifest import ImageCase
+from raysteps.course.mutants import Mutant
+from raysteps.diagnosis.evidence import Answers, Evidence, Picture, Questions, Said, likeness
+from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, pair_score
+from raysteps.diagnosis.mutant_fingerprints import Fingerprint, read_known, write_known
+from raysteps.images.compare import Pixels
+from raysteps.judge.cases import functions_of
 from raysteps.judge.functions import Case
-from raysteps.judge.generators import functions_of
-from raysteps.kit.manifest import ImageCase
-from raysteps.mistakes.catalogue import Mutant
-from raysteps.programs.pictures import Pixels
+from raysteps.judge.random_source import Draw
 
 _AMOUNT = 40
 

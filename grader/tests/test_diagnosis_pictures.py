@@ -5,13 +5,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from raysteps.course.manifest import ImageCase
 from raysteps.diagnosis.evidence import Picture
-from raysteps.diagnosis.objects import Object, ObjectMap, numbered, size_of, without_highlights
-from raysteps.diagnosis.places import place_of
-from raysteps.diagnosis.transformation_words import BEFORE, in_words
-from raysteps.diagnosis.transformations import transformation_of
-from raysteps.kit.manifest import ImageCase
-from raysteps.programs.pictures import Pixels
+from raysteps.diagnosis.pixel_regions import Object, ObjectMap, numbered, place_of, size_of, without_highlights
+from raysteps.diagnosis.transforms import BEFORE, in_words, transformation_of
+from raysteps.images.compare import Pixels
 
 
 def _reference() -> Pixels:

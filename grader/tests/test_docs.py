@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.project import Project
-from raysteps.upkeep.site.links import dead_links
+from raysteps.course.project import Project
+from tools.site.links import dead_links
 
 _WIDEST = 120  # columns
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from doc_commands import all_commands, complaint
 
-from raysteps.kit.project import Project
-from raysteps.upkeep.site.shell import typed
+from raysteps.course.project import Project
+from tools.site.links import typed
 
 
 def test_every_command_of_the_documents_can_be_read(project: Project) -> None:

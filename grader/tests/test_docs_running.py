@@ -11,9 +11,9 @@ from doc_terminal import Ending, Keys, typed_at
 from doc_typing import Typist
 from doc_workshop import make_workshop
 
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.project import Project
-from raysteps.upkeep.site.shell import Typed, typed
+from raysteps.course.project import Project
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.site.links import Typed, typed
 
 # Each family has a workshop, in which its documents are read from the first to the last.
 _FAMILIES = {

@@ -6,10 +6,10 @@ import pytest
 from test_export_documents import HOSTILE, full, mixed
 
 from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import validate
 from raysteps.exports.hosted import by_id
-from raysteps.kit.manifest import Step
 
 
 def test_the_last_line_holds_the_scores(steps: list[Step]) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.exports.csv_cells import Sheet, read_sheet
+from raysteps.exports.gradebook import Sheet, read_sheet
 
 
 def _sheet(tmp_path: Path, data: bytes) -> Sheet:

@@ -5,8 +5,7 @@ from typing import Any
 
 import pytest
 
-from raysteps.kit.manifest import Step
-from raysteps.results.document import validate
+from raysteps.course.manifest import Step
 from raysteps.results.model import (
     CaseGroup,
     Cumulative,
@@ -17,7 +16,8 @@ from raysteps.results.model import (
     TestResult,
     Timing,
 )
-from raysteps.results.work import Work
+from raysteps.results.store import validate
+from raysteps.results.work_ratio import Work
 
 HOSTILE = "<script>alert(1)</script>\x1b[31m\x00\u202eevil\n::error::done\nfine ##[error]done"
 

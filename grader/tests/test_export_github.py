@@ -12,13 +12,12 @@ import pytest
 from test_export_documents import HOSTILE, document, full, mixed, step_result
 
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.manifest import Step
 from raysteps.exports.autograders import classroom50_autograder, github_workflow
 from raysteps.exports.formats import validate
 from raysteps.exports.github import output_line, to_classroom50, to_legacy, whole_points
-from raysteps.exports.hosted import by_id
-from raysteps.exports.running import deliver_github, submitted_at
-from raysteps.exports.wording import harmless_log
-from raysteps.kit.manifest import Step
+from raysteps.exports.hosted import by_id, deliver_github, submitted_at
+from raysteps.exports.items import harmless_log
 
 ENVIRONMENT = {
     "CLASSROOM": "graphics",

@@ -11,10 +11,10 @@ import pytest
 from rich.console import Console
 from test_export_documents import HOSTILE, mixed
 
+from raysteps.cli.export import add_arguments, run
 from raysteps.common.errors import UsageError
-from raysteps.exports.command import add_arguments, run
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 
 CANVAS = (
     "Student,ID,SIS User ID,SIS Login ID,Section,Essay (11),Raysteps (12),Final Score\r\n"

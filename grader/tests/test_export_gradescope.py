@@ -8,10 +8,10 @@ import pytest
 from test_export_documents import HOSTILE, document, full, mixed, step_result
 
 from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
 from raysteps.exports.formats import validate, write
 from raysteps.exports.gradescope import VISIBILITIES, not_graded, submitters, to_gradescope
 from raysteps.exports.hosted import by_id
-from raysteps.kit.manifest import Step
 from raysteps.results.model import StepResult
 
 

@@ -15,12 +15,13 @@ from test_export_documents import HOSTILE, mixed
 from test_export_github import ENVIRONMENT
 
 from raysteps.common.process import Outcome
-from raysteps.exports import hosted, running
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.exports import hosted
+from raysteps.exports import hosted as running
 from raysteps.exports.autograders import classroom50_autograder
 from raysteps.exports.formats import validate
 from raysteps.exports.hosted import Options
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
 
 _OPTIONS = Options(60.0, words=("--seed", "7"))
 

@@ -3,8 +3,7 @@
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.exports.class_results import Graded
-from raysteps.exports.identities import Person, match
+from raysteps.exports.class_results import Graded, Person, match
 
 
 def _graded(submission: str = "x", id: str = "", name: str = "", email: str = "") -> Graded:  # noqa: A002

@@ -14,14 +14,18 @@ import pytest
 from rich.console import Console
 from test_export_documents import mixed
 
+from raysteps.cli.export import add_arguments, run
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.exports.archives import Member, into_folder
-from raysteps.exports.arguments import add_arguments
-from raysteps.exports.autograders import autolab_tar, gradescope_zip, prairielearn_folder
-from raysteps.exports.command import run
-from raysteps.exports.kit_files import kit_files
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.exports.autograders import (
+    Member,
+    autolab_tar,
+    gradescope_zip,
+    into_folder,
+    kit_files,
+    prairielearn_folder,
+)
 
 _WORDS = ["--minutes", "9", "--limit", "seconds=40", "--steps", "01", "it's; echo $HOME"]
 

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from test_export_documents import mixed, step_result
 
-from raysteps.exports.points import apportion, entries_of
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
+from raysteps.exports.items import apportion, entries_of
 
 
 def _hundredths(value: float) -> int:

@@ -12,10 +12,10 @@ from PIL import Image
 from test_export_documents import HOSTILE, full, mixed
 
 from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
 from raysteps.exports.formats import encoded, validate
 from raysteps.exports.hosted import by_id
 from raysteps.exports.prairielearn import MAX_BYTES, not_gradable, score, to_prairielearn
-from raysteps.kit.manifest import Step
 
 
 def _with_pictures(made: dict[str, Any], folder: Path, size: tuple[int, int], *, noisy: bool) -> None:

@@ -15,10 +15,9 @@ from typing import Any
 
 import pytest
 
-from raysteps.exports.archives import into_folder
-from raysteps.exports.autograders import autolab_tar, gradescope_zip, prairielearn_folder
+from raysteps.course.project import Project
+from raysteps.exports.autograders import autolab_tar, gradescope_zip, into_folder, prairielearn_folder
 from raysteps.exports.formats import validate
-from raysteps.kit.project import Project
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("many programs")]
 

@@ -8,10 +8,10 @@ import pytest
 from conftest import Sources
 from rich.console import Console
 
+from raysteps.cli import export as exports
 from raysteps.common.errors import UsageError
-from raysteps.exports import command as exports
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import here
+from raysteps.course.manifest import Step
+from raysteps.course.project import here
 
 
 def _export(*words: str) -> int:

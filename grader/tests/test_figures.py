@@ -11,13 +11,13 @@ import pytest
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.project import Project
-from raysteps.upkeep.bench.pages import FIGURES
-from raysteps.upkeep.figures import command, renders
-from raysteps.upkeep.figures.catalogue import FOLDER, Figure, figures
-from raysteps.upkeep.figures.drawing import Drawing
-from raysteps.upkeep.figures.window import CannotDraw
+from raysteps.course.project import Project
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.bench.docs import FIGURES
+from tools.figures import command, renders
+from tools.figures.command import FOLDER, Figure, figures
+from tools.figures.drawing import Drawing
+from tools.figures.window import CannotDraw
 
 _SVG = "{http://www.w3.org/2000/svg}"
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.fingerprint import fingerprint
-from raysteps.kit.project import Project
+from raysteps.course.project import Project
+from raysteps.toolchain.build_kit import fingerprint
 
 FILES = {
     "CMakeLists.txt": "project(x)",
@@ -46,13 +46,13 @@ def test_what_a_grade_depends_on_counts(copy: Project, name: str) -> None:
         "steps/01-camera-rays/.camera_rays.hpp.swp",
         "steps/01-camera-rays/camera_rays.hpp~",
         "steps/01-camera-rays/README.md",
-        "grader/src/raysteps/pages/page.py",
-        "grader/src/raysteps/reports/student.py",
+        "grader/src/raysteps/report/page.py",
+        "grader/src/raysteps/report/student.py",
         "scenes/mine.ppm",
-        "grader/src/raysteps/commands/render.py",
-        "grader/src/raysteps/upkeep/bench/svg.py",
+        "grader/src/raysteps/cli/render.py",
+        "tools/bench/charts.py",
         "scenes/.DS_Store",
-        "grader/src/raysteps/__pycache__/cli.cpython-311.pyc",
+        "grader/src/raysteps/cli/__pycache__/app.cpython-311.pyc",
     ],
 )
 def test_what_lies_beside_it_does_not(copy: Project, name: str) -> None:

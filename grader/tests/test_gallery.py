@@ -10,16 +10,16 @@ import pytest
 from conftest import MakeSubmission, Sources
 from rich.console import Console
 
-from raysteps.commands.gallery import command, reference
-from raysteps.commands.gallery.mine import MySteps
-from raysteps.commands.gallery.scenes import CHOSEN, Shown, shown_scenes
-from raysteps.commands.gallery.words import about_scene, what_is_new
+from raysteps.cli import gallery as command
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.programs.rendering import reference_picture
-from raysteps.submission.intake import take_in
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.gallery import shots as reference
+from raysteps.gallery.scenes import CHOSEN, Shown, about_scene, shown_scenes, what_is_new
+from raysteps.gallery.shots import MySteps
+from raysteps.images.render import reference_picture
+from raysteps.submission.load import take_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SIZE = "24x16"
 

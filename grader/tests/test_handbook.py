@@ -5,13 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.mistakes.catalogue import read_mutants
-from raysteps.programs.pictures import Pixels
-from raysteps.upkeep.handbook.exhibits import Exhibit
-from raysteps.upkeep.handbook.images import is_current, write_image
-from raysteps.upkeep.handbook.pages import index_page, step_page
+from raysteps.course.manifest import Step
+from raysteps.course.mutants import read_mutants
+from raysteps.course.project import Project
+from raysteps.images.compare import Pixels
+from tools.mistake_pages import Exhibit, index_page, is_current, step_page, write_image
 
 
 def _pixels(seed: int) -> Pixels:

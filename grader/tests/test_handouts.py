@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.cli import _parser
-from raysteps.commands.render import take_impl
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step, choose, read_steps
-from raysteps.kit.project import Project, here
-from raysteps.kit.stubs import without_markers
+from raysteps.cli.app import new_parser
+from raysteps.cli.render import take_impl
+from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.project import Project, here
+from raysteps.course.stubs import without_markers
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SECTIONS = [
     "What you will see",
@@ -132,7 +132,7 @@ def test_every_command_line_of_a_handout_can_be_read(project: Project, kit: Buil
                 outcome = subprocess.run([raytrace, *args, "--help"], capture_output=True, text=True, check=False)
                 assert outcome.returncode == 0, (words, outcome.stderr)
                 continue
-            arguments = _parser().parse_args(words)
+            arguments = new_parser(project).parse_args(words)
             if words[0] == "check":
                 assert [one.id for one in choose(_STEPS, arguments.steps)] == [step.id]
             if words[0] == "hint":

@@ -22,14 +22,14 @@ from hostile.running import Graded, Range
 from hostile.traces import Traces
 from PIL import Image
 
-from raysteps.kit import kit_building
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 from raysteps.sandbox import users
-from raysteps.sandbox.choice import find_sandbox
-from raysteps.sandbox.open_air import OpenAir
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.sandbox.limits_only import OpenAir
 from raysteps.sandbox.task import Sandbox
+from raysteps.toolchain import build_kit as kit_building
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 CORPUS = read_corpus()
 _IS_ORDINARY = os.geteuid() != 0

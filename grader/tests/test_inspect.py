@@ -11,20 +11,20 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from raysteps.cli import main
-from raysteps.commands.inspect.command import add_arguments, compare
-from raysteps.commands.inspect.command import run as start
-from raysteps.commands.inspect.parting import find_parting
-from raysteps.commands.inspect.programs import Inspected, Wish, inspect, last_good_step
-from raysteps.commands.inspect.values import Record
-from raysteps.commands.render import build_program
+from raysteps.cli.app import main
+from raysteps.cli.inspect import add_arguments, compare
+from raysteps.cli.inspect import run as start
+from raysteps.cli.render import build_program
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run
 from raysteps.common.schemas import complaint, read_schema
-from raysteps.kit.building import release_tree
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project
-from raysteps.programs.pictures import read_ppm
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project
+from raysteps.images.compare import read_ppm
+from raysteps.inspector.divergence import find_parting
+from raysteps.inspector.programs import Inspected, Wish, inspect, last_good_step
+from raysteps.inspector.records import Record
+from raysteps.toolchain.cmake import release_tree
 
 SIZE = ("--size", "40x30")
 Change = Callable[[Record], None]
@@ -130,7 +130,7 @@ def test_a_pixel_has_the_bytes_and_the_counts_of_the_picture(
     project: Project, program: Path, raytrace: Path, tmp_path: Path, scene: str
 ) -> None:
     plan = [(1, "none"), (2, "boxes"), (3, "none"), (4, "octree"), (5, "boxes"), (7, "octree"), (8, "none"), (9, "bvh")]
-    schema = read_schema("raysteps.commands", "inspect/inspect.schema.json")
+    schema = read_schema("raysteps.inspector", "inspect.schema.json")
     for at, (step, accel) in enumerate(plan):
         x, y = (7 * at + 9) % 40, (11 * at + 13) % 30
         found = inspect(program, wish(project, scene, x, y, step, "--accel", accel)).record

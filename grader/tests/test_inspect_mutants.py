@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from inspect_programs import Workshop, open_workshop
 
-from raysteps.commands.inspect.parting import find_parting
-from raysteps.commands.inspect.programs import Wish, inspect
 from raysteps.common.process import run
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.mistakes.alternatives import read_alternatives
-from raysteps.mistakes.catalogue import read_mutants, reference_source
-from raysteps.programs.pictures import Pixels, read_ppm
+from raysteps.course.manifest import Step
+from raysteps.course.mutants import read_alternatives, read_mutants, reference_source
+from raysteps.course.project import Project
+from raysteps.images.compare import Pixels, read_ppm
+from raysteps.inspector.divergence import find_parting
+from raysteps.inspector.programs import Wish, inspect
 
 _SIZE = ("--size", "64x48")
 # step, mistake, scene; then the line that is marked, and the function that it points to

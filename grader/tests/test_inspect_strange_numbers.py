@@ -11,11 +11,11 @@ import pytest
 from inspect_records import ball_record
 from rich.console import Console
 
-from raysteps.commands.inspect.html import page_html
-from raysteps.commands.inspect.parting import find_parting
-from raysteps.commands.inspect.programs import Wish, inspect
-from raysteps.commands.inspect.side_by_side import print_trees
-from raysteps.commands.inspect.values import Record
+from raysteps.inspector.divergence import find_parting
+from raysteps.inspector.pixel_page import page_html
+from raysteps.inspector.programs import Wish, inspect
+from raysteps.inspector.records import Record
+from raysteps.inspector.side_by_side import print_trees
 
 Change = Callable[[Record], None]
 

@@ -11,9 +11,9 @@ from typing import Literal
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
 from raysteps.submission import entries
-from raysteps.submission.intake import submission_name, take_in
+from raysteps.submission.load import submission_name, take_in
 
 LAYOUTS = [
     "steps/02-intersection/intersection.cpp",

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import NotTaken
-from raysteps.submission.intake import take_in
+from raysteps.submission.load import take_in
 
 TEXT = "// Gr\u00f6\u00dfe\n#include <a>\n\nint x = 1;\n"
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.manifest import Step
-from raysteps.submission.intake import take_in
+from raysteps.course.manifest import Step
+from raysteps.submission.load import take_in
 
 GOOD = "steps/04-shadows/shadows.cpp"
 

@@ -5,10 +5,10 @@ import time
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.answers import Verdict
 from raysteps.judge.bvhs import BVH, MOST_COST, MOST_LEVELS, MOST_NODES, Bvh, BvhNode, bvh_cost
+from raysteps.judge.compare import Verdict
+from raysteps.judge.protocol import Box, Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
-from raysteps.judge.values import Box, Inputs
 
 _LEFT, _RIGHT = Sphere((-2.0, 0.0, 0.0), 1.0), Sphere((2.0, 0.0, 0.0), 1.0)
 _TWO: Inputs = {"surfaces": Surfaces((_LEFT, _RIGHT))}

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.judging import ORDINARY_SHARE, make_cases
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.hidden_tests import ORDINARY_SHARE, make_cases
 from raysteps.judge.numbers import f32, text
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
 
 _SLIPS = 2  # of the ordinary cases may be wrong before the other kinds do not count
 _FEW = 3  # kinds of cases at least, so that a share says something

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import pytest
 
-from raysteps.judge.consistency import contradictions
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.claims import contradictions
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
 from raysteps.results.model import CaseGroup, Ending, HiddenResult, ImageResult, StepResult, TestResult
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _TAGS = {
     "sphere, whole": frozenset({"02-intersection", "Sphere::intersect"}),

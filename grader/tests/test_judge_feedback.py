@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from raysteps.judge.feedback import Feedback, withhold
-from raysteps.results.document import validate
+from raysteps.grading.options import Feedback, withhold
 from raysteps.results.model import CaseGroup, HiddenResult, Results, StepResult
+from raysteps.results.store import validate
 
 _SECRETS = ("given-secret", "expected-secret", "actual-secret")
 _DIAGNOSIS = ("message-secret", "group-secret", "name-secret")

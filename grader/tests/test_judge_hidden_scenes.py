@@ -3,12 +3,11 @@
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.drawing import Draw
-from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
-from raysteps.judge.nff_changes import changed
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.hidden_scenes import HiddenScene, changed, hidden_scenes
 from raysteps.judge.plan import read_plan
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.judge.random_source import Draw
 
 
 def _scenes(project: Project, step: Step, seed: int) -> list[HiddenScene]:

@@ -5,13 +5,13 @@ from pathlib import Path
 import pytest
 from conftest import MakeSubmission, Sources
 
-from raysteps.grading.one import grade_one
-from raysteps.grading.settings import Settings
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
+from raysteps.grading.options import Settings
+from raysteps.grading.pipeline import grade_one
 from raysteps.results.model import StepResult
-from raysteps.sandbox.choice import find_sandbox
-from raysteps.submission.intake import take_in
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.submission.load import take_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # Six levels of boxes, whatever is in them: nothing is lost, and there are 37449 of them.
 _FULL_TREE = """

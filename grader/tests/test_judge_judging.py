@@ -8,13 +8,12 @@ from judge_fakes import Ended, FakeWorker, ran, words
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
-from raysteps.judge.judging import judge_functions
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.hidden_tests import judge_functions
 from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.judge.time_budget import TimeBudget
-from raysteps.judge.worker_client import Ask
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.judge.worker import Ask, TimeBudget
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.task import Ran
 

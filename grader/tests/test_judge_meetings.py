@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from raysteps.judge.meetings import distance_to, first_distance
-from raysteps.judge.surfaces import Scripted, Sphere, Surface, Triangle
-from raysteps.judge.values import Ray
+from raysteps.judge.protocol import Ray
+from raysteps.judge.surfaces import Scripted, Sphere, Surface, Triangle, distance_to, first_distance
 
 _BALL = Sphere((0.0, 0.0, 0.0), 1.0)
 _SHEET = Triangle((-1.0, -1.0, -3.0), (1.0, -1.0, -3.0), (0.0, 1.0, -3.0))

@@ -10,28 +10,25 @@ from pathlib import Path
 import pytest
 from judge_fakes import Ended, FakeWorker
 
-from raysteps.judge.candidates import Recipe, make
-from raysteps.judge.changes import Change, changes, live_choices
-from raysteps.judge.choices import Recorder, Replay, Unfit
-from raysteps.judge.drawing import Draw
-from raysteps.judge.examples import Examples, choices_of
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.cases import functions_of
+from raysteps.judge.choice_sequence import Recorder, Replay, Unfit, complexity, cost, simpler_directions, simpler_reals
+from raysteps.judge.counterexamples import Examples, choices_of
+from raysteps.judge.decode_case import read_inputs
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.generators import functions_of
-from raysteps.judge.judging import judge_functions
+from raysteps.judge.hidden_tests import judge_functions
 from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.judge.reading import read_inputs
-from raysteps.judge.simplicity import complexity, cost, simpler_directions, simpler_reals
-from raysteps.judge.worker_client import Ask
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.programs.asking import ask_student, reference_unkept
-from raysteps.programs.limits import limits_of
-from raysteps.programs.student_build import StudentBuild
+from raysteps.judge.random_source import Draw
+from raysteps.judge.shrink_passes import Change, Recipe, changes, live_choices, make
+from raysteps.judge.worker import Ask, ask_student, reference_unkept
 from raysteps.results.model import HiddenResult
-from raysteps.sandbox.open_air import OpenAir
+from raysteps.sandbox.limits_only import OpenAir
 from raysteps.sandbox.task import Ran
+from raysteps.toolchain.compile import StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import limits_of
 
 _SEED = 1
 

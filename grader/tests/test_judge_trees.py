@@ -6,10 +6,10 @@ import tracemalloc
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.answers import Verdict
+from raysteps.judge.compare import Verdict
+from raysteps.judge.octrees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
+from raysteps.judge.protocol import Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
-from raysteps.judge.trees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
-from raysteps.judge.values import Inputs
 
 _LEFT, _RIGHT = Sphere((-2.0, 0.0, 0.0), 1.0), Sphere((2.0, 0.0, 0.0), 1.0)
 _TWO: Inputs = {"surfaces": Surfaces((_LEFT, _RIGHT))}

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.process import Outcome
-from raysteps.judge.judging import judge_functions, make_cases
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.hidden_tests import judge_functions, make_cases
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.programs.asking import reference_answers
+from raysteps.judge.worker import reference_answers
 from raysteps.sandbox.task import Ran
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _MOST_SECONDS = 0.5  # of the worker for a whole step, on any machine
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.project import Project
+from raysteps.course.project import Project
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 _LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "testing")

@@ -12,22 +12,19 @@ import pytest
 from rich.console import Console
 from test_export_documents import document, step_result
 
-from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.files import write_class
-from raysteps.classroom.messages import Answer
-from raysteps.classroom.records import Registered, RunFacts
-from raysteps.classroom.report import class_document
-from raysteps.cli import main
-from raysteps.commands.leaderboard.command import add_arguments, run
-from raysteps.commands.leaderboard.entries import read_entries
-from raysteps.commands.leaderboard.ranking import rank
-from raysteps.commands.leaderboard.showing import print_board
+from raysteps.classroom.class_document import class_document
+from raysteps.classroom.class_files import write_class
+from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
+from raysteps.classroom.jobs import Answer
+from raysteps.classroom.leaderboard import print_board, rank, read_entries
+from raysteps.cli.app import main
+from raysteps.cli.leaderboard import add_arguments, run
 from raysteps.common.errors import UsageError
 from raysteps.common.schemas import complaint, read_schema
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 from raysteps.results.model import StepResult
-from raysteps.results.work import Work
+from raysteps.results.work_ratio import Work
 
 Document = dict[str, Any]
 
@@ -204,9 +201,9 @@ def test_kits_that_differ_are_named(
 def test_the_example_in_the_documents_is_one(project: Project) -> None:
     text = (project.root / "docs" / "formats.md").read_text(encoding="utf-8")
     example = json.loads(text.split("## Leaderboard")[1].split("```json")[1].split("```")[0])
-    assert not complaint(example, read_schema("raysteps.commands.leaderboard", "leaderboard.schema.json"))
+    assert not complaint(example, read_schema("raysteps.classroom", "leaderboard.schema.json"))
     named = {**example, "anonymous": True}
-    assert complaint(named, read_schema("raysteps.commands.leaderboard", "leaderboard.schema.json"))
+    assert complaint(named, read_schema("raysteps.classroom", "leaderboard.schema.json"))
 
 
 def test_usage(tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.kit.manifest import Step
-from raysteps.programs.limits import limits_of, parse_limits
+from raysteps.course.manifest import Step
+from raysteps.toolchain.limits import limits_of, parse_limits
 
 
 def test_a_course_changes_what_the_manifest_says(steps: list[Step]) -> None:

@@ -5,8 +5,8 @@ import re
 import pytest
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.kit.manifest import Step, choose, read_step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step, choose, read_step
+from raysteps.course.project import Project
 
 
 def test_points_sum_to_100_and_a_bonus_of_20(steps: list[Step]) -> None:

@@ -11,14 +11,14 @@ import pytest
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
-from raysteps.exports.kit_files import kit_files
-from raysteps.kit.manifest import read_all_steps, read_steps
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import outdated_stubs
-from raysteps.mistakes.catalogue import read_mutants, reference_source
-from raysteps.upkeep import maintenance
-from raysteps.upkeep.new_step import command
-from raysteps.upkeep.samples import outdated_samples
+from raysteps.course.manifest import read_all_steps, read_steps
+from raysteps.course.mutants import read_mutants, reference_source
+from raysteps.course.project import Project
+from raysteps.course.stubs import outdated_stubs
+from raysteps.exports.autograders import kit_files
+from tools import dev as maintenance
+from tools.new_step import new_step as command
+from tools.test_submissions import outdated_samples
 
 _SECONDS = 900
 

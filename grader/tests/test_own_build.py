@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 from course_fakes import small_project, write_own
 
-from raysteps.commands.own_build import why_own_steps_do_not_build
+from raysteps.cli.render import why_own_steps_do_not_build
 from raysteps.common.process import Outcome
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 
 _OWN = "../../steps/03-phong-shading/phong_shading.cpp"
 _NINJA = f"""[1/7] Building CXX object framework/CMakeFiles/kit.dir/core/box.cpp.o

@@ -7,7 +7,7 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 from class_documents import STEPS, document, many, missing, result, student, submission
 from playwright.sync_api import Page
 
-from raysteps.reports.class_report import write_class_report
+from raysteps.report.class_page import write_class_report
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
 _SCRIPT = "<script>alert(1)</script>"

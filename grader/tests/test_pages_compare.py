@@ -11,10 +11,8 @@ import pytest
 from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 from PIL import Image
 
-from raysteps.pages import page as pages
-from raysteps.pages.compare import COMPARE_SCRIPTS, COMPARE_STYLES
-from raysteps.pages.flip import flip_map
-from raysteps.pages.picture_data import PictureData, picture_data, pixel_data
+from raysteps.report import page as pages
+from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, PictureData, flip_map, picture_data, pixel_data
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page

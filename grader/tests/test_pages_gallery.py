@@ -7,12 +7,12 @@ import pytest
 from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 from playwright.sync_api import Page
 
-from raysteps.commands.gallery.page import Hung, gallery_page
-from raysteps.commands.gallery.scenes import Shown
-from raysteps.commands.gallery.shots import Effort, Shot
-from raysteps.kit.manifest import Step
-from raysteps.programs.pictures import Pixels
-from raysteps.results.work import Work
+from raysteps.course.manifest import Step
+from raysteps.gallery.gallery_page import Hung, gallery_page
+from raysteps.gallery.scenes import Shown
+from raysteps.gallery.shots import Effort, Shot
+from raysteps.images.compare import Pixels
+from raysteps.results.work_ratio import Work
 
 _SCRIPT = "<script>alert(1)</script>"
 _SAME = {8: 7, 5: 4}  # steps that change nothing, counted from 0

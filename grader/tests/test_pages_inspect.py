@@ -7,8 +7,8 @@ import pytest
 from browser import OpenPage, assert_accessible
 from inspect_records import ball_record
 
-from raysteps.commands.inspect.html import write_page
-from raysteps.commands.inspect.parting import find_parting
+from raysteps.inspector.divergence import find_parting
+from raysteps.inspector.pixel_page import write_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

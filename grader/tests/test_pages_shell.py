@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling
 
-from raysteps.pages.page import render_page
+from raysteps.report.page import render_page
 
 _NASTY = "</script><script>alert(1)</script> & \u2028 <!--"
 

@@ -9,13 +9,12 @@ import pytest
 from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling
 from page_results import NASTY, document_of, idle_step, passed_step, wrong_step
 
-from raysteps import cli
+from raysteps.cli import app as cli
 from raysteps.common.files import write_json
-from raysteps.judge.feedback import Feedback, withhold
-from raysteps.kit.manifest import Step
-from raysteps.reports.points import parts_of, rest_of
-from raysteps.reports.student import student_page, try_student_page, write_student_page
-from raysteps.results.document import validate
+from raysteps.course.manifest import Step
+from raysteps.grading.options import Feedback, withhold
+from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
+from raysteps.results.store import validate
 
 
 def _mixed(steps: list[Step], folder: Path, name: str = "ann") -> dict[str, Any]:

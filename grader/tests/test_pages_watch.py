@@ -10,13 +10,12 @@ import pytest
 from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
 from watch_fakes import result_of
 
-from raysteps.commands.course.hints import Hint
-from raysteps.commands.watch.board import Board
-from raysteps.commands.watch.page import page_of, state_of
-from raysteps.commands.watch.server import PageServer
-from raysteps.commands.watch.view import View
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
+from raysteps.progress.hints import Hint
 from raysteps.results.model import Diagnosis
+from raysteps.watch.page_state import Board, page_of, state_of
+from raysteps.watch.server import PageServer
+from raysteps.watch.step_view import View
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from raysteps.programs.pictures import PictureError, Pixels, compare, difference, is_flat, read_ppm, write_png
+from raysteps.images.compare import PictureError, Pixels, compare, difference, is_flat, read_ppm, write_png
 
 
 def _ramp() -> Pixels:

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from conftest import Sources
 
-from raysteps.commands.watch.runner import WORKER
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
 from raysteps.results.model import StepResult
-from raysteps.sandbox.open_air import OpenAir
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.watch.runner import WORKER
 
 _ID = "07-tone-mapping"
 

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 from doc_commands import all_commands
 
-from raysteps.commands.release import refuse_inside
+from raysteps.cli.release import refuse_inside
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.release.replacing import usable
-from raysteps.upkeep.site.shell import typed
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.release.build_release import usable
+from tools.site.links import typed
 
 
 def test_the_folders_that_documents_name_can_be_written(project: Project) -> None:

@@ -12,10 +12,9 @@ import pytest
 
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.release.making import first_steps, release, write_release
-from raysteps.release.replacing import usable
+from raysteps.course.manifest import Step
+from raysteps.release.build_release import first_steps, release, usable, write_release
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
 
@@ -55,7 +54,7 @@ def test_no_module_is_missing_and_none_knows_answers(released: Path) -> None:
     names = [
         name.removesuffix(".__init__") for name in names if not name.endswith(("__main__", "keeper", "windows_keys"))
     ]
-    assert "raysteps.grading.own" in names
+    assert "raysteps.grading.self_check" in names
     knowing = {"judge", "mistakes", "diagnosis", "expected", "blame", "cli"}
     assert not [name for name in names if knowing.intersection(name.split("."))]
     code = f"import sys, importlib; sys.path[0] = {str(source)!r}\nfor name in {names!r}: importlib.import_module(name)"

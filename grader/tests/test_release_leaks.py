@@ -11,13 +11,13 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from raysteps.common.process import run
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.release.leaks.finding import Leak, find_leaks
-from raysteps.release.leaks.secrets import Secrets, gather
-from raysteps.release.making import write_release
-from raysteps.students.listing import read_release
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.release.build_release import write_release
+from raysteps.release.leaks import Leak, find_leaks
+from raysteps.release.secrets import Secrets, gather
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.updater.release_list import read_release
 
 
 @pytest.fixture(scope="module")

@@ -10,28 +10,25 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.kit.project import Project
-from raysteps.release.packages import needed_modules, package_files
-from raysteps.release.pages_of_kit import pyproject
+from raysteps.course.project import Project
+from raysteps.release.contents import needed_modules, package_files
+from raysteps.release.kit_pages import pyproject
 
 # What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
 # solve the steps read it?
 _ROOMS = {
-    ".", "commands", "commands/course", "commands/inspect", "commands/watch", "common", "exports", "grading", "kit",
-    "pages", "pages/static", "pages/templates", "programs", "reports", "results", "sandbox", "setting_up", "students",
-    "submission",
+    ".", "bootstrap", "cli", "common", "course", "exports", "grading", "images", "inspector", "progress", "report",
+    "report/static", "report/templates", "results", "sandbox", "submission", "toolchain", "updater", "watch",
 }  # fmt: skip
 _PARTS = {
-    "commands": {
-        "check", "compare", "ending", "for_students", "own_build", "progress", "render", "report", "report_page",
-        "unfinished", "update", "view",
+    "cli": {
+        "app", "check", "compare_pictures", "errors", "inspect", "render", "report", "steps", "todo_steps", "update",
+        "view", "watch",
     },
-    "commands/inspect": {"command", "html", "page_rays", "page_space", "pair", "programs", "tree", "values"},
-    "exports": {"formats", "reading"},
-    "grading": {
-        "build_messages", "compiling", "own", "own_grader", "quick_look", "scoring", "step_grader", "visible_images",
-        "visible_tests",
-    },
+    "course": {"manifest", "project", "stubs"},
+    "exports": {"formats"},
+    "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},
+    "inspector": {"pixel_page", "programs", "records"},
 }  # fmt: skip
 
 
@@ -70,12 +67,12 @@ def test_the_package_names_all_that_its_modules_import(project: Project, out: li
 
 def test_a_module_for_students_that_needs_answers_is_found(tmp_path: Path) -> None:
     room = tmp_path / "raysteps"
-    for name in ("", "judge", "commands"):
+    for name in ("", "judge", "cli"):
         (room / name).mkdir(exist_ok=True)
         (room / name / "__init__.py").write_text("")
     (room / "judge" / "plan.py").write_text("")
-    (room / "students_cli.py").write_text("def later() -> None:\n    from raysteps.judge import plan\n")
-    assert [path.name for path in needed_modules(tmp_path)] == ["__init__.py", "students_cli.py"]
-    (room / "students_cli.py").write_text("from raysteps.judge import plan\n")
+    (room / "cli" / "app.py").write_text("def later() -> None:\n    from raysteps.judge import plan\n")
+    assert [path.name for path in needed_modules(tmp_path)] == ["__init__.py", "__init__.py", "app.py"]
+    (room / "cli" / "app.py").write_text("from raysteps.judge import plan\n")
     with pytest.raises(GraderFault, match="which students do not get"):
         needed_modules(tmp_path)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project, here
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project, here
 from raysteps.release.contents import kit_contents
 
 _OVERLAY = here().root / "grader" / "src" / "raysteps" / "release" / "overlay"

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.process import run
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import stub_for
-from raysteps.release.making import write_release
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.course.stubs import stub_for
+from raysteps.release.build_release import write_release
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 pytestmark = pytest.mark.slow
 

@@ -8,16 +8,15 @@ from pathlib import Path
 import pytest
 from doc_commands import complaint
 
+from raysteps.cli.app import new_parser
 from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 from raysteps.grading.scoring import most_points
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.release.making import first_steps, write_release
-from raysteps.release.pages_of_kit import readme
-from raysteps.release.wording import as_printed, for_students
-from raysteps.students_cli import _parser
-from raysteps.upkeep.site.shell import Typed, mentioned, typed
+from raysteps.release.build_release import first_steps, write_release
+from raysteps.release.kit_pages import as_printed, for_students, readme
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.site.links import Typed, mentioned, typed
 
 _NEEDS_REFERENCE = re.compile(r"--impl[ =]reference|--against\b|--accel[ =](?:boxes|wide)\S*|--spd\b")
 _OF_A_STEP = ("check", "hint", "reset", "watch")
@@ -52,7 +51,7 @@ def _unknown_step(root: Path, one: Typed) -> str:
 def _wrong(root: Path, page: Path, text: str) -> list[str]:
     """All that this page says and the kit does not have."""
     found = [f"{page}: {words[0]}" for words in _NEEDS_REFERENCE.finditer(text)]
-    parser = _parser()
+    parser = new_parser(Project(root))
     for one in [*(one for block in typed(page, text) for one in block), *mentioned(page, text)]:
         wrong = complaint(Project(root), one, parser) or _unknown_step(root, one)
         found += [f"{one}: {wrong}"] if wrong else []

@@ -8,18 +8,15 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from raysteps.commands import release as command
+from raysteps.cli import release as command
 from raysteps.common.errors import UsageError
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.git_listing import places
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project
-from raysteps.release import making
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project, places
+from raysteps.release import build_release as making
 from raysteps.release.contents import kit_contents
-from raysteps.release.leaks.finding import find_leaks
-from raysteps.release.leaks.secrets import gather
-from raysteps.release.leaks.shared import read_shared
-from raysteps.release.leaks.words import words_in
+from raysteps.release.leaks import find_leaks
+from raysteps.release.secrets import gather, read_shared, words_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SEED = 918273
 
@@ -71,7 +68,7 @@ def test_in_every_kind_of_file_that_goes_out(
         "docs/pages.md": f"\nThe course draws its cases with `--seed {_SEED}`.\n",
         "scenes/generators/spheres_of_the_judge.py": judge,
         f"{package}/common/x.json": json.dumps({"find": mutants[mutants.index("/ approach;") :].partition("'''")[0]}),
-        f"{package}/pages/static/x.js": "// " + mutants[mutants.index('sees = "Surfaces behind') :].partition("\n")[0],
+        f"{package}/report/static/x.js": "// " + mutants[mutants.index('sees = "Surfaces behind') :].partition("\n")[0],
         f"{package}/release/overlay/notes.md": solution,
     }
     (copy.root / "course.toml").write_text(f"seed = {_SEED}\n", encoding="utf-8")

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.release import making, replacing
-from raysteps.release.leaks.finding import leaks_in_history
-from raysteps.release.leaks.secrets import gather
-from raysteps.release.making import Leaks, release
-from raysteps.release.replacing import usable
+from raysteps.course.manifest import Step
+from raysteps.release import build_release as making
+from raysteps.release import build_release as replacing
+from raysteps.release.build_release import Leaks, release, usable
+from raysteps.release.leaks import leaks_in_history
+from raysteps.release.secrets import gather
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
 def _git(folder: Path, *words: str) -> str:

@@ -8,14 +8,12 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from raysteps.commands import release
+from raysteps.cli import release
 from raysteps.common.errors import UsageError
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.release.leaks.finding import find_leaks
-from raysteps.release.leaks.secrets import Secrets
-from raysteps.release.leaks.words import Sequences
-from raysteps.release.searching import not_searched, to_search
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.release.leaks import find_leaks, not_searched, to_search
+from raysteps.release.secrets import Secrets, Sequences
 
 _PROGRAM = b"\x7fELF\2\1\1\0"  # a leak wherever it is searched
 _MADE = (".venv/bin/python", "build/release/bin/raytrace", "grader/src/raysteps.egg-info/SOURCES.txt",

@@ -10,10 +10,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from raysteps.release.leaks.finding import find_leaks
-from raysteps.release.leaks.secrets import Secrets
-from raysteps.release.leaks.shape import strange
-from raysteps.release.leaks.words import Sequences
+from raysteps.release.leaks import find_leaks, strange
+from raysteps.release.secrets import Secrets, Sequences
 
 _TEXT = b"int main() { return 0; }\n" * 20
 

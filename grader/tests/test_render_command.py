@@ -4,15 +4,15 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.cli import main
-from raysteps.commands.render import run_raytrace, take_impl
-from raysteps.commands.unfinished import advice, as_far_as_written
+from raysteps.cli.app import main
+from raysteps.cli.render import run_raytrace, take_impl
+from raysteps.cli.todo_steps import advice, as_far_as_written
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import stub_for
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project
+from raysteps.course.stubs import stub_for
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
 def test_impl_is_taken_out() -> None:

@@ -9,26 +9,25 @@ import pytest
 from conftest import MakeSubmission, Sources
 from rich.console import Console
 
-from raysteps import cli
-from raysteps.commands.check import clear
-from raysteps.commands.replay import replay
+from raysteps.cli import app as cli
+from raysteps.cli.replay import replay
 from raysteps.common.errors import StudentBuildError, UsageError
-from raysteps.grading.one import grade_one
-from raysteps.grading.settings import Settings
-from raysteps.judge.case_files import CaseFile, read_case, write_case
-from raysteps.judge.feedback import Feedback
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.grading.options import Feedback, Settings
+from raysteps.grading.pipeline import grade_one
+from raysteps.judge.cases import functions_of
+from raysteps.judge.counterexamples import CaseFile, read_case, write_case
+from raysteps.judge.decode_case import read_inputs
 from raysteps.judge.functions import Case
-from raysteps.judge.generators import functions_of
-from raysteps.judge.judging import make_cases
+from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
-from raysteps.judge.reading import read_inputs
-from raysteps.judge.tokens import Garbled
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.results.case_places import place_of
-from raysteps.sandbox.open_air import OpenAir
-from raysteps.submission.intake import take_in
+from raysteps.judge.protocol import Garbled
+from raysteps.progress.check import clear
+from raysteps.results.store import place_of
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.submission.load import take_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _LINE = "1 Sphere::intersect 0 0 0 1 1 1 1 1 1 2 0 1 0 0 2 0 0 -1"
 _CASE = CaseFile(

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.commands.check import exit_code
 from raysteps.common.errors import GraderFault
-from raysteps.results.document import validate, write_document
+from raysteps.progress.check import exit_code
 from raysteps.results.model import ImageResult, Results, StepResult, TestResult
+from raysteps.results.store import validate, write_document
 
 
 def _step(**changes: object) -> StepResult:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from sandboxes import PROGRAM, Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
 
-from raysteps.kit.project import here
+from raysteps.course.project import here
 from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
 
 __all__ = ["any_sandbox", "hostile", "misbehave", "sandbox", "secret"]  # pytest finds fixtures by name

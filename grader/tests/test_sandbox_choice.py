@@ -15,11 +15,12 @@ import pytest
 from sandboxes import Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox_named
 
 from raysteps.common.errors import UsageError
-from raysteps.kit.project import here
-from raysteps.sandbox import choice, workplace
+from raysteps.course.project import here
+from raysteps.sandbox import detect as choice
+from raysteps.sandbox import task_dir as workplace
 from raysteps.sandbox.bubblewrap import Bubblewrap
-from raysteps.sandbox.choice import VARIABLE, find_sandbox
-from raysteps.sandbox.mounts import hidden_folders, visible_folders
+from raysteps.sandbox.detect import VARIABLE, find_sandbox
+from raysteps.sandbox.namespaces import hidden_folders, visible_folders
 from raysteps.sandbox.task import Input, Output, Sandbox, Task
 from raysteps.sandbox.users import can_lend_users, lent_user
 
@@ -172,7 +173,7 @@ def test_two_at_once(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
 def test_a_killed_grader_leaves_nothing(name: str, way: str, hostile: Path) -> None:
     sandbox_named(name)
     code = (
-        "import sys\nfrom pathlib import Path\nfrom raysteps.sandbox.choice import find_sandbox\n"
+        "import sys\nfrom pathlib import Path\nfrom raysteps.sandbox.detect import find_sandbox\n"
         "from raysteps.sandbox.task import Input, Limits, Task\n"
         "limits = Limits(wall_seconds=30, processes=10)\n"
         "find_sandbox().run(Task((Input(Path(sys.argv[1]), sys.argv[3]), sys.argv[2]), limits))\n"

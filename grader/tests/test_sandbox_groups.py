@@ -6,7 +6,7 @@ import pytest
 
 from raysteps.sandbox import cgroups
 from raysteps.sandbox.cgroups import Group, Parents, find_parents
-from raysteps.sandbox.processes import Usage
+from raysteps.sandbox.monitor import Usage
 from raysteps.sandbox.task import Limits
 
 

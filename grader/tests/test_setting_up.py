@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.kit.project import Project
-from raysteps.setting_up.advice import advice
-from raysteps.setting_up.needs import CMAKE, COMPILER, NINJA, cmake_is_new_enough
-from raysteps.setting_up.room import Room
+from raysteps.bootstrap.requirements import CMAKE, COMPILER, NINJA, advice, cmake_is_new_enough
+from raysteps.bootstrap.venv import Venv
+from raysteps.course.project import Project
 
 
 def test_the_command_is_a_shell_script_and_a_python_program(project: Project) -> None:
@@ -25,28 +24,28 @@ def test_the_command_is_a_shell_script_and_a_python_program(project: Project) ->
 
 def test_it_needs_nothing_but_python(project: Project) -> None:
     """-S: no installed package can be seen."""
-    program = "from raysteps.setting_up.command import main; print('alone')"
+    program = "from raysteps.bootstrap.start import main; print('alone')"
     source = f"import sys; sys.path.insert(0, {str(project.root / 'grader' / 'src')!r}); {program}"
     done = subprocess.run([sys.executable, "-I", "-S", "-c", source], capture_output=True, check=False, text=True)
     assert done.stdout == "alone\n", done.stderr
 
 
 def copy_of_the_command(project: Project, folder: Path) -> Path:
-    """A repository with a room that is ready; its Python prints what it is started with."""
+    """A repository with a venv that is ready; its Python prints what it is started with."""
     shutil.copy(project.root / "raysteps", folder / "raysteps")
     sources = folder / "grader" / "src" / "raysteps"
-    shutil.copytree(project.root / "grader" / "src" / "raysteps" / "setting_up", sources / "setting_up")
+    shutil.copytree(project.root / "grader" / "src" / "raysteps" / "bootstrap", sources / "bootstrap")
     (sources / "__init__.py").touch()
     (folder / "grader" / "pyproject.toml").touch()
-    room = Room(folder)
-    room.python.parent.mkdir(parents=True)
+    venv = Venv(folder)
+    venv.python.parent.mkdir(parents=True)
     otherwise = f'exec {shlex.quote(sys.executable)} "$@"'
     python = f'#!/bin/sh\ncase "$*" in *"-m raysteps"*) printf "%s|" "$@" ;; *) {otherwise} ;; esac\n'
-    room.python.write_text(python, encoding="utf-8")
-    room.python.chmod(0o755)
+    venv.python.write_text(python, encoding="utf-8")
+    venv.python.chmod(0o755)
     program = "import sys; sys.path.insert(0, 'grader/src'); from pathlib import Path\n"
-    program += "from raysteps.setting_up.room import Room\n"
-    program += f"room = Room(Path({str(folder)!r})); room._stamp.write_text(room._fingerprint())"
+    program += "from raysteps.bootstrap.venv import Venv\n"
+    program += f"venv = Venv(Path({str(folder)!r})); venv._stamp.write_text(venv._fingerprint())"
     subprocess.run([sys.executable, "-c", program], check=True, cwd=folder)
     return folder / "raysteps"
 

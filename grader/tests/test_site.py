@@ -10,16 +10,16 @@ from urllib.parse import unquote
 import pytest
 from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 
-from raysteps.cli import _parser, main
+from raysteps.cli.app import main, new_parser
 from raysteps.common.errors import UsageError
 from raysteps.common.markdown import anchors, formulas
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project, here
-from raysteps.upkeep.site.command_page import command_page
-from raysteps.upkeep.site.documents import documents
-from raysteps.upkeep.site.formulas import BadFormula, bad_formulas, mathml
-from raysteps.upkeep.site.links import dead_links
-from raysteps.upkeep.site.placing import check_place, put
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project, here
+from tools.site.build import check_place, put
+from tools.site.command_page import command_page
+from tools.site.documents import documents
+from tools.site.formulas import BadFormula, bad_formulas, mathml
+from tools.site.links import dead_links
 
 _TOGETHER = pytest.mark.xdist_group("site")
 
@@ -57,7 +57,7 @@ def test_all_documents_are_on_the_site(project: Project) -> None:
 
 
 def test_the_page_of_commands_has_every_option(project: Project) -> None:
-    page = command_page(project, _parser())
+    page = command_page(project, new_parser(project))
     for command in ("watch", "grade-class", "export gradescope", "dev mistakes"):
         assert re.search(f"^##+ {command}$", page, re.MULTILINE)
     for option in ("--require-sandbox", "--late-policy", "--map-scale", "--screenshot"):
@@ -106,7 +106,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path, capsys: pytest
 def test_what_is_missing_is_named(
     project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("raysteps.upkeep.site.build.find_spec", lambda name: None)
+    monkeypatch.setattr("tools.site.build.find_spec", lambda name: None)
     assert main(["docs", "--out", str(tmp_path / "new")]) == 2
     line = capsys.readouterr().err.splitlines()[-1]
     assert line.strip() == f'"{sys.executable}" -m pip install -e "{project.root / "grader"}[docs]"'

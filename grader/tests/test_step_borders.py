@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from conftest import MakeSubmission, Sources
 
-from raysteps.grading.one import grade_one
-from raysteps.grading.settings import Settings
-from raysteps.kit.built_kit import BuiltKit
+from raysteps.grading.options import Settings
+from raysteps.grading.pipeline import grade_one
 from raysteps.results.model import StepResult
-from raysteps.sandbox.open_air import OpenAir
-from raysteps.submission.intake import take_in
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.submission.load import take_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 STEP = "02-intersection"
 

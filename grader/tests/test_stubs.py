@@ -6,8 +6,8 @@ import time
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.kit.manifest import Step
-from raysteps.kit.stubs import make_stub, same_code, unfinished_functions, without_markers
+from raysteps.course.manifest import Step
+from raysteps.course.stubs import make_stub, same_code, unfinished_functions, without_markers
 
 SOLUTION = """#include "a.hpp"
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.commands.check import clear
-from raysteps.commands.demo import complain_about
+from raysteps.cli.demo import complain_about
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
+from raysteps.progress.check import clear
 from raysteps.results.model import Results, StepResult
 
 

@@ -4,15 +4,12 @@ from collections import Counter
 
 import pytest
 
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.mistakes.alternatives import read_alternatives
-from raysteps.mistakes.catalogue import read_mutants
+from raysteps.course.manifest import Step
+from raysteps.course.mutants import read_alternatives, read_mutants
+from raysteps.course.project import Project
 from raysteps.results.model import Diagnosis, StepResult, TestResult
-from raysteps.upkeep.entrants import Entrant, Kind, mutants
-from raysteps.upkeep.truth.report import problems_of, row_of, shortfalls, total
-from raysteps.upkeep.truth.rounds import random_pairs, rounds_of
-from raysteps.upkeep.truth.verdicts import Seen
+from tools.grade_audit import Seen, problems_of, random_pairs, rounds_of, row_of, shortfalls, total
+from tools.test_submissions import Entrant, Kind, mutants
 
 
 def _seen(

@@ -8,17 +8,17 @@ import pytest
 from rich.console import Console
 from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, mine, newer, release
 
-from raysteps import students_cli
-from raysteps.commands import update as command
+from raysteps.cli import update as command
+from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
-from raysteps.kit.project import Project
-from raysteps.students.listing import PLACE, mark
+from raysteps.course.project import Project
+from raysteps.updater.release_list import PLACE, mark
 
 __all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
 
 def _run(root: Path, *words: object) -> int:
-    arguments = students_cli._parser().parse_args(["update", *map(str, words)])
+    arguments = new_parser(Project(root)).parse_args(["update", *map(str, words)])
     return command.run(Project(root), arguments, Console(width=10_000))
 
 

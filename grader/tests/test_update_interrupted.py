@@ -10,7 +10,7 @@ import pytest
 from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, is_all_there, release, update
 
 from raysteps.common.errors import UsageError
-from raysteps.students.listing import PLACE
+from raysteps.updater.release_list import PLACE
 
 MINE = {**WORK, "framework/core/ray.hpp.mine": b"my ray\n", "framework/core/gone.hpp.mine": b"my own gone\n"}
 TOUCHED = {"framework/core/ray.hpp": b"my ray\n", "framework/core/gone.hpp": b"my own gone\n"}

@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 from update_kits import files_of, zipped
 
-from raysteps.common.marks import mark
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import pristine_stub
+from raysteps.common.files import mark
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub
 from raysteps.release import contents
-from raysteps.release.making import first_steps, write_release
-from raysteps.students.listing import read_release
+from raysteps.release.build_release import first_steps, write_release
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.updater.release_list import read_release
 
 FIRST, SECOND, THIRD = (
     "steps/01-camera-rays/camera_rays.cpp",

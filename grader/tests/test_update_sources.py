@@ -9,7 +9,7 @@ import pytest
 from update_kits import NEW, OWN, STEPS, WORK, expect_done, files_of, mine, newer, release, update, zipped
 
 from raysteps.common.errors import UsageError
-from raysteps.students.listing import PLACE, Listed, Release, encoded
+from raysteps.updater.release_list import PLACE, Listed, Release, encoded
 
 __all__ = ["mine", "newer"]  # pytest finds fixtures by name
 

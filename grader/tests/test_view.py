@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.commands.view import check_glfw
+from raysteps.cli.view import check_glfw
 from raysteps.common.errors import UsageError
-from raysteps.kit.building import BuildTree, release_tree, what_failed
-from raysteps.kit.project import Project
-from raysteps.programs.pictures import is_flat, read_ppm
-from raysteps.upkeep.hidden_screen import NoScreen, hidden_screen
+from raysteps.course.project import Project
+from raysteps.images.compare import is_flat, read_ppm
+from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
+from tools.xvfb import NoScreen, hidden_screen
 
 _SECONDS = 60  # until something has surely gone wrong
 _PROGRAMS = ["view-reference", "inspect-reference", "raytrace-reference"]

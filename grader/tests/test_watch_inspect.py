@@ -11,12 +11,12 @@ import pytest
 from course_fakes import printed, text
 from watch_fakes import result_of
 
-from raysteps.commands.watch import actions
-from raysteps.commands.watch.actions import Actions
-from raysteps.commands.watch.showing import Showing
-from raysteps.commands.watch.view import View
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.watch import session as actions
+from raysteps.watch.session import Actions
+from raysteps.watch.step_view import View
+from raysteps.watch.terminal_view import Showing
 
 _COMMAND = "./raysteps inspect scenes/lessons/three-spheres.nff 5 3 --step 1 --size 160x120 --against reference"
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from watch_fakes import result_of
 
-from raysteps.commands.watch.command import on_a_desktop
-from raysteps.commands.watch.inspecting import command_of_worst, worst_pixel
-from raysteps.commands.watch.page import page_of, state_of
-from raysteps.commands.watch.view import View, verdict
-from raysteps.kit.manifest import Step
-from raysteps.programs.pictures import write_png
-from raysteps.reports.commands import inspect_command, typed
+from raysteps.cli.watch import on_a_desktop
+from raysteps.course.manifest import Step
+from raysteps.images.compare import write_png
+from raysteps.report.wording import inspect_command, typed
+from raysteps.watch.page_state import page_of, state_of
+from raysteps.watch.session import command_of_worst, worst_pixel
+from raysteps.watch.step_view import View, verdict
 
 _TALLY = "1 of 2 tests right, 0 of 1 picture right"
 

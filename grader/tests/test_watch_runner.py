@@ -10,10 +10,10 @@ import pytest
 from course_fakes import small_project, write_own
 from watch_fakes import WORKER, wait_for
 
-from raysteps.commands.watch.events import Ended, Event, Told
-from raysteps.commands.watch.runner import Runner
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.watch.events import Ended, Event, Told
+from raysteps.watch.runner import Runner
 
 
 @pytest.fixture

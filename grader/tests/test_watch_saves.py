@@ -11,11 +11,10 @@ import watchfiles
 from course_fakes import small_project
 from watch_fakes import wait_for
 
-from raysteps.commands.watch.events import Event, Noticed, Saved, Vanished
-from raysteps.commands.watch.filesystems import kind_of, why_poll
-from raysteps.commands.watch.saves import Saves
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.watch.events import Event, Noticed, Saved, Vanished
+from raysteps.watch.file_watcher import Saves, kind_of, why_poll
 
 _OWN = "camera_rays.cpp"
 

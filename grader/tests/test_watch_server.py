@@ -8,9 +8,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from raysteps.commands.watch.board import Board
-from raysteps.commands.watch.server import PageServer
 from raysteps.common.errors import UsageError
+from raysteps.watch.page_state import Board
+from raysteps.watch.server import PageServer
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import io
 import pytest
 from rich.console import Console
 
-from raysteps.commands.watch.showing import Showing
+from raysteps.watch.terminal_view import Showing
 
 _TEXT = "  hidden  sphere intersect: expected a hit at 3.25, where the ray enters the sphere [from outside]"
 

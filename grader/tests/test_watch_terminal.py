@@ -12,9 +12,9 @@ from course_fakes import small_project, write_own
 from terminals import Terminal
 from watch_fakes import wait_for
 
-from raysteps.commands.watch.keys import letters
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.watch.keyboard import letters
 
 _PATIENCE = 90
 _FAKES = Path(__file__).with_name("watch_fakes.py")

@@ -8,10 +8,10 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from raysteps.commands.watch.events import Event, Key
-from raysteps.commands.watch.keys import NoKeyboard, find_keyboard
+from raysteps.watch.events import Event, Key
+from raysteps.watch.keyboard import NoKeyboard, find_keyboard
 
-_MODULE = "raysteps.commands.watch.windows_keys"
+_MODULE = "raysteps.watch.windows_keys"
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def typed(monkeypatch: pytest.MonkeyPatch) -> Iterator["Queue[str]"]:
     console = SimpleNamespace(kbhit=lambda: not waiting.empty(), getwch=waiting.get)
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setitem(sys.modules, "termios", None)
-    for name in (_MODULE, "raysteps.commands.watch.unix_keys"):
+    for name in (_MODULE, "raysteps.watch.terminal_keys"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setattr("sys.stdin.isatty", lambda: True)
     yield waiting

@@ -50,12 +50,12 @@ def as_on_windows(program: str) -> str:
 
 
 def test_every_command_is_there() -> None:
-    assert "check" in as_on_windows("from raysteps.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass")
+    assert "check" in as_on_windows("from raysteps.cli.app import main\ntry: main(['--help'])\nexcept SystemExit: pass")
 
 
 @pytest.mark.parametrize("words", [["grade-class", "x", "--out", "y"], ["bench", "grading"]])
 def test_what_needs_unix_says_so(words: list[str]) -> None:
-    said = as_on_windows(f"from raysteps.cli import main\nsys.stderr = sys.stdout\nprint(main({words}))")
+    said = as_on_windows(f"from raysteps.cli.app import main\nsys.stderr = sys.stdout\nprint(main({words}))")
     assert "WSL" in said
     assert said.endswith("2")
 
@@ -66,9 +66,9 @@ def test_a_folder_is_taken_in_and_links_are_not(tmp_path: Path) -> None:
     (step / "camera_rays.cpp").write_bytes(b"int a;\r\nint b;\r\n")
     (tmp_path / "steps" / "02-intersection").symlink_to(step)
     found = as_on_windows(f"""
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import here
-from raysteps.submission.intake import take_in
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import here
+from raysteps.submission.load import take_in
 taken = take_in(pathlib.Path({str(tmp_path)!r}), read_steps(here()))
 print(taken.sources, "02-intersection" in taken.sources)
 """)
@@ -77,7 +77,7 @@ print(taken.sources, "02-intersection" in taken.sources)
 
 def test_a_lock_is_held_by_one(tmp_path: Path) -> None:
     told = as_on_windows(f"""
-from raysteps.common.locks import one_at_a_time, try_lock
+from raysteps.common.files import one_at_a_time, try_lock
 with one_at_a_time(pathlib.Path({str(tmp_path / "lock")!r})), open({str(tmp_path / "lock")!r}, "a") as file:
     print(try_lock(file.fileno()))
 """)
@@ -86,9 +86,9 @@ with one_at_a_time(pathlib.Path({str(tmp_path / "lock")!r})), open({str(tmp_path
 
 def test_programs_have_their_ending_and_commands_their_python() -> None:
     told = as_on_windows("""
-from raysteps.common.systems import executable, own_command, typed
-from raysteps.kit.building import release_tree
-from raysteps.kit.project import here
+from raysteps.common.platform import executable, own_command, typed
+from raysteps.toolchain.cmake import release_tree
+from raysteps.course.project import here
 print(release_tree(here()).program("raytrace-mine").name, own_command(), typed(["replay", "a b.json"]))
 """)
     assert told == 'raytrace-mine.exe python raysteps replay "a b.json"'

@@ -8,12 +8,11 @@ import pytest
 from rich.console import Console
 from test_export_documents import document, step_result
 
-from raysteps.commands.report import print_details
 from raysteps.common.text import mean, size
-from raysteps.kit.manifest import Step
-from raysteps.results.effort import Effort, NoEffort, effort_of
+from raysteps.course.manifest import Step
+from raysteps.report.terminal import print_details
 from raysteps.results.model import Results
-from raysteps.results.work import Work, read_work
+from raysteps.results.work_ratio import Effort, NoEffort, Work, effort_of, read_work
 
 _STATS: dict[str, Any] = {
     "schema": "raysteps/stats/v1",

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 import yaml
 
-from raysteps.cli import _parser
-from raysteps.kit.manifest import read_steps
-from raysteps.kit.project import Project
+from raysteps.cli.app import new_parser
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project
 
 ROOT = Path(__file__).parents[2]
 WORKFLOWS = (ROOT / ".github" / "workflows" / "kit.yml", ROOT / "course" / "github-workflow.yml")
@@ -25,7 +25,7 @@ def presets(kind: str) -> dict[str, dict[str, Any]]:
 
 
 def raysteps_commands() -> set[str]:
-    actions = _parser()._subparsers
+    actions = new_parser(Project(ROOT))._subparsers
     assert actions is not None
     return set(actions._group_actions[0].choices or ())
 

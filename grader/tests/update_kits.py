@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.students.listing import PLACE, Listed, Release, encoded, mark, read_release
-from raysteps.students.source import open_source
-from raysteps.students.updating import Changes, Update
+from raysteps.updater.release_list import PLACE, Listed, Release, encoded, mark, read_release
+from raysteps.updater.source import open_source
+from raysteps.updater.update import Changes, Update
 
 STEPS = ("01-a", "02-b", "03-c")
 OWN = tuple(f"steps/{step}/{step[3:]}.cpp" for step in STEPS)

@@ -19,12 +19,12 @@ import numpy as np
 from course_fakes import checked
 from rich.console import Console
 
-from raysteps.commands.course.remembered import remember
-from raysteps.commands.watch.command import add_arguments, run
+from raysteps.cli.watch import add_arguments, run
 from raysteps.common.errors import RaystepsError
-from raysteps.kit.manifest import Step, choose, read_steps
-from raysteps.kit.project import Project
-from raysteps.programs.pictures import write_png
+from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.project import Project
+from raysteps.images.compare import write_png
+from raysteps.progress.standing import remember
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 WORKER = (sys.executable, str(Path(__file__)), "worker")

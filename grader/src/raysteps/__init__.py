@@ -1,1 +1,1 @@
-"""The grader of Raysteps: builds, renders, checks and grades the nine steps."""
+"""Builds, checks and grades the steps of the course."""

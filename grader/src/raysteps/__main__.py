@@ -1,10 +1,5 @@
-"""Entry point of `python -m raysteps`: a students' kit has fewer commands."""
+"""Entry point of `python -m raysteps`."""
 
-from importlib.util import find_spec
-
-if find_spec("raysteps.cli") is not None:
-    from raysteps.cli import main
-else:
-    from raysteps.students_cli import main
+from raysteps.cli.app import main
 
 raise SystemExit(main())

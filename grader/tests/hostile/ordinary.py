@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from hostile import as_user
-from raysteps.kit.built_kit import BuiltKit
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 KIT_VARIABLE = "RAYSTEPS_TEST_KIT"  # a built kit that this user can read
 

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.kit.built_kit import BuiltKit
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 VARIABLE = "RAYSTEPS_PLANTED"
 

@@ -11,15 +11,14 @@ from pathlib import Path
 from hostile.build import Attack, Facts, lay_out
 from hostile.planting import Listener, Planted
 from raysteps.common.errors import UsageError
-from raysteps.grading.one import grade_one
-from raysteps.grading.settings import Settings
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.programs.rendering import reference_picture
+from raysteps.course.manifest import Step
+from raysteps.grading.options import Settings
+from raysteps.grading.pipeline import grade_one
+from raysteps.images.render import reference_picture
 from raysteps.results.model import Results
-from raysteps.sandbox.isolation import Isolation
-from raysteps.sandbox.task import Ran, Sandbox, Task
-from raysteps.submission.intake import take_in
+from raysteps.sandbox.task import Isolation, Ran, Sandbox, Task
+from raysteps.submission.load import take_in
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # Enough for honest programs on a busy machine; attacks that take all that they get name less.
 _LIMITS = {"seconds": 10.0, "compile_seconds": 30.0, "memory_mb": 512.0, "processes": 48.0, "file_mb": 32.0}

@@ -2,19 +2,98 @@
 
 import logging
 import re
+import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.cluster_check import check_kits
-from raysteps.classroom.cluster_task import run_job, stop_run
-from raysteps.classroom.graders import Say
-from raysteps.classroom.messages import Answer, Job
+from raysteps.classroom.jobs import Answer, Job, Say, make_grader
+from raysteps.classroom.local_pool import Slot
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import count
 
-_CONNECT_SECONDS = 15
+# What runs in a worker of a cluster. Each job is graded by a process of its own: a grader that crashes takes no
+# worker with it, and a worker that is lost takes its process with it.
+
+_lock = threading.Lock()
+_free: list[Slot] = []
+_busy: dict[Slot, str] = {}
+
+
+def kit_of(grader: str, require_sandbox: bool) -> str:
+    """The fingerprint of this machine's kit, which is built where it is not."""
+    return make_grader(grader, require_sandbox=require_sandbox, say=print).fingerprint
+
+
+def run_job(document: dict[str, Any]) -> dict[str, Any]:
+    """Grades a job."""
+    job = Job.from_json(document)
+    with _lock:
+        slot = _free.pop() if _free else Slot()
+        _busy[slot] = job.run
+    keep = False
+    try:
+        answer: Answer = slot.grade(job)
+        keep = True
+        return answer.to_json()
+    finally:
+        # In one step: a slot that is free and still counts as busy would be stopped for a run that it has left.
+        with _lock:
+            del _busy[slot]
+            keep = keep and not slot.stopped
+            if keep:
+                _free.append(slot)
+        if not keep:
+            slot.close()
+
+
+def stop_run(run: str) -> None:
+    """Ends the jobs of a run, and processes that have nothing to do."""
+    with _lock:
+        idle = list(_free)
+        _free.clear()
+        for slot in [slot for slot, whose in _busy.items() if whose == run]:
+            slot.stop()
+    for slot in idle:
+        slot.close()
+
+
+# Whether the workers of a cluster have the kit that a class is graded with.
+
 _LOOK_SECONDS = 2
+
+
+def check_kits(client: Any, kit: str, grader: str, *, require_sandbox: bool) -> None:
+    """Another kit would give other grades: better to learn that before anything is graded."""
+    import distributed
+
+    asked = {
+        worker: client.submit(kit_of, grader, require_sandbox, workers=[worker], allow_other_workers=False, pure=False)
+        for worker in client.nthreads()
+    }
+    problems = []
+    while asked:
+        for worker, future in list(asked.items()):
+            try:
+                found = future.result(timeout=_LOOK_SECONDS)
+            except (TimeoutError, distributed.TimeoutError):
+                if worker in client.nthreads():
+                    continue
+                found = kit  # it is gone, and checks nothing any more
+            except Exception as error:
+                found = f"cannot grade: {error}"
+            del asked[worker]
+            if found != kit:
+                problems.append(f"{worker}: {found}")
+    if problems:
+        lines = "\n  ".join(problems)
+        raise GraderFault(
+            f"these workers do not have the kit of this machine ({kit}):\n  {lines}\n"
+            "Install the same version of the kit, and the same compiler, on every machine."
+        )
+
+
+_CONNECT_SECONDS = 15
 _ATTEMPTS = 3
 _GONE = "the scheduler at {} is gone; what was graded is kept, and --resume goes on"
 

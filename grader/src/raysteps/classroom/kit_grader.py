@@ -6,13 +6,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.graders import Say
-from raysteps.grading.one import grade_one
-from raysteps.grading.settings import Settings
-from raysteps.kit.kit_building import build_kit
-from raysteps.kit.project import here
-from raysteps.sandbox.choice import find_sandbox
-from raysteps.submission.intake import Submission
+from raysteps.classroom.jobs import Say
+from raysteps.course.project import here
+from raysteps.grading.options import Settings
+from raysteps.grading.pipeline import grade_one
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.submission.load import Submission
+from raysteps.toolchain.build_kit import build_kit
 
 
 class KitGrader:

@@ -3,13 +3,14 @@
 import csv
 import io
 import re
+import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
-from raysteps.classroom.names import folded
-from raysteps.common.cells import delimiter_of
+from raysteps.classroom.entry_names import folded, platform_identity, stem
+from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError
 from raysteps.common.text import listed, printable
 
@@ -45,17 +46,17 @@ class Student:
         return self.id or self.email or self.name
 
 
-def _plain(header: str) -> str:
+def _plain_header(header: str) -> str:
     return re.sub(r"[\W_]+", "", folded(header))
 
 
 def _columns(header: list[str], path: Path) -> dict[str, int]:
-    plain = [_plain(cell) for cell in header]
+    plain = [_plain_header(cell) for cell in header]
     columns: dict[str, int] = {}
-    for field, names in _HEADERS.items():
+    for column, names in _HEADERS.items():
         for name in names:
             if name in plain:
-                columns[field] = plain.index(name)
+                columns[column] = plain.index(name)
                 break
     if not columns.keys() & {"id", "name", "email"} and not {"first", "last"} <= columns.keys():
         raise UsageError(
@@ -126,11 +127,122 @@ def read_roster(path: Path) -> list[Student]:
             raise UsageError(f"{path}:{line}: expected an id, a name or an email address")
         # Two students of one name need something else that tells them apart.
         alone = "" if student.id or student.email else student.name
-        for field, value in (("id", student.id), ("email", student.email), ("name", alone)):
-            if value and seen.setdefault((field, folded(value)), line) != line:
-                other = seen[field, folded(value)]
+        for kind, value in (("id", student.id), ("email", student.email), ("name", alone)):
+            if value and seen.setdefault((kind, folded(value)), line) != line:
+                other = seen[kind, folded(value)]
                 raise UsageError(f"{path}:{line}: the {field} {value!r} stands in line {other}, too")
         students.append(student)
     if not students:
         raise UsageError(f"{path}: expected a line for each student below the header, found none")
     return students
+
+
+# Which entry belongs to which student. Only the roster and the entry's own name count. The name must be the student's
+# id, email address or name, or begin with it: the beginning is what a learning platform writes, while the end may be
+# a file name that a student chose.
+
+_ACCENTS = re.compile("[\u0300-\u036f]")
+
+
+@dataclass
+class Matches:
+    """Indices of entries and students that belong together, and what to tell about the others."""
+
+    pairs: list[tuple[int, int]] = field(default_factory=list)
+    entry_notes: dict[int, str] = field(default_factory=dict)
+    student_notes: dict[int, str] = field(default_factory=dict)
+
+
+def _words(text: str) -> str:
+    return re.sub(r"[\W_]+", "_", folded(text)).strip("_")
+
+
+def _plain(text: str) -> str:
+    """Without accents, too: platforms and students leave them out."""
+    return _words(_ACCENTS.sub("", unicodedata.normalize("NFKD", text)))
+
+
+def _squeezed(name: str) -> set[str]:
+    """`Ann Lee` as Canvas writes it, the last name first and without blanks; nobody knows where that begins."""
+    words = _plain(name).split("_")
+    return {"".join(words[at:] + words[:at]) for at in range(len(words))} if len(words) > 1 else set()
+
+
+def _fits_platform(student: Student, entry: str) -> tuple[bool, int]:
+    """By the name and the number that Canvas or Moodle put at the beginning. The number alone is no evidence against
+    another name: it may be of another kind than those of the roster."""
+    name, number = platform_identity(entry)
+    if not number:
+        return (False, 0)
+    named = bool(student.name) and (
+        "".join(_plain(name).split("_")) in _squeezed(student.name) or _plain(name) == _plain(student.name)
+    )
+    numbered = _plain(student.id) in (number, f"participant_{number}")
+    if numbered and not student.name:
+        return (False, 1)  # anybody whom the name fits comes first
+    if numbered and named:
+        return (True, len(name) + len(number))
+    return (False, len(name)) if named and len(_plain(student.name).split("_")) > 1 else (False, 0)
+
+
+def _fit(student: Student, entry: str) -> tuple[bool, int]:
+    """Whether the entry's name is the student's, and how much of it; (False, 0) when it is not."""
+    best = _fits_platform(student, entry)
+    entry = _plain(entry)
+    words = [student.id, student.email, student.name]
+    for word in map(_plain, words):
+        if word and entry == word:
+            return (True, len(word))
+        # A single first name at the beginning is no evidence: there may be an Ann Miller who is not on the roster.
+        if word and entry.startswith(word + "_") and (word != _plain(student.name) or "_" in word):
+            best = max(best, (False, len(word)))
+    if student.email and entry == _plain(student.email.split("@")[0]):
+        best = max(best, (True, 1))
+    return best
+
+
+def _is_spelled(student: Student, entry: str) -> bool:
+    """Whether all words of the name stand there with their accents."""
+    return bool(student.name) and all(word in _words(entry) for word in _words(student.name).split("_"))
+
+
+def _best(students: list[Student], open_to: list[int], name: str) -> list[int]:
+    """Who fits best; of people whose names differ in accents only, whom an entry with accents is spelled like."""
+    fits = {number: fit for number in open_to if (fit := _fit(students[number], name)) != (False, 0)}
+    best = [number for number, fit in fits.items() if fit == max(fits.values())]
+    if len(best) > 1 and _words(name) != _plain(name):
+        spelled = [number for number in best if _is_spelled(students[number], name)]
+        best = spelled if len(spelled) == 1 else best
+    return best
+
+
+def _named(entries: list[str], name: str) -> list[int]:
+    same = [at for at, entry in enumerate(entries) if entry == name]
+    return same or [at for at, entry in enumerate(entries) if stem(entry).casefold() == stem(name).casefold()]
+
+
+def match(entries: list[str], students: list[Student]) -> Matches:
+    """Pairs entries and students. Several students may share an entry that the roster names for each of them."""
+    matches = Matches()
+    claimed: set[int] = set()
+    for number, student in enumerate(students):
+        if not student.submission:
+            continue
+        found = _named(entries, student.submission)
+        claimed.update(found)
+        matches.pairs += [(at, number) for at in found]
+        if not found:
+            matches.student_notes[number] = f"The roster names the submission {student.submission}, which is not there."
+    for at, entry in enumerate(entries):
+        if at in claimed:
+            continue
+        name = stem(entry)
+        best = _best(students, [number for number, student in enumerate(students) if not student.submission], name)
+        if len(best) == 1:
+            matches.pairs.append((at, best[0]))
+        elif best:
+            shown = ", ".join(students[number].shown for number in best)
+            matches.entry_notes[at] = f"Its name fits several students ({shown}), so it was given to none of them."
+        elif students:
+            matches.entry_notes[at] = "Nobody on the roster has this name; say whose it is in the column `submission`."
+    return matches

@@ -1,21 +1,79 @@
 """One run over a class."""
 
+import hashlib
 import json
-from collections.abc import Iterator
+import signal
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Protocol
+from types import FrameType
+from typing import Any, Protocol
 
+from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.files import withdraw_tables, write_submission
-from raysteps.classroom.interrupts import terminated_as_interrupted, undisturbed
-from raysteps.classroom.keys import submission_key
-from raysteps.classroom.messages import Answer, Job
-from raysteps.classroom.plan import Plan
-from raysteps.classroom.progress import Meter, first_line
-from raysteps.classroom.taking_in import take_in_as
+from raysteps.classroom.entries import take_in_as
+from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.run_plan import Plan
+from raysteps.classroom.summary import Meter, first_line
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
-from raysteps.results.document import validate
+from raysteps.results.store import validate
+from raysteps.submission.load import Submission
+
+# When two gradings are the same one.
+
+_TIMES = ("timing", "seconds")
+
+
+def submission_key(submission: Submission, kit: str, settings: Mapping[str, Any]) -> str:
+    """Of everything that a result depends on: what was handed in, the kit, and how it was asked to grade."""
+    sources = {step: hashlib.sha256(data).hexdigest() for step, data in submission.sources.items()}
+    parts = [submission.name, sources, submission.notes, submission.remarks, kit, dict(settings)]
+    text = json.dumps(parts, sort_keys=True, ensure_ascii=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def without_times(document: Any) -> Any:
+    """A copy of a results.json without what a clock said: the rest is the same whenever it is graded."""
+    if isinstance(document, dict):
+        return {key: without_times(value) for key, value in document.items() if key not in _TIMES}
+    return [without_times(value) for value in document] if isinstance(document, list) else document
+
+
+# What Ctrl-C and SIGTERM do while a class is graded.
+
+
+@contextmanager
+def terminated_as_interrupted() -> Iterator[None]:
+    """A batch system sends SIGTERM before it kills: there is time to leave things in order, as after Ctrl-C."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """A second Ctrl-C must not break off the tidying up after the first."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, signal.SIG_IGN) for number in numbers]
+    try:
+        yield
+    finally:
+        for which, handler in zip(numbers, before, strict=True):
+            signal.signal(which, handler)
 
 
 class Runner(Protocol):

@@ -3,17 +3,89 @@
 import contextlib
 import json
 import os
+import platform
 import queue
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
+import traceback
+from collections.abc import Iterator
 from pathlib import Path
-from typing import BinaryIO, NoReturn
+from typing import Any, BinaryIO, NoReturn
 
-from raysteps.classroom.desk import Desk
-from raysteps.classroom.messages import Job
+from raysteps.classroom.jobs import Answer, Grader, Job, Say, make_grader
+from raysteps.common.errors import GraderFault, RaystepsError
+from raysteps.results.store import validate
+
+# Grades jobs in this process, one after another, with a grader that is made once.
+
+_MOST_DETAILS = 8000
+
+
+def this_worker() -> str:
+    """What this process is called in the database."""
+    return f"{platform.node()}:{os.getpid()}"
+
+
+def _named_files(document: dict[str, Any]) -> Iterator[str]:
+    for step in document["steps"]:
+        yield from (item["case"] for item in step["hidden"] if item.get("case"))
+        for image in step["images"]:
+            yield from (image[kind] for kind in ("mine", "reference", "difference") if image[kind])
+
+
+def _read_answer(job: Job, out: Path, seconds: float) -> Answer:
+    """Only pictures and cases that the results name: what they withhold stays here."""
+    document = json.loads((out / "results.json").read_text(encoding="utf-8"))
+    validate(document)
+    if document["submission"] != job.submission.name:
+        raise GraderFault(f"these are the results of {document['submission']}")
+    pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_files(document)))}
+    return Answer(job.submission.name, "graded", document, pictures, seconds=seconds, worker=this_worker())
+
+
+class Desk:
+    """One grader, made for the first job and kept while jobs ask for the same one."""
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._made: tuple[str, bool] | None = None
+        self._grader: Grader | None = None
+
+    def _grader_for(self, job: Job) -> Grader:
+        wanted = (job.grader, job.require_sandbox)
+        if self._grader is None or self._made != wanted:
+            self._grader = make_grader(job.grader, require_sandbox=job.require_sandbox, say=self._say)
+            self._made = wanted
+        if self._grader.fingerprint != job.kit:
+            raise GraderFault(
+                f"the kit on {platform.node()} is {self._grader.fingerprint}, but the class is graded with {job.kit}; "
+                "install the same version of the kit, and the same compiler, on every machine"
+            )
+        return self._grader
+
+    def grade(self, job: Job) -> Answer:
+        """Whatever goes wrong becomes a fault of this submission."""
+        start = time.monotonic()
+        try:
+            grader = self._grader_for(job)
+            with tempfile.TemporaryDirectory(prefix="raysteps-class-", ignore_cleanup_errors=True) as folder:
+                grader.grade(job.submission, job.settings, Path(folder), self._say)
+                return _read_answer(job, Path(folder), time.monotonic() - start)
+        except Exception as error:
+            text = str(error) if isinstance(error, RaystepsError) else f"{type(error).__name__}: {error}"
+            return Answer(
+                job.submission.name,
+                "fault",
+                fault=text or type(error).__name__,
+                details=traceback.format_exc()[-_MOST_DETAILS:],
+                seconds=time.monotonic() - start,
+                worker=this_worker(),
+            )
+
 
 _LONGEST_END = 10
 
@@ -31,7 +103,7 @@ class _Worker:
         """Reads even while a job is graded, to learn at once that nobody waits for its answer any more."""
         for line in sys.stdin.buffer:
             self._jobs.put(line)
-        words = [sys.executable, "-P", "-m", "raysteps.classroom.ending", str(os.getpid()), str(self._scratch)]
+        words = [sys.executable, "-P", "-m", "raysteps.classroom.process_tree", str(os.getpid()), str(self._scratch)]
         with contextlib.suppress(OSError):  # it kills this process, and all that came from it
             subprocess.Popen(words, stdin=subprocess.DEVNULL, start_new_session=True)
             time.sleep(_LONGEST_END)

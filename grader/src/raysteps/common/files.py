@@ -1,16 +1,54 @@
 """Writes files so that nobody ever sees half of one."""
 
+import hashlib
 import json
 import os
 import re
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.locks import one_at_a_time
+
+# Locks between processes. A lock goes with the process that holds it, however that ends.
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
+_LOOK_EVERY = 0.1
+
+
+def try_lock(handle: int) -> bool:
+    """Whether nobody else holds the lock of this open file; then it is held until the file is closed. A file system
+    without locks raises OSError."""
+    try:
+        if sys.platform == "win32":
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+        else:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):  # the second one on Windows
+        return False
+    return True
+
+
+@contextmanager
+def one_at_a_time(lock: Path) -> Iterator[None]:
+    """Waits until nobody else holds the lock."""
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with lock.open("a") as file:
+        if sys.platform == "win32":
+            while not try_lock(file.fileno()):  # the waiting that Windows offers gives up after 10 seconds
+                time.sleep(_LOOK_EVERY)
+        else:
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
 
 __all__ = [
     "forget_unfinished",
@@ -90,3 +128,16 @@ def write_if_changed(path: Path, data: bytes) -> bool:
         return False
     write_bytes(path, data)
     return True
+
+
+# A fingerprint that stays the same when git ends the lines of a text otherwise, as it may on Windows.
+
+
+def with_plain_ends(data: bytes) -> bytes:
+    """A text with LF; anything else as it is."""
+    return data if b"\0" in data else data.replace(b"\r\n", b"\n")
+
+
+def mark(data: bytes) -> str:
+    """SHA-256."""
+    return hashlib.sha256(with_plain_ends(data)).hexdigest()

@@ -1,14 +1,71 @@
 """Runs a program that is trusted, with a time limit and a cap on what it may say. Others run in a sandbox."""
 
+import os
 import signal
 import subprocess
+import sys
+import threading
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO, Any
 
-from raysteps.common.families import apart, end_all
-from raysteps.common.pipes import PipeReader
+# A program and all that it starts, to be ended together: as a process group, or as a job on Windows.
+
+
+def apart() -> dict[str, Any]:
+    """For Popen: Ctrl-C on the terminal is for whoever starts the program, not for the program."""
+    if sys.platform == "win32":
+        return {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP | subprocess.CREATE_NO_WINDOW}
+    return {"start_new_session": True}
+
+
+def end_all(process: "subprocess.Popen[bytes]") -> None:
+    """The program, and what it started. On Windows what a program leaves behind that has ended by itself is not found
+    again."""
+    if sys.platform == "win32":
+        if process.poll() is None:
+            words = ["taskkill", "/T", "/F", "/PID", str(process.pid)]
+            with suppress(OSError, subprocess.TimeoutExpired):
+                subprocess.run(words, capture_output=True, check=False, stdin=subprocess.DEVNULL, timeout=10)
+            process.kill()
+    else:
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+
+
+# Reads what a program says, on every system and without waiting for it.
+
+_PIECE = 1 << 16
+
+
+class PipeReader:
+    """A thread that reads a pipe to its end and keeps the first `cap` bytes. The pipe is its own, to close it as well:
+    somebody who outlives the program may hold the other end for long."""
+
+    def __init__(self, pipe: IO[bytes] | None, cap: int) -> None:
+        assert pipe is not None
+        self._pipe = pipe
+        self._cap = cap
+        self._kept = bytearray()
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def _read(self) -> None:
+        with self._pipe:
+            while data := os.read(self._pipe.fileno(), _PIECE):
+                self._kept += data[: max(0, self._cap - len(self._kept))]
+
+    def is_at_end(self, seconds: float) -> bool:
+        """Whether the pipe was closed at the other end, within that time."""
+        self._thread.join(max(0.0, seconds))
+        return not self._thread.is_alive()
+
+    def bytes(self) -> bytes:
+        return bytes(self._kept)
+
 
 _MEGABYTE = 1 << 20
 _LOOK_EVERY = 0.2

@@ -1,15 +1,99 @@
 """What was seen of a step that is not right."""
 
-from collections.abc import Mapping
+import hashlib
+import math
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.diagnosis.answers import Answers, Questions
-from raysteps.kit.manifest import ImageCase
-from raysteps.programs.pictures import TOLERANCE, Pixels, gaps, is_flat
+from raysteps.course.manifest import ImageCase, Step
+from raysteps.images.compare import TOLERANCE, Pixels, gaps, is_flat
+from raysteps.judge.bvhs import BVH
+from raysteps.judge.cases import functions_of
+from raysteps.judge.functions import Case, Function
+from raysteps.judge.hidden_tests import make_cases, reference_lines
+from raysteps.judge.octrees import TREE
+from raysteps.judge.plan import Plan
+from raysteps.judge.protocol import Garbled
+from raysteps.judge.worker import Ask, Reply, TimeBudget, ask_worker, reference_answers
+from raysteps.sandbox.task import Ran
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+# What a program answers to the fixed cases of a step. They are drawn from a word of their own: so they say nothing
+# about the seed of a grade, and what a known mistake answers to them is computed once.
+
+_SEED = "diagnosis"
+_LONGEST = 6000  # characters; of a longer answer its hash will do
+
+
+@dataclass(frozen=True)
+class Said:
+    """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked."""
+
+    line: str
+    problem: str
+    known: bool = True
+
+
+Answers: TypeAlias = Mapping[str, Mapping[int, Said]]  # by function, then by number of the case; only what is not right
+
+
+@dataclass(frozen=True)
+class Questions:
+    """To one function, with what the reference answers."""
+
+    function: Function
+    cases: Sequence[Case]
+    right: Sequence[str]
+
+
+def _right_answers(kit: BuiltKit, function: str, cases: Sequence[Case]) -> list[str]:
+    def ask(stdin: bytes, _seconds: float) -> Ran:
+        return reference_answers(kit, stdin)
+
+    return reference_lines(ask, cases, function)
+
+
+def questions_of(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str]) -> dict[str, Questions]:
+    """By function, in the order of the step; the same for everybody."""
+    found = {}
+    for function in plan.functions:
+        if function.name in names:
+            cases = make_cases(step, function, _SEED)
+            known = functions_of(step.number)[function.name]
+            found[function.name] = Questions(known, cases, _right_answers(kit, function.name, cases))
+    return found
+
+
+def _said(function: Function, case: Case, right: str, reply: Reply) -> Said | None:
+    """None for a right answer."""
+    if not reply.asked:
+        return Said("", "", known=False)
+    if reply.outcome != "ok":
+        return Said("", reply.outcome)
+    if reply.line == right:
+        return None
+    problem = function.answer.verdict(case.function, case.inputs, right, reply.line).problem
+    if not problem:
+        return None
+    long = len(reply.line) > _LONGEST
+    return Said("#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line, str(problem))
+
+
+def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float) -> Answers:
+    """Asks a program. `seconds`: the limit of one run of its worker."""
+    budget = TimeBudget(seconds, len(questions))
+    heard: dict[str, dict[int, Said]] = {}
+    for name, known in questions.items():
+        replies = ask_worker(ask, known.cases, budget).replies
+        said = [_said(known.function, *three) for three in zip(known.cases, known.right, replies, strict=True)]
+        heard[name] = {number: one for number, one in enumerate(said) if one is not None}
+    return heard
+
 
 Mask = npt.NDArray[np.bool_]
 
@@ -54,3 +138,80 @@ class Evidence:
     def is_wrong(self) -> bool:
         """Whether there is anything to explain."""
         return any(self.answers.values()) or any(picture.is_wrong for picture in self.pictures.values())
+
+
+# Whether two wrong answers are wrong in the same way.
+
+_ABSOLUTE = 2e-4
+_RELATIVE = 2e-3
+_MOST_WORDS = 2000
+_WORDS_ONLY = 0.25  # of the weight of an answer with the same numbers
+_TURNED = 0.8  # of the weight of the same number
+_MOSTLY = 0.6
+
+
+def _close(one: str, other: str) -> bool:
+    """Whether two words of answers are the same, or nearly the same number."""
+    if one == other:
+        return True
+    try:
+        a, b = float(one), float(other)
+    except ValueError:
+        return False
+    if math.isnan(a) or math.isnan(b):
+        return math.isnan(a) and math.isnan(b)
+    return abs(a - b) <= _ABSOLUTE + _RELATIVE * max(abs(a), abs(b)) < math.inf
+
+
+def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
+    """Of the words that are wrong in one of the two, the share in which they are the same. Opposite signs count less:
+    who takes the wrong end of a sphere turns its normal in one way or the other. Without any word that is the same they
+    count nothing: light that is taken away is not light that is added."""
+    rights, mistakes, mines = right_line.split(), mistake_line.split(), my_line.split()
+    if not len(mistakes) == len(mines) <= _MOST_WORDS:
+        return 0.0
+    rights = rights if len(rights) == len(mines) else [""] * len(mines)
+    pairs = [
+        (mistake, own)
+        for right, mistake, own in zip(rights, mistakes, mines, strict=True)
+        if not (_close(right, mistake) and _close(right, own))
+    ]
+    worth = [_worth(*pair) for pair in pairs]
+    if not pairs:
+        return 1.0
+    return sum(worth) / len(worth) if max(worth) == 1.0 else 0.0
+
+
+def _worth(mistake: str, mine: str) -> float:
+    if _close(mistake, mine):
+        return 1.0
+    turned = mistake.removeprefix("-") if mistake.startswith("-") else f"-{mistake}"
+    return _TURNED if {mistake, mine} == {"0", "1"} or _close(turned, mine) else 0.0
+
+
+def _fits(function: Function, case: Case, mistake: str, mine: str) -> bool:
+    """Whether the judge would call my answer right if the mistake's were the truth."""
+    try:
+        expected, actual = function.answer.parse(mistake), function.answer.parse(mine)
+        return not function.answer.problem(case.inputs, expected, actual)
+    except (Garbled, ArithmeticError, ValueError):
+        return False
+
+
+def likeness(function: Function, case: Case, right: str, mistake: Said, mine: Said) -> float:
+    """From 0 to 1, for two answers that are both wrong. `right`: what the reference answers."""
+    if mistake.line == mine.line and mistake.problem == mine.problem:
+        return 1.0
+    same_problem = mistake.problem == mine.problem
+    if not mistake.line or not mine.line:
+        return 0.0  # one of them gave no answer
+    if function.answer in (TREE, BVH) or mistake.line.startswith("#") or mine.line.startswith("#"):
+        return 1.0 if same_problem else 0.0  # everybody divides space in another way
+    if mistake.line.startswith("threw") or mine.line.startswith("threw"):
+        return 1.0 if same_problem else 0.0
+    if _fits(function, case, mistake.line, mine.line):
+        return 1.0
+    if not same_problem:
+        return 0.0
+    agreement = _agreement(right, mistake.line, mine.line)
+    return agreement if agreement >= _MOSTLY else _WORDS_ONLY

@@ -1,16 +1,16 @@
 """How well a known mistake explains what was seen, function by function and picture by picture."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
-from raysteps.diagnosis.answers import Questions, Said
-from raysteps.diagnosis.evidence import Evidence, Picture, differing
-from raysteps.diagnosis.fingerprints import Fingerprint
-from raysteps.diagnosis.sameness import likeness
+from raysteps.course.mutants import Mutant
+from raysteps.diagnosis.evidence import Evidence, Picture, Questions, Said, differing, likeness
+from raysteps.diagnosis.mutant_fingerprints import Fingerprint
+from raysteps.images.compare import Pixels
 from raysteps.judge.bvhs import BVH
-from raysteps.judge.trees import TREE
-from raysteps.mistakes.catalogue import Mutant
-from raysteps.programs.pictures import Pixels
+from raysteps.judge.octrees import TREE
+from raysteps.results.model import Diagnosis
 
 GOOD = 0.7  # of the wrong cases of a function: from there on a mistake explains it
 _GOOD_PICTURE = 0.8  # of the wrong pixels
@@ -136,4 +136,112 @@ def match(mutant: Mutant, fingerprint: Fingerprint, evidence: Evidence) -> Match
             found.spoilt |= {name} if spoils(drawn, picture) else set()
         elif spoils(drawn, picture):
             found.against.append(name)
+    return found
+
+
+# Two mistakes in one function: neither explains it alone, together they do.
+
+_SAME = 0.6  # of a case from which on the answers are taken for the same
+_OWN = 4  # cases that only this one of the two explains
+_MIXED = 0.5  # of a case which both mistakes spoil, and where the answer is a third one
+
+
+def pair_score(one: Agreement, other: Agreement) -> float:
+    """The share of the wrong cases that one of the two explains; 0 where one of them is not needed."""
+    mine, both = one.mine & other.mine, one.mistake & other.mistake
+    whole = 0.0
+    own = {0: 0, 1: 0}
+    for number in mine:
+        first, second = one.alike.get(number, 0.0), other.alike.get(number, 0.0)
+        whole += max(first, second, _MIXED if number in both else 0.0)
+        own[0] += first >= _SAME > second
+        own[1] += second >= _SAME > first
+    return whole / len(mine | one.mistake | other.mistake) if min(own.values()) >= _OWN else 0.0
+
+
+def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | None:
+    """The two that explain the function together; mistakes of this function only."""
+    here = [match for match in matches if match.mutant.function == function and match.functions[function].mistake]
+    scored = [
+        (pair_score(one.functions[function], other.functions[function]), (one, other))
+        for one, other in combinations(here, 2)
+        if one.mutant.id != other.mutant.id
+    ]
+    best = max(scored, key=lambda item: item[0], default=None)
+    least = GOOD_WEAK if any(match.functions[function].weak for match in here) else GOOD
+    return best[1] if best is not None and best[0] >= least else None
+
+
+# The fewest known mistakes that explain what is wrong.
+
+_MOST = 3
+_HAIR = 0.01  # mistakes whose worth differs by less cannot be told apart
+_PICTURE = 0.5  # what a picture counts beside a function
+_AGAINST = 0.25
+_NOT_ITS_OWN = 0.3  # the function in which the mistake sits is right here
+
+
+@dataclass(frozen=True)
+class Named:
+    """A mistake with what it explains, and those that explain it as well."""
+
+    mutant: Mutant
+    explains: tuple[str, ...]
+    alike: tuple[Mutant, ...]
+
+    def diagnosis(self) -> Diagnosis:
+        mutant = self.mutant
+        alike = list(dict.fromkeys(other.name for other in self.alike if other.name != mutant.name))
+        seen = list(self.explains)
+        return Diagnosis("mistake", mutant.id, mutant.name, mutant.sees, mutant.cause, mutant.hint, seen, alike)
+
+
+@dataclass
+class _Open:
+    """What is not explained yet, and the pictures that are spoilt by what was named."""
+
+    names: set[str]
+    told: set[str]
+
+    def explained_by(self, match: Match) -> dict[str, float]:
+        return {name: score for name, score in match.explains(self.told).items() if name in self.names}
+
+    def worth(self, match: Match) -> float:
+        """Above 0 for a mistake that can be named: by a function, or by pictures alone."""
+        explained = self.explained_by(match)
+        functions = explained.keys() & match.functions.keys()
+        if not explained or match.is_another() or not (functions or match.named_by_pictures()):
+            return 0.0
+        worth = sum(score * (_PICTURE if name in match.pictures else 1.0) for name, score in explained.items())
+        worth -= _AGAINST * len(match.against)
+        return worth - (_NOT_ITS_OWN if match.functions and match.mutant.function not in functions else 0.0)
+
+
+def name_mistakes(matches: Sequence[Match]) -> list[Named]:
+    """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
+    open_ = _Open({name for match in matches for name in (*match.functions, *match.pictures)}, set())
+    named: list[Named] = []
+    while len(named) < _MOST:
+        worths = [(match, open_.worth(match)) for match in matches]
+        best, most = max(worths, key=lambda pair: pair[1], default=(None, 0.0))
+        if best is None or most <= 0:
+            break
+        explained = open_.explained_by(best)
+        alike = [
+            match.mutant
+            for match, worth in worths
+            if match is not best and most - worth <= _HAIR and open_.explained_by(match).keys() == explained.keys()
+        ]
+        named.append(Named(best.mutant, tuple(explained), tuple(alike)))
+        open_.names -= explained.keys()
+        open_.told |= best.spoilt
+    return named + _pairs(matches, open_.names)[: _MOST - len(named)]
+
+
+def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[Named]:
+    """For functions that no single mistake explains."""
+    found: list[Named] = []
+    for function in dict.fromkeys(name for match in matches for name in match.functions if name in open_):
+        pair = best_pair(function, matches)
+        found += [Named(match.mutant, (function,), ()) for match in pair or ()]
     return found

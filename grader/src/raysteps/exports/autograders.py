@@ -1,14 +1,115 @@
 """What is uploaded to the systems that grade on their own machines: the kit, and scripts that run it there."""
 
+import io
+import os
 import re
 import shlex
+import tarfile
+import zipfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.resources import files
+from pathlib import Path, PurePosixPath
 
-from raysteps.common.errors import UsageError
-from raysteps.exports.archives import Member, as_tar, as_zip
-from raysteps.exports.kit_files import kit_files
-from raysteps.kit.project import Project
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import usable_folder, write_bytes
+from raysteps.course.project import Project, places
+
+# Archives and folders whose bytes depend on their content only.
+
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+
+@dataclass(frozen=True)
+class Member:
+    """A regular file in an archive."""
+
+    name: str
+    data: bytes
+    executable: bool = False
+
+    @property
+    def mode(self) -> int:
+        return 0o755 if self.executable else 0o644
+
+
+def as_zip(members: Sequence[Member]) -> bytes:
+    """A zip that keeps the executable bits."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for member in members:
+            info = zipfile.ZipInfo(member.name, _EPOCH)
+            info.create_system = 3  # Unix: the upper half of external_attr is the mode
+            info.external_attr = (0o100000 | member.mode) << 16
+            info.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(info, member.data)
+    return buffer.getvalue()
+
+
+def as_tar(members: Sequence[Member]) -> bytes:
+    """A plain tar."""
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
+        for member in members:
+            info = tarfile.TarInfo(member.name)
+            info.size, info.mode = len(member.data), member.mode
+            archive.addfile(info, io.BytesIO(member.data))
+    return buffer.getvalue()
+
+
+def into_folder(members: Sequence[Member], folder: Path) -> None:
+    """Writes into a new or empty folder."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise UsageError(f"{folder}: is there already; expected the name of a new or an empty folder")
+    usable_folder(folder)
+    for member in members:
+        path = folder / member.name
+        write_bytes(path, member.data)
+        path.chmod(member.mode)
+
+
+# The files of the kit that another machine needs for grading.
+
+_FILES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "raysteps")
+_FOLDERS = ("cmake", "framework", "grader", "scenes", "solutions", "steps")
+_LEFT_OUT = (("grader", "tests"),)
+_TOOLS = {"__pycache__", "build"}
+_TOOL_ENDINGS = (".egg-info", ".pyc")
+
+
+@dataclass(frozen=True)
+class KitFile:
+    """A file and its place in the kit."""
+
+    place: PurePosixPath
+    source: Path
+
+    @property
+    def executable(self) -> bool:
+        return os.access(self.source, os.X_OK)
+
+
+def _belongs(place: PurePosixPath) -> bool:
+    parts = place.parts
+    if len(parts) == 1:
+        return parts[0] in _FILES
+    if parts[0] not in _FOLDERS or any(parts[: len(folder)] == folder for folder in _LEFT_OUT):
+        return False
+    return not any(part in _TOOLS or part.startswith(".") or part.endswith(_TOOL_ENDINGS) for part in parts)
+
+
+def kit_files(project: Project) -> list[KitFile]:
+    """Sorted by place; links are not followed."""
+    root = project.root
+    listed = {*places(root, _FOLDERS), *map(PurePosixPath, _FILES)}
+    found = [KitFile(place, root / place) for place in sorted(listed) if _belongs(place)]
+    files = [file for file in found if file.source.is_file() and not file.source.is_symlink()]
+    there = {file.place.parts[0] for file in files}
+    missing = [name for name in (*_FILES, *_FOLDERS) if name not in there and name not in ("LICENSE", "README.md")]
+    if missing:
+        raise GraderFault(f"{root}: {', '.join(missing)} is missing, so this is no whole kit")
+    return files
+
 
 _REPOSITORY = re.compile(r"^[A-Za-z0-9][A-Za-z0-9._-]*/[A-Za-z0-9._-]+$")
 _AUTOLAB = "raysteps-autolab"

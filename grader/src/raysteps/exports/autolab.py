@@ -5,10 +5,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from raysteps.common.text import clean
-from raysteps.exports.items import Item
-from raysteps.exports.points import entries_of
-from raysteps.exports.summary import objects_tested
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
+from raysteps.exports.items import Item, entries_of, objects_tested
 
 _BRUTE_FORCE = 100.0  # per cent of the objects: what a ray tests without an octree
 

@@ -8,11 +8,8 @@ from typing import Any
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import clean
-from raysteps.exports.items import step_text
-from raysteps.exports.points import apportion
-from raysteps.exports.summary import title
-from raysteps.exports.wording import harmless_log, one_line
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
+from raysteps.exports.items import apportion, harmless_log, one_line, step_text, title
 
 _FIELDS = {
     "classroom": "CLASSROOM",

@@ -6,12 +6,9 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from raysteps.common.text import clean
-from raysteps.exports.items import Item
-from raysteps.exports.points import Entry, entries_of
-from raysteps.exports.summary import summary, title
-from raysteps.exports.wording import one_line
-from raysteps.kit.manifest import Step
-from raysteps.results.effort import NoEffort, effort_of
+from raysteps.course.manifest import Step
+from raysteps.exports.items import Entry, Item, entries_of, one_line, summary, title
+from raysteps.results.work_ratio import NoEffort, effort_of
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 VISIBILITIES: tuple[Visibility, ...] = get_args(Visibility)

@@ -1,12 +1,33 @@
 """The checks of a step as a list: what each was, how much of it was right, and what to say about it."""
 
+import html
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from raysteps.common.text import clean, count
-from raysteps.exports.wording import one_line
-from raysteps.kit.manifest import Step
+from raysteps.common.text import clean, count, number, shorten
+from raysteps.course.manifest import Step
+
+# Makes text that came from a student's program safe to show somewhere else.
+
+_COMMAND = re.compile(r"^(\s*)::", re.MULTILINE)
+
+
+def one_line(text: str, limit: int = 200) -> str:
+    """For names and titles."""
+    return shorten(" ".join(clean(text, limit * 4).split()), limit)
+
+
+def as_html(text: str, limit: int = 4000) -> str:
+    """For places that render HTML."""
+    return html.escape(clean(text, limit)).replace("\n", "<br>")
+
+
+def harmless_log(text: str) -> str:
+    """The log of GitHub Actions takes a line that begins with two colons for a command, and `##[` anywhere in it."""
+    return _COMMAND.sub(r"\1: :", text).replace("##[", "# #[")
+
 
 Kind = Literal["test", "picture", "hidden", "together", "step"]
 
@@ -109,3 +130,135 @@ def step_text(result: Mapping[str, Any]) -> str:
     if result["status"] == "does-not-build" and result["build_log"]:
         said.append(clean(result["build_log"]))
     return "\n".join(said)
+
+
+# Shares a step's points out among its checks, in hundredths, so that the sums come out exactly.
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A check with its points."""
+
+    item: Item
+    points: float
+    most: float
+
+
+def apportion(total: int, weights: Sequence[float]) -> list[int]:
+    """Whole numbers that sum to the total, as near to the weights as can be: the largest remainders are rounded up."""
+    whole = sum(weights)
+    exact = [total * weight / whole for weight in weights]
+    parts = [int(value) for value in exact]
+    order = sorted(range(len(parts)), key=lambda index: parts[index] - exact[index])
+    for index in order[: total - sum(parts)]:
+        parts[index] += 1
+    return parts
+
+
+def _hundredths(points: float) -> int:
+    return round(points * 100)
+
+
+def _rest(result: Mapping[str, Any], items: list[Item], earned: int, lost: int) -> list[Item]:
+    """One more entry for what no check accounts for: a step that was not run, claims that were not confirmed."""
+    all_wrong = earned > 0 and not sum(item.weight * item.share for item in items)
+    all_right = lost > 0 and not sum(item.weight * (1 - item.share) for item in items)
+    if items and not all_wrong and not all_right:
+        return []
+    share = earned / (earned + lost) if earned + lost else 0.0
+    if not items:
+        return [Item("step", str(result["status"]), 1.0, share, step_text(result))]
+    if all_wrong != all_right:
+        share = 1.0 if all_wrong else 0.0
+    claims = [clean(claim) for claim in result["inconsistent"]]
+    return [Item("step", "the rest", 1.0, share, "\n".join(["Points that no single check accounts for.", *claims]))]
+
+
+def entries_of(result: Mapping[str, Any], step: Step | None) -> list[Entry]:
+    """What was earned goes to the checks by what was right in them, what was lost by what was wrong."""
+    earned = _hundredths(result["points"])
+    lost = max(0, _hundredths(result["max"]) - earned)
+    items = items_of(result, step)
+    items += _rest(result, items, earned, lost)
+    right = [item.weight * item.share for item in items]
+    wrong = [item.weight * (1 - item.share) for item in items]
+    gains = apportion(earned, right) if earned else [0] * len(items)
+    losses = apportion(lost, wrong) if lost else [0] * len(items)
+    return [Entry(item, gain / 100, (gain + loss) / 100) for item, gain, loss in zip(items, gains, losses, strict=True)]
+
+
+# A whole submission in a few lines of text.
+
+Document = Mapping[str, Any]
+_HOW_TO_REPEAT = "to repeat these random inputs, set RAYSTEPS_SEED="  # what a failed test of the kit says first
+
+
+def title(result: Document, steps: Mapping[str, Step]) -> str:
+    """`02 Intersection`, as the manifest has it."""
+    step = steps.get(result["id"])
+    name = step.title if step is not None else result["id"][3:]
+    return f"{result['id'][:2]} {name}" + (" (bonus)" if result["bonus"] else "")
+
+
+def total_line(document: Document) -> str:
+    """`85.5 of 100 points, 5 of them bonus`."""
+    total = document["total"]
+    bonus = total["bonus"]["points"]
+    of_them = f", {number(bonus)} of them bonus" if bonus else ""
+    return f"{number(total['points'])} of {number(total['max'])} points{of_them}"
+
+
+def _visible(result: Document) -> str:
+    parts = []
+    for key, noun in (("tests", "test"), ("images", "picture")):
+        items: Sequence[Document] = result[key]
+        if items:
+            parts.append(f"{sum(item['passed'] for item in items)} of {count(len(items), noun)} passed")
+    return ", ".join(parts) or str(result["status"])
+
+
+def _failed_checks(result: Document, step: Step | None) -> list[str]:
+    """What failed, and why."""
+    failed = [(item, _why(item.text)) for item in items_of(result, step) if not item.passed]
+    return [f"  - {item.kind} {item.name}: {one_line(why, 300)}" for item, why in failed]
+
+
+def _why(text: str) -> str:
+    """The first line that tells what is wrong; an expression alone does not, without what came of it."""
+    lines = [line for line in text.splitlines() if not line.startswith(_HOW_TO_REPEAT)] or ["failed"]
+    return ", ".join(lines[:2]) if lines[0].startswith("expected: ") else lines[0]
+
+
+def _same_for_all(document: Document) -> str:
+    """What is said of every step alike, such as that nothing could be read."""
+    said = {step_text(result) for result in document["steps"]}
+    return said.pop() if len(said) == 1 and len(document["steps"]) > 1 else ""
+
+
+def summary(document: Document, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
+    """One line per step with what there is to say about it, on request with the checks that failed; without points,
+    nothing that hidden checks decide."""
+    lines = [f"{total_line(document)}."] if points else []
+    same = _same_for_all(document)
+    lines += same.splitlines()
+    for result in document["steps"]:
+        name = one_line(title(result, steps))
+        if points:
+            lines.append(f"{name}: {number(result['points'])} of {number(result['max'])}, {result['status']}")
+        else:
+            lines.append(f"{name}: {_visible(result)}")
+        if not same and (points or result["status"] in ("not-started", "does-not-build")):
+            lines += [f"  {line}" for line in step_text(result).splitlines()]
+        if checks:
+            lines += _failed_checks(result, steps.get(result["id"]))
+    return "\n".join(lines)
+
+
+def objects_tested(document: Document) -> float | None:
+    """Step 06: surfaces tested per ray in percent of the scene's, over its pictures; None unless all are right."""
+    images = [image for result in document["steps"] if result["id"][:2] == "06" for image in result["images"]]
+    shares: list[float | None] = [image["share_tested"] for image in images if image["max_share"] is not None]
+    known = [share for share in shares if share is not None]
+    if not known or len(known) < len(shares) or not all(image["passed"] for image in images):
+        return None
+    return round(100 * sum(known) / len(known), 3)

@@ -6,16 +6,16 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.classroom.entries import list_entries
-from raysteps.classroom.names import name_entries
+from raysteps.classroom.entry_names import name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.text import clean, count
-from raysteps.exports.archives import Member, as_zip, into_folder
+from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.mutants import reference_source
+from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub, same_code
+from raysteps.exports.autograders import Member, as_zip, into_folder
 from raysteps.exports.formats import write_out
-from raysteps.kit.manifest import Step, choose, read_steps
-from raysteps.kit.project import Project
-from raysteps.kit.stubs import pristine_stub, same_code
-from raysteps.mistakes.catalogue import reference_source
-from raysteps.submission.intake import Submission, take_in
+from raysteps.submission.load import Submission, take_in
 
 BASE, ROOM = "base-code", "submissions"
 _REFERENCE = "_kit-reference"  # no submission's name begins with `_` and a letter

@@ -4,10 +4,10 @@ import re
 from dataclasses import dataclass
 
 from raysteps.common.text import listed, printable, shorten
-from raysteps.kit.built_kit import BuiltKit
-from raysteps.kit.manifest import Step
-from raysteps.programs.student_build import Compiled
+from raysteps.course.manifest import Step
 from raysteps.sandbox.task import Ran
+from raysteps.toolchain.compile import Compiled
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _ERROR = re.compile(
     r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",

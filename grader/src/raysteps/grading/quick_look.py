@@ -7,22 +7,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.text import listed
+from raysteps.course.manifest import Step
+from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.compiling import compile_steps
-from raysteps.grading.own_grader import own_steps
-from raysteps.grading.step_grader import Work
-from raysteps.grading.visible_images import Gallery, judge
-from raysteps.grading.visible_tests import run_tests
-from raysteps.kit.built_kit import BuiltKit, Kind
-from raysteps.kit.manifest import Step
-from raysteps.kit.stubs import pristine_stub, same_code, unfinished_functions
-from raysteps.programs.limits import limits_of
-from raysteps.programs.pictures import write_png
-from raysteps.programs.rendering import reference_picture
-from raysteps.programs.student_build import Program, StudentBuild
+from raysteps.grading.images import Gallery, judge
+from raysteps.grading.self_check import own_steps
+from raysteps.grading.step import GradingContext, compile_steps
+from raysteps.grading.unit_tests import run_tests
+from raysteps.images.compare import write_png
+from raysteps.images.render import reference_picture
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.task import Sandbox
-from raysteps.submission.intake import take_in
+from raysteps.submission.load import take_in
+from raysteps.toolchain.compile import Program, StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
+from raysteps.toolchain.limits import limits_of
 
 Tell = Callable[[StepResult], None]
 
@@ -70,7 +69,7 @@ class QuickLook:
         """In a students' kit the student's own steps stand before this one."""
         if self.kit.has_reference:
             return [binary]
-        work = Work(self.kit, take_in(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out)
+        work = GradingContext(self.kit, take_in(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out)
         with ThreadPoolExecutor() as pool:
             earlier = [step for step in self.kit.steps if step.index < self.step.index]
             return [*own_steps(work, self.step, compile_steps(work, earlier, pool, {})), binary]

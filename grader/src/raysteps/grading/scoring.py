@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from raysteps.common.text import count
-from raysteps.kit.manifest import Step
+from raysteps.course.manifest import Step
 from raysteps.results.model import Status, StepResult
 
 

@@ -3,10 +3,9 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from raysteps.judge.answers import Answer, TooLarge, Wasteful
+from raysteps.judge.compare import Answer, TooLarge, Wasteful
+from raysteps.judge.protocol import Box, Garbled, Inputs, Tokens
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
-from raysteps.judge.tokens import Garbled, Tokens
-from raysteps.judge.values import Box, Inputs
 
 # Whoever writes an answer by hand may write any tree; framework/apps/worker_bvh.cpp knows the same numbers.
 MOST_NODES = 5000

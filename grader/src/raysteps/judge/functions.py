@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from raysteps.judge.answers import Answer
-from raysteps.judge.drawing import Draw
+from raysteps.judge.compare import Answer
 from raysteps.judge.numbers import text
-from raysteps.judge.values import Inputs
+from raysteps.judge.protocol import Inputs
+from raysteps.judge.random_source import Draw
 
 Make = Callable[[Draw], Inputs]
 

@@ -4,15 +4,133 @@ A twin shows the same things from a little farther round, in another size. A pro
 themselves cannot draw it.
 """
 
+import math
 from dataclasses import dataclass
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.drawing import Draw
-from raysteps.judge.nff_changes import changed
-from raysteps.judge.nff_random import random_scene
+from raysteps.course.manifest import ImageCase, Step
+from raysteps.course.project import Project
+from raysteps.judge.numbers import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.judge.plan import Plan, RandomPlan, TwinPlan
-from raysteps.kit.manifest import ImageCase, Step
-from raysteps.kit.project import Project
+from raysteps.judge.random_source import Draw
+
+# Changes an NFF scene a little, so that it still shows what it is meant to show. Only lines of a known form are
+# touched: `from`, `at` and `up` of the viewpoint, and spheres that stand on one line.
+
+_TURN = (2.0, 4.0)  # degrees about the vertical, one way or the other
+_TILT = 1.0  # degrees up or down, at most
+_DISTANCE = 0.02  # share by which the camera comes closer or goes back, at most
+_JITTER = 0.05  # of a sphere's radius, at most
+
+
+def _numbers(words: list[str]) -> list[float] | None:
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return None
+
+
+def _point(lines: list[str], name: str) -> tuple[int, Vector]:
+    """Line number and value of a field of the viewpoint."""
+    for i, line in enumerate(lines):
+        words = line.split()
+        numbers = _numbers(words[1:]) if words and words[0] == name else None
+        if numbers is not None and len(numbers) == 3:
+            return i, (numbers[0], numbers[1], numbers[2])
+    raise GraderFault(f"a scene without a line `{name} x y z` has no twin")
+
+
+def _turned(v: Vector, axis: Vector, degrees: float) -> Vector:
+    """Rodrigues: v turned about the unit axis."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    turned = add(times(c, v), cross(axis, v), s)
+    return add(turned, axis, dot(axis, v) * (1 - c))
+
+
+def _text(v: Vector) -> str:
+    return " ".join(f"{x:.6g}" for x in v)
+
+
+def _move_camera(lines: list[str], draw: Draw) -> None:
+    place, origin = _point(lines, "from")
+    _, at = _point(lines, "at")
+    _, up = _point(lines, "up")
+    view = minus(origin, at)
+    turned = _turned(view, unit(up), draw.sign() * draw.real(*_TURN))
+    side = cross(up, turned)
+    if length(side) > 0:
+        turned = _turned(turned, unit(side), draw.real(-_TILT, _TILT))
+    lines[place] = "from " + _text(add(at, turned, draw.real(1 - _DISTANCE, 1 + _DISTANCE)))
+
+
+def _move_spheres(lines: list[str], draw: Draw) -> None:
+    for i, line in enumerate(lines):
+        words = line.split()
+        numbers = _numbers(words[1:]) if words and words[0] == "s" else None
+        if numbers is not None and len(numbers) == 4 and numbers[3] > 0:
+            center: Vector = (numbers[0], numbers[1], numbers[2])
+            moved = add(center, draw.point(1.0), _JITTER * numbers[3])
+            lines[i] = f"s {_text(moved)} {numbers[3]:.6g}"
+
+
+def changed(nff: str, draw: Draw, *, spheres: bool) -> str:
+    """The scene with its camera moved on a small arc and, if wanted, its spheres moved a little."""
+    lines = [line for line in nff.splitlines() if not line.lstrip().startswith("#")]
+    _move_camera(lines, draw)
+    if spheres:
+        _move_spheres(lines, draw)
+    return "\n".join(lines) + "\n"
+
+
+# Makes up scenes: spheres and triangles above a ground, two lights.
+
+_HEAD = """b 0.35 0.5 0.8
+v
+from {from_} 4.5 13
+at 0 1.5 0
+up 0 1 0
+angle 40
+hither 0.01
+resolution 120 90
+l 7 11 8 1.1 1.05 1
+l -8 9 5 0.5 0.55 0.6
+f 0.6 0.6 0.55 0.8 0 1 0 1
+p 4
+-40 -0.5 40
+40 -0.5 40
+40 -0.5 -40
+-40 -0.5 -40
+"""
+_WIDE = 4.5  # half the width of the part of the world that is filled
+
+
+def _fill(draw: Draw) -> str:
+    r, g, b = draw.color(0.2, 1.0)
+    ks = draw.real(0.1, 0.5) if draw.chance(0.5) else 0.0
+    return f"f {r:.4g} {g:.4g} {b:.4g} 0.7 {ks:.4g} {draw.whole(3, 30)} 0 1"
+
+
+def _place(draw: Draw) -> Vector:
+    return draw.real(-_WIDE, _WIDE), draw.real(0.2, _WIDE), draw.real(-_WIDE, _WIDE)
+
+
+def _triangle(draw: Draw, place: Vector, size: float) -> list[str]:
+    shape = draw.triangle(1.0)
+    corners = [add(place, corner, size) for corner in (shape.a, shape.b, shape.c)]
+    return ["p 3", *(" ".join(f"{x:.6g}" for x in corner) for corner in corners)]
+
+
+def random_scene(draw: Draw, spheres: int, triangles: int) -> str:
+    """The more there is, the smaller it is: about the same part of the picture is filled."""
+    size = 2.2 / (spheres + triangles + 1) ** (1 / 3)
+    lines = [_HEAD.format(from_=f"{draw.real(-3, 3):.4g}").rstrip("\n")]
+    for _ in range(spheres):
+        x, y, z = _place(draw)
+        lines += [_fill(draw), f"s {x:.6g} {y:.6g} {z:.6g} {size * draw.real(0.4, 1):.6g}"]
+    for _ in range(triangles):
+        lines += [_fill(draw), *_triangle(draw, _place(draw), 1.6 * size)]
+    return "\n".join(lines) + "\n"
+
 
 _SHARE_SLACK = 1.1  # from another place a ray meets other boxes
 

@@ -1,11 +1,24 @@
 """Answers that are hit records."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from raysteps.judge.answers import Answer, first
-from raysteps.judge.comparing import LENGTHS, SMALL, channels, direction, real, vector
-from raysteps.judge.tokens import Garbled, Tokens
-from raysteps.judge.values import Fill, Hit, Inputs
+from raysteps.judge.compare import (
+    LENGTHS,
+    SMALL,
+    Answer,
+    channels,
+    direction,
+    first,
+    off_surface,
+    read_ray,
+    real,
+    unit_length,
+    vector,
+    words_of_ray,
+)
+from raysteps.judge.numbers import Vector, add, length, minus, times
+from raysteps.judge.protocol import Fill, Garbled, Hit, Inputs, Light, Ray, Tokens
 
 _LISTED = 256  # surface i of a list has red i / 256
 
@@ -88,3 +101,65 @@ def found_problem(expected: MaybeHit, actual: MaybeHit) -> str:
 
 
 FOUND = Answer(read_hit, found_words, lambda _inputs, expected, actual: found_problem(expected, actual))
+
+
+# Answers that are rays which leave a surface.
+
+FARTHEST = 0.0101  # from the hit; the kit's threshold is 0.001
+
+
+def hit_of(inputs: Inputs) -> Hit:
+    hit = inputs["hit"]
+    assert isinstance(hit, Hit)
+    return hit
+
+
+def leaves_surface(hit: Hit, ray: Ray, *, side: float = 1.0) -> str:
+    """The origin is a little off the surface; side -1 is the one behind it."""
+    return off_surface(hit.position, times(side, hit.normal), ray.origin, FARTHEST)
+
+
+def _shadow_problem(inputs: Inputs, _expected: Ray, actual: Ray) -> str:
+    light = inputs["light"]
+    assert isinstance(light, Light)
+    to_light = minus(light.position, actual.origin)
+    reached = add(actual.origin, actual.direction, length(to_light))
+    passes = length(minus(reached, light.position)) <= 1.5 * FARTHEST + 1e-5 * length(light.position)
+    return first(
+        leaves_surface(hit_of(inputs), actual),
+        unit_length("the direction", actual.direction),
+        "" if passes else "the ray does not go to the light",
+    )
+
+
+def bounce_problem(hit: Hit, expected: Ray, actual: Ray, *, side: float = 1.0) -> str:
+    """The same direction, from a little off the surface."""
+    return first(
+        direction("the direction", expected.direction, actual.direction),
+        leaves_surface(hit, actual, side=side),
+    )
+
+
+def _reflected_problem(inputs: Inputs, expected: Ray, actual: Ray) -> str:
+    return bounce_problem(hit_of(inputs), expected, actual)
+
+
+def side_of(hit: Hit, origin: Vector) -> float:
+    """On which side of the surface a ray of the reference starts."""
+    offset = minus(origin, hit.position)
+    inner = offset[0] * hit.normal[0] + offset[1] * hit.normal[1] + offset[2] * hit.normal[2]
+    return 1.0 if inner > 0 else -1.0
+
+
+def _transmitted_problem(inputs: Inputs, expected: Ray, actual: Ray) -> str:
+    hit = hit_of(inputs)
+    return bounce_problem(hit, expected, actual, side=side_of(hit, expected.origin))
+
+
+def _ray(problem: Callable[[Inputs, Ray, Ray], str]) -> Answer[Ray]:
+    return Answer(read_ray, words_of_ray, problem)
+
+
+SHADOW_RAY = _ray(_shadow_problem)
+REFLECTED_RAY = _ray(_reflected_problem)
+TRANSMITTED_RAY = _ray(_transmitted_problem)

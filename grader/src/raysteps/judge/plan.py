@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.tables import parse_table, read_text
-from raysteps.judge.generators import functions_of
-from raysteps.kit.manifest import Step
-from raysteps.kit.project import Project
+from raysteps.common.schemas import parse_table, read_text
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.judge.cases import functions_of
 
 Moves = Literal["camera", "camera and spheres"]
 

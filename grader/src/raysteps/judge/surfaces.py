@@ -1,9 +1,10 @@
 """Surfaces as the judge gives them to a function, alone or in a list."""
 
+import math
 from dataclasses import dataclass
 
-from raysteps.judge.numbers import Number, Vector, add, minus, text
-from raysteps.judge.values import Fill, vector_words
+from raysteps.judge.numbers import Number, Vector, add, cross, dot, minus, text
+from raysteps.judge.protocol import Fill, Ray, vector_words
 
 _MOST_IN_WORDS = 12
 
@@ -82,3 +83,42 @@ class Surfaces:
         shown = [f"{i}: {surface.words()}" for i, surface in enumerate(self.surfaces[:_MOST_IN_WORDS], 1)]
         left = len(self.surfaces) - len(shown)
         return "; ".join(shown) + (f"; and {left} more" if left else "") or "none"
+
+
+# Where a ray meets a surface: for cases that have to know it before anybody is asked.
+
+
+def _sphere_distance(sphere: Sphere, ray: Ray) -> float:
+    from_center = minus(ray.origin, sphere.center)
+    half = dot(from_center, ray.direction)
+    inside = half * half - dot(from_center, from_center) + sphere.radius * sphere.radius
+    if inside < 0:
+        return math.inf
+    nearer, farther = -half - math.sqrt(inside), -half + math.sqrt(inside)
+    return nearer if nearer > 0 else farther if farther > 0 else math.inf
+
+
+def _triangle_distance(t: Triangle, ray: Ray) -> float:
+    along, across = minus(t.b, t.a), minus(t.c, t.a)
+    p = cross(ray.direction, across)
+    size = dot(along, p)
+    if size == 0:
+        return math.inf
+    away = minus(ray.origin, t.a)
+    u, q = dot(away, p) / size, cross(away, along)
+    v, distance = dot(ray.direction, q) / size, dot(across, q) / size
+    return distance if u >= 0 and v >= 0 and u + v <= 1 and distance > 0 else math.inf
+
+
+def distance_to(surface: Surface, ray: Ray) -> float:
+    """Infinite for a miss."""
+    if isinstance(surface, Sphere):
+        return _sphere_distance(surface, ray)
+    if isinstance(surface, Triangle):
+        return _triangle_distance(surface, ray)
+    assert isinstance(surface, Scripted)
+    return math.inf if surface.distance is None else surface.distance
+
+
+def first_distance(surfaces: tuple[Surface, ...], ray: Ray) -> float:
+    return min((distance_to(surface, ray) for surface in surfaces), default=math.inf)

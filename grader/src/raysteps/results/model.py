@@ -3,8 +3,8 @@
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-from raysteps.results.work import Work
-from raysteps.sandbox.isolation import Isolation
+from raysteps.results.work_ratio import Work
+from raysteps.sandbox.task import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
 Ending = Literal["ok", "wrong", "crashed", "timeout"]

@@ -1,30 +1,138 @@
 """The strong sandbox: bubblewrap, with fresh namespaces and a file system that holds nothing but the task."""
 
+import json
 import os
 import resource
+import select
 import shutil
 import signal
 import subprocess
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.cgroups import find_parents, new_group
-from raysteps.sandbox.control import Control
-from raysteps.sandbox.inside import Inside, nameless_file
-from raysteps.sandbox.isolation import Isolation
-from raysteps.sandbox.mode import AsUser, Mode
-from raysteps.sandbox.mounts import compiler_command, root_words
-from raysteps.sandbox.processes import adopting_orphans
+from raysteps.sandbox.cgroups import Group, find_parents, new_group
+from raysteps.sandbox.lockdown import syscall_filter
+from raysteps.sandbox.monitor import Seen, Usage, adopting_orphans, descendants, reap, usage_of, watch
+from raysteps.sandbox.namespaces import AsUser, Mode, compiler_command, root_words
 from raysteps.sandbox.rlimits import counts_per_namespace, limit_words, threads_of_user
-from raysteps.sandbox.running import Running, outcome
-from raysteps.sandbox.seccomp import syscall_filter
-from raysteps.sandbox.task import Input, Limits, Ran, Task
+from raysteps.sandbox.task import Input, Isolation, Limits, Ran, Task
+from raysteps.sandbox.task_dir import Inside, Workplace, fresh_workplace, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
-from raysteps.sandbox.watching import Seen, watch
-from raysteps.sandbox.workplace import Workplace, fresh_workplace
+
+# The two pipes between the grader and a bubblewrap: it says who its first process is and how the command ended, and
+# it waits for a sign before it starts the command.
+
+_START_SECONDS = 30.0
+
+
+def readable(fd: int, seconds: float) -> bool:
+    """Whether there is something to read, or an end, within that time."""
+    poll = select.poll()
+    poll.register(fd, select.POLLIN)
+    return bool(poll.poll(max(0.0, seconds) * 1000))
+
+
+class Control:
+    """Holds the grader's ends until the stack is left."""
+
+    def __init__(self, stack: ExitStack) -> None:
+        self._status, self.status_fd = os.pipe()
+        self.gate_fd, self._gate = os.pipe()
+        self._open = {self._status, self.status_fd, self.gate_fd, self._gate}
+        stack.callback(lambda: self._close(*self._open))
+        self._said = b""
+
+    def _close(self, *fds: int) -> None:
+        for fd in self._open & set(fds):
+            self._open.remove(fd)
+            os.close(fd)
+
+    def words(self) -> list[str]:
+        return ["--json-status-fd", str(self.status_fd), "--block-fd", str(self.gate_fd)]
+
+    def hand_over(self) -> None:
+        """The other ends are bubblewrap's now."""
+        self._close(self.status_fd, self.gate_fd)
+
+    def first_process(self) -> int | None:
+        """The process that is number 1 inside; none when bubblewrap could not make it."""
+        until = time.monotonic() + _START_SECONDS
+        while b"\n" not in self._said and readable(self._status, until - time.monotonic()):
+            part = os.read(self._status, 4096)
+            if not part:
+                return None
+            self._said += part
+        return int(json.loads(self._said.split(b"\n")[0])["child-pid"]) if b"\n" in self._said else None
+
+    def open_gate(self) -> None:
+        os.write(self._gate, b"\n")
+        self._close(self._gate)
+
+    def exit_code(self) -> int | None:
+        """Of the command; none when it was never started, or killed. To be asked when bubblewrap has ended."""
+        while readable(self._status, 0) and (part := os.read(self._status, 4096)):
+            self._said += part
+        for line in self._said.splitlines():
+            said = json.loads(line)
+            if "exit-code" in said:
+                return int(said["exit-code"])
+        return None
+
+
+# A bubblewrap that runs: what its processes use, how they end, and what that means for the task.
+
+_DYING_SECONDS = 5.0
+_SIGNALS = range(129, 128 + signal.NSIG)
+
+
+class Running:
+    """The processes of one task, from outside."""
+
+    def __init__(self, process: "subprocess.Popen[bytes]", first: int, group: Group | None) -> None:
+        self._process = process
+        self._first = first
+        self._group = group
+        self._handle = os.pidfd_open(first)
+
+    def usage(self) -> Usage:
+        return usage_of(descendants(self._first)) if self._group is None else self._group.usage()
+
+    def kill(self) -> None:
+        """With the first process of its namespace, the kernel ends all others."""
+        with suppress(ProcessLookupError):
+            signal.pidfd_send_signal(self._handle, signal.SIGKILL)
+        if self._process.returncode is None:
+            self._process.kill()
+
+    def reap(self) -> float:
+        """Waits until everything inside is dead; the CPU seconds of what bubblewrap did not wait for."""
+        if not readable(self._handle, _DYING_SECONDS):
+            raise GraderFault(f"The processes of a sandbox do not die (the first is {self._first}).")
+        return reap(self._first, self._handle)
+
+    def close(self) -> None:
+        os.close(self._handle)
+
+
+def outcome(seen: Seen, code: int | None) -> Outcome:
+    """bubblewrap turns the signal that ended a command into an exit code above 128; this turns it back. No code: the
+    command was killed."""
+    if seen.stopped or code is None:
+        code = -signal.SIGKILL
+    elif code in _SIGNALS:
+        code = 128 - code
+    return Outcome(
+        code=code,
+        timed_out=seen.stopped == "wall",
+        stdout=seen.stdout.decode("utf-8", "replace"),
+        stderr=seen.stderr.decode("utf-8", "replace"),
+        seconds=seen.seconds,
+    )
+
 
 _MEGABYTE = 1 << 20
 _OUTPUTS = "/out"

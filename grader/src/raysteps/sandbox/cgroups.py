@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.sandbox.processes import Usage
+from raysteps.sandbox.monitor import Usage
 from raysteps.sandbox.task import Limits
 
 _MEGABYTE = 1 << 20

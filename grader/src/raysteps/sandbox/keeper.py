@@ -2,7 +2,7 @@
 with the bare interpreter: `python -I -S keeper.py SETTINGS COMMAND...`; it imports nothing of the kit.
 
 SETTINGS is JSON: `status` (a file descriptor for the exit code), `limits` (resource limits by name), `user` (a number,
-or null), `fences` (what to close, see fences.py, or null), `folder`, `environment`.
+or null), `fences` (what to close, see lockdown.py, or null), `folder`, `environment`.
 """
 
 import contextlib
@@ -26,7 +26,7 @@ _PR_SET_NO_NEW_PRIVS = 38
 _CANNOT_START = b"cannot start"
 
 sys.path.append(os.path.dirname(__file__))  # noqa: PTH120  (pathlib takes long to load)
-_fences = importlib.import_module("fences")
+_lockdown = importlib.import_module("lockdown")
 
 
 def _prctl(option: int, value: int) -> None:
@@ -48,9 +48,9 @@ def _limit(limits: dict[str, int]) -> None:
 
 def _fence(fences: Settings) -> None:
     if fences["files"] is not None:
-        _fences.close_files(fences["files"]["readable"], fences["files"]["writable"])
+        _lockdown.close_files(fences["files"]["readable"], fences["files"]["writable"])
     if fences["system_calls"] is not None:
-        _fences.close_system_calls(bytes.fromhex(fences["system_calls"]))
+        _lockdown.close_system_calls(bytes.fromhex(fences["system_calls"]))
 
 
 def _become(user: int) -> None:

@@ -1,12 +1,26 @@
 """What a sandbox is asked to run, and what comes back."""
 
+import os
+import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, Protocol
 
+from raysteps.common.files import open_regular
 from raysteps.common.process import Outcome
-from raysteps.sandbox.isolation import Isolation
+
+# What keeps a student's code apart from the machine.
+
+
+@dataclass(frozen=True)
+class Isolation:
+    """What kept the student's code apart from the machine."""
+
+    name: str = "none"  # "bubblewrap", "other user", "landlock", "limits only", "none"
+    strong: bool = False
+    description: str = "The code ran without a sandbox."
+
 
 Stopped = Literal["", "wall", "cpu", "memory"]
 
@@ -93,3 +107,23 @@ class Sandbox(Protocol):
     def isolation(self) -> Isolation: ...
 
     def run(self, task: Task) -> Ran: ...
+
+
+# Reads what a task wrote.
+
+_MEGABYTE = 1 << 20
+
+
+def read_regular(path: Path, cap: int) -> bytes | None:
+    """The bytes of a file that a task wrote: no link is followed, no pipe is waited for."""
+    try:
+        file = open_regular(path)
+    except OSError:
+        return None
+    with os.fdopen(file, "rb", buffering=0) as opened:
+        if not stat.S_ISREG(os.fstat(file).st_mode):
+            return None
+        data = bytearray()
+        while len(data) < cap and (part := opened.read(min(_MEGABYTE, cap - len(data)))):
+            data += part
+        return bytes(data) or None

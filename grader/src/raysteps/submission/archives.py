@@ -1,16 +1,170 @@
 """Which kind of archive a submission is, and what its library raises when it is damaged."""
 
+import bz2
+import gzip
+import io
 import lzma
+import stat
 import tarfile
 import zipfile
 import zlib
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
+from typing import IO, cast
 
 from raysteps.common.errors import UsageError
-from raysteps.submission.entries import Entry
-from raysteps.submission.tars import tar_entries
-from raysteps.submission.zips import zip_entries
+from raysteps.submission import entries
+from raysteps.submission.entries import Entry, check_size, check_unpacked, is_out_of_sight, not_a_file, split
+
+# Reads a submission that is a tar, plain or compressed, as a stream: once, from front to end, up to a cap.
+
+_MAX_HEADER = 1 << 16  # a name or an extension that comes before an entry
+_HEADERS = (
+    tarfile.GNUTYPE_LONGNAME,
+    tarfile.GNUTYPE_LONGLINK,
+    tarfile.XHDTYPE,
+    tarfile.XGLTYPE,
+    tarfile.SOLARIS_XHDTYPE,
+)
+
+
+def _unpacked(raw: IO[bytes]) -> IO[bytes]:
+    start = raw.read(6)
+    raw.seek(0)
+    if start.startswith(b"\x1f\x8b"):
+        return cast(IO[bytes], gzip.GzipFile(fileobj=raw))
+    if start.startswith(b"BZh"):
+        return bz2.BZ2File(raw)
+    if start.startswith((b"\xfd7zXZ", b"\x5d\x00\x00")):
+        return lzma.LZMAFile(raw)
+    return raw
+
+
+class _Stream(io.RawIOBase):
+    """An unpacked tar that is read once, from front to end, and not beyond a cap."""
+
+    def __init__(self, root: Path, raw: IO[bytes]) -> None:
+        self._root = root
+        self._raw = raw
+        self._file = _unpacked(raw)
+        self._count = 0
+        self._reads_at_end = 0
+
+    def read(self, size: int = -1, /) -> bytes:
+        data = self._file.read(size)
+        self._count += len(data)
+        self._reads_at_end += not data
+        if self._reads_at_end > 2:  # the library would go on for as long as an entry claims to be
+            raise tarfile.ReadError("an entry is longer than the archive")
+        check_unpacked(self._root, self._count, self._raw.tell())
+        return data
+
+
+class _Header(tarfile.TarInfo):
+    """A header that asks for no more memory than an honest one."""
+
+    @classmethod
+    def frombuf(cls, buf: bytes | bytearray, encoding: str, errors: str) -> "_Header":
+        try:
+            header = super().frombuf(buf, encoding, errors)
+        except tarfile.HeaderError as error:
+            if not buf.strip(b"\0"):
+                raise  # the end of the archive
+            # The library would take it for the end too, and what follows for never handed in.
+            raise tarfile.ReadError(str(error)) from error
+        if header.size < 0 or (header.type in _HEADERS and header.size > _MAX_HEADER):
+            raise tarfile.ReadError("a header with an impossible size")
+        return header
+
+
+def _kind_in_tar(info: tarfile.TarInfo) -> str:
+    if info.isdir():
+        return "a folder"
+    if info.isreg():
+        return ""
+    return "a link" if info.issym() or info.islnk() else "a device"
+
+
+def _read_tar(archive: tarfile.TarFile, info: tarfile.TarInfo) -> bytes:
+    check_size(info.size)
+    file = archive.extractfile(info)
+    assert file is not None
+    with file:
+        return file.read(entries.MAX_SOURCE + 1)
+
+
+def tar_entries(root: Path) -> Iterator[Entry]:
+    """The entries of a tar, plain or compressed, in their order."""
+    with root.open("rb") as raw:
+        stream = _Stream(root, raw)
+        seen = 0
+        # Read as a stream, an archive cannot send its reader backwards and round in circles.
+        with tarfile.open(mode="r|", fileobj=stream, tarinfo=_Header) as archive:
+            for info in archive:
+                archive.members.clear()  # type: ignore[attr-defined]  # the library would remember every one
+                parts = split(info.name)
+                if parts is None or is_out_of_sight(parts[:-1]):
+                    continue
+                seen += 1
+                if seen > entries.MAX_ENTRIES:
+                    raise entries.too_many(root)
+                kind = _kind_in_tar(info)
+                yield Entry(parts, not_a_file(kind) if kind else partial(_read_tar, archive, info))
+
+
+# Reads a submission that is a zip. Nothing is ever unpacked to disk, and never more than a cap to memory.
+
+_MAX_DIRECTORY = 32 << 20  # the list of all files, which the library reads at once
+
+
+class _Directory(io.BufferedReader):
+    """A zip whose list of files does not fill the memory."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        if size is not None and size > _MAX_DIRECTORY:
+            raise UsageError(f"{self.name}: more than {entries.MAX_ENTRIES} files; hand in the steps only")
+        return super().read(_MAX_DIRECTORY if size is None or size < 0 else size)
+
+
+def _kind_in_zip(info: zipfile.ZipInfo) -> str:
+    """What an entry is when it is no file; archives made on Windows say nothing about it."""
+    if info.is_dir():
+        return "a folder"
+    kind = stat.S_IFMT(info.external_attr >> 16)
+    if kind in (0, stat.S_IFREG):
+        return ""
+    return "a link" if kind == stat.S_IFLNK else "a device"
+
+
+def _read_zip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, root: Path) -> bytes:
+    check_size(info.file_size)
+    if info.flag_bits & 1:
+        raise UsageError(f"{root}: is encrypted; hand in an archive without a password")
+    with archive.open(info) as file:
+        data = file.read(entries.MAX_SOURCE + 1)
+    check_size(len(data))
+    return data
+
+
+def zip_entries(root: Path) -> Iterator[Entry]:
+    """The entries of a zip, as its directory lists them."""
+    with _Directory(io.FileIO(root)) as raw, zipfile.ZipFile(raw) as archive:
+        packed = root.stat().st_size
+        seen = unpacked = 0
+        for info in archive.infolist():
+            # The library cuts a name at a NUL byte, which may hide another ending.
+            parts = split(info.orig_filename)
+            if parts is None or is_out_of_sight(parts[:-1]):
+                continue
+            seen += 1
+            unpacked += info.file_size
+            if seen > entries.MAX_ENTRIES:
+                raise entries.too_many(root)
+            check_unpacked(root, unpacked, packed)
+            kind = _kind_in_zip(info)
+            yield Entry(parts, not_a_file(kind) if kind else partial(_read_zip, archive, info, root))
+
 
 DAMAGED = (
     OSError,

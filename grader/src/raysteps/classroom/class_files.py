@@ -1,0 +1,200 @@
+"""The files that are made from the database: of each submission results.json, its page, pictures and cases; of the
+class two tables and a page.
+"""
+
+import csv
+import io
+import json
+import sqlite3
+import sys
+from collections.abc import Container, Iterable, Iterator, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from raysteps.classroom.class_document import Document, class_document
+from raysteps.classroom.database import FILE as DATABASE
+from raysteps.classroom.database import ClassDatabase, reading
+from raysteps.common.csv_safety import harmless_cell
+from raysteps.common.errors import UsageError
+from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
+from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.text import number
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import here
+from raysteps.grading.options import withhold
+from raysteps.report import class_page as class_report
+from raysteps.report.class_page import write_class_report
+from raysteps.report.student import REPORT, try_student_page
+from raysteps.results.store import FOLDER as CASES
+
+# CSV that a spreadsheet shows and never runs.
+
+Cell = str | float | int | None
+
+
+def safe_cell(value: Cell) -> str:
+    """Text is made harmless; numbers stay numbers."""
+    if value is None:
+        return ""
+    if isinstance(value, (int, float)):
+        return number(value)
+    return harmless_cell(value)
+
+
+def csv_bytes(rows: Iterable[Sequence[Cell]]) -> bytes:
+    """With a byte order mark: without it, Excel takes UTF-8 for something else."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out)
+    for row in rows:
+        writer.writerow([safe_cell(cell) for cell in row])
+    return out.getvalue().encode("utf-8-sig")
+
+
+SUBMISSIONS = "submissions"
+_TABLES = ("results.csv", "class.json")
+
+
+def _forget_files(folder: Path, kept: set[str]) -> None:
+    """Pictures and cases of an earlier result must not be taken for those of this one."""
+    for room, ending in ((folder / "pictures", "*.png"), (folder / CASES, "*.json")):
+        if room.is_symlink() or not room.is_dir():
+            continue
+        for path in list(room.rglob(ending)):
+            if path.relative_to(folder).as_posix() not in kept and path.resolve().is_relative_to(room.resolve()):
+                path.unlink(missing_ok=True)
+        for place in (room, *room.rglob("*/")):
+            if not place.is_symlink():
+                forget_unfinished(place)
+
+
+def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> set[str]:
+    """Cases that were kept, but that the results for students do not name."""
+    steps = document.get("steps", []) if document else []
+    named = {item.get("case", "") for step in steps for item in step["hidden"]}
+    return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
+
+
+def _warn(words: str) -> None:
+    print(f"raysteps: {words}", file=sys.stderr)
+
+
+@cache
+def _steps() -> list[Step]:
+    return read_steps(here())
+
+
+def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
+    """The result that counts. Of a fault there is only fault.txt."""
+    row = database.current(name)
+    folder = out / SUBMISSIONS / name
+    if row is None:
+        return
+    document = withhold(json.loads(row["document"]), database.feedback()) if row["document"] else None
+    files = database.pictures(row["submission"], row["run"])
+    shown = set(files) - _withheld_cases(document, files)
+    _forget_files(folder, shown)
+    forget_unfinished(folder)
+    changed = [write_if_changed(folder / path, files[path]) for path in sorted(shown)]
+    if document is not None:
+        text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+        changed.append(write_if_changed(folder / "results.json", text.encode()))
+        if any(changed) or not (folder / REPORT).is_file():
+            try_student_page(folder, _steps(), lambda words: _warn(f"{name}: {words}"))
+        (folder / "fault.txt").unlink(missing_ok=True)
+    else:
+        write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
+        for result in ("results.json", REPORT):
+            (folder / result).unlink(missing_ok=True)
+
+
+_HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")
+_TAIL = ("submitted_at", "days_late", "percent_off", "lateness", "inconsistent", "points_before", "fault", "note")
+
+
+def _row(one: dict[str, Any], student: dict[str, str], steps: list[str]) -> list[Cell]:
+    late = one["late"] or {"days": None, "percent": None, "points": None, "words": ""}
+    return [
+        *(one["name"], one["entry"], student["id"], student["name"], student["email"]),
+        *(one["status"], one["points"], one["max"], late["points"]),
+        *(one["steps"][step]["points"] if step in one["steps"] else None for step in steps),
+        *(one["submitted_at"], late["days"], late["percent"], late["words"]),
+        "yes" if one["inconsistent"] else "",
+        one["before"]["points"] if one["before"] is not None else None,
+        *(one["fault"], one["note"]),
+    ]
+
+
+def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
+    """A row for each student of a submission, one for a submission of nobody, one for a student without one."""
+    steps = [step["id"] for step in document["steps"]]
+    yield [*_HEAD, *steps, *_TAIL]
+    nobody = {"id": "", "name": "", "email": ""}
+    for one in document["submissions"]:
+        for student in one["students"] or [nobody]:
+            yield _row(one, student, steps)
+    for student in document["students_without_submission"]:
+        blank = [None] * (len(steps) + 3)
+        head = ("", "", student["id"], student["name"], student["email"], "no submission")
+        yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student["note"]]
+
+
+def withdraw_tables(out: Path) -> None:
+    """Before the first result changes: tables of earlier results beside new ones would be taken for theirs."""
+    for name in (*_TABLES, class_report.FILE):
+        (out / name).unlink(missing_ok=True)
+
+
+def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], done: Container[str] = ()) -> None:
+    """Everything but what is done: also what a run that was killed had no time for."""
+    for one in document["submissions"]:
+        if one["name"] not in done:
+            write_submission(database, out, one["name"])
+    forget_unfinished(out)
+    table, facts = _TABLES
+    write_bytes(out / table, csv_bytes(_rows(document)))
+    write_json(out / facts, document)
+    class_report.try_class_report(document, out, _warn)
+
+
+# Makes the page of a class anew from what a grading left.
+
+_FACTS = "class.json"
+
+
+def class_source(place: Path) -> Path | None:
+    """What the class is read from, when the place is a class: its folder, its database or its class.json."""
+    if place.name in (DATABASE, _FACTS) and place.is_file():
+        return place
+    return next((place / name for name in (DATABASE, _FACTS) if (place / name).is_file()), None)
+
+
+def _from_database(path: Path) -> Document:
+    with reading(path) as connection:
+        try:
+            return class_document(ClassDatabase(path.parent, connection))
+        except sqlite3.Error as error:
+            raise UsageError(
+                f"{path}: cannot be read as the database of a class: {error}; if an older kit wrote it, "
+                "run grade-class with --resume"
+            ) from error
+
+
+def _from_facts(path: Path) -> Document:
+    try:
+        document: Document = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError) as error:
+        raise UsageError(f"{path}: cannot be read as JSON: {error}") from error
+    problem = complaint(document, read_schema("raysteps.classroom", "class.schema.json"))
+    if problem:
+        raise UsageError(f"{path}: is not a class.json of this kit: {problem}")
+    return document
+
+
+def remake_class_page(source: Path) -> Path:
+    """class.html beside the source."""
+    document = _from_database(source) if source.suffix == Path(DATABASE).suffix else _from_facts(source)
+    try:
+        return write_class_report(document, source.parent)
+    except OSError as error:
+        raise UsageError(f"{source.parent}: class.html cannot be written: {error.strerror or error}") from error

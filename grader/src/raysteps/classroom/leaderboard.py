@@ -1,0 +1,282 @@
+"""Reads who is to be ranked: a graded class, or results.json files."""
+
+import json
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.classroom.database import FILE, LATEST, reading
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.text import count, printable, size
+from raysteps.course.manifest import Step
+from raysteps.results.store import read_results, validate
+from raysteps.results.work_ratio import Effort, NoEffort, effort_of
+
+Document = Mapping[str, Any]
+_WANTED = "expected the folder of a graded class, its class.json or class.sqlite, or a results.json"
+_WHY_NOT = {
+    "fault": "not graded, because of a fault of the grader",
+    "unreadable": "nothing could be taken from it",
+}
+_QUERY = (
+    "SELECT submissions.name, results.status, results.document FROM submissions LEFT JOIN results "  # noqa: S608
+    f"ON results.submission = submissions.id AND run = ({LATEST}) WHERE scope = 'here' ORDER BY entry"
+)
+
+
+@dataclass(frozen=True)
+class Entered:
+    """One submission; without a document, why there is none."""
+
+    name: str
+    document: Document | None
+    why: str = ""
+    source: str = ""
+
+
+def _without(name: str, status: str | None) -> Entered:
+    return Entered(name, None, _WHY_NOT.get(status or "", "not graded yet"))
+
+
+def _of_database(path: Path) -> list[Entered]:
+    """Results of the kit that graded then: what this one cannot read is nobody's fault."""
+    entered = []
+    with reading(path) as connection:
+        for row in connection.execute(_QUERY):
+            if row["status"] != "graded":
+                entered.append(_without(row["name"], row["status"]))
+                continue
+            document = json.loads(row["document"])
+            try:
+                validate(document)
+                entered.append(Entered(row["name"], document))
+            except GraderFault:
+                entered.append(Entered(row["name"], None, "graded by a kit of another form; grade it again"))
+    return entered
+
+
+def _of_class(path: Path, facts: Document) -> list[Entered]:
+    """class.json, and the results.json files that it names."""
+    problem = complaint(facts, read_schema("raysteps.classroom", "class.schema.json"))
+    if problem:
+        raise UsageError(f"{path}: is not a class.json of this kit: {problem}")
+    home = path.parent.resolve()
+    entered = []
+    for one in facts["submissions"]:
+        if one["status"] != "graded":
+            entered.append(_without(one["name"], one["status"]))
+            continue
+        place = (home / one["results"]).resolve()
+        if not place.is_relative_to(home):
+            raise UsageError(f"{path}: names {one['results']}, which lies outside of its folder")
+        entered.append(Entered(one["name"], read_results(place)))
+    return entered
+
+
+def _is_class(path: Path) -> Document | None:
+    """What a file holds, when that is a class.json."""
+    try:
+        facts = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None  # read_results says what is wrong
+    return facts if isinstance(facts, dict) and facts.get("schema") == "raysteps/class/v1" else None
+
+
+def _of_place(place: Path) -> list[Entered]:
+    path = place
+    if place.is_dir():
+        names = (FILE, "class.json", "results.json")
+        path = next((place / name for name in names if (place / name).is_file()), place)
+        if path == place:
+            raise UsageError(f"{place}: holds none of {', '.join(names)}; {_WANTED}")
+    if not path.exists():
+        raise UsageError(f"{place}: is not there; {_WANTED}")
+    if path.suffix == Path(FILE).suffix:
+        return _of_database(path)
+    facts = _is_class(path)
+    if facts is not None:
+        return _of_class(path, facts)
+    document = read_results(path)
+    return [Entered(document["submission"], document, source=str(place))]
+
+
+def read_entries(places: Sequence[Path]) -> list[Entered]:
+    """All of all places. Where two are called alike, the place tells them apart."""
+    entered = [replace(one, source=one.source or str(place)) for place in places for one in _of_place(place)]
+    seen = Counter(one.name for one in entered)
+    return [replace(one, name=f"{one.name} ({one.source})") if seen[one.name] > 1 else one for one in entered]
+
+
+# Ranks submissions by the work of one step.
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """A submission in its place; who is alike in work and memory shares it."""
+
+    rank: int
+    name: str
+    effort: Effort
+
+
+@dataclass(frozen=True)
+class NotRanked:
+    """A submission without a place."""
+
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Board:
+    """One step."""
+
+    step: Step
+    ranked: Sequence[Ranked]
+    not_ranked: Sequence[NotRanked]
+    kits: Sequence[str]  # that graded those in a place
+
+    @property
+    def reference_bytes(self) -> int | None:
+        """None where results of several kits do not agree, or nobody is ranked."""
+        known = {one.effort.reference_bytes for one in self.ranked}
+        return known.pop() if len(known) == 1 else None
+
+
+def _effort(entered: Entered, step: Step) -> Effort | NoEffort:
+    if entered.document is None:
+        return NoEffort(entered.why)
+    result = next((result for result in entered.document["steps"] if result["id"] == step.id), None)
+    return NoEffort("the step was not graded") if result is None else effort_of(result, step.limited_pictures)
+
+
+def _standing(effort: Effort) -> tuple[float, int]:
+    return effort.relative, effort.bytes
+
+
+def _in_place(efforts: Sequence[tuple[str, Effort]]) -> list[Ranked]:
+    """Names come last: among equals their order must tell nothing, should they be hidden."""
+    ordered = sorted(efforts, key=lambda one: (*_standing(one[1]), *one[1].pictures.values(), one[0]))
+    places = [_standing(effort) for _, effort in ordered]
+    return [Ranked(places.index(_standing(effort)) + 1, name, effort) for name, effort in ordered]
+
+
+def rank(entered: Sequence[Entered], step: Step) -> Board:
+    """Least work first, then least memory. The same results give the same board, in whatever order they come."""
+    efforts: list[tuple[str, Effort]] = []
+    others: list[NotRanked] = []
+    kits: set[str] = set()
+    for one in entered:
+        effort = _effort(one, step)
+        if isinstance(effort, NoEffort):
+            others.append(NotRanked(one.name, effort.reason))
+            continue
+        efforts.append((one.name, effort))
+        kits |= {one.document["kit"]} if one.document is not None else set()
+    others.sort(key=lambda other: (other.reason, other.name))
+    return Board(step, _in_place(efforts), others, sorted(kits))
+
+
+# A board as a table, and all boards as JSON.
+
+_HIDDEN = "-"
+_ROOM = 110  # columns of a terminal in which the pictures have room, too
+_CAPTION = (
+    "work: tests per ray, as a multiple of the reference's. A surface test and a box test weigh alike; over the "
+    "pictures it is the geometric mean. Equal work: less memory comes first."
+)
+_COUNTED = "The counters come from the kit's framework inside the student's program. No points hang on a rank."
+
+
+def _table(board: Board, width: int, *, anonymous: bool) -> Table:
+    pictures = board.step.limited_pictures if width >= _ROOM else ()
+    table = Table(title=escape(f"{board.step.number} {board.step.title}"), title_justify="left")
+    table.add_column("rank", justify="right")
+    table.add_column("submission", overflow="fold")
+    for heading in ("work", *pictures, "memory"):
+        table.add_column(escape(heading), justify="right", no_wrap=True)
+    for one in board.ranked:
+        works = (f"{value:.3f}" for value in (one.effort.relative, *(one.effort.pictures[name] for name in pictures)))
+        name = _HIDDEN if anonymous else escape(printable(one.name))
+        table.add_row(str(one.rank), name, *works, size(one.effort.bytes))
+    if board.reference_bytes is not None:
+        ones = ["1.000"] * (1 + len(pictures))
+        table.add_row("", "the reference", *ones, size(board.reference_bytes), style="dim")
+    return table
+
+
+def _others(board: Board, *, anonymous: bool) -> list[str]:
+    if anonymous:
+        reasons = Counter(other.reason for other in board.not_ranked)
+        return [f"{count(amount, 'submission')}: {reason}" for reason, amount in sorted(reasons.items())]
+    return [f"{other.name}: {other.reason}" for other in board.not_ranked]
+
+
+def print_board(console: Console, board: Board, *, anonymous: bool) -> None:
+    """The table, and below it who has no place."""
+    if board.ranked:
+        console.print(_table(board, console.width, anonymous=anonymous))
+    else:
+        console.print(f"{board.step.number} {board.step.title}: nobody is ranked", markup=False, highlight=False)
+    if not board.ranked and not board.not_ranked:
+        console.print("  there is no submission", highlight=False)
+    if board.not_ranked:
+        console.print("Not ranked", style="bold")
+        for line in _others(board, anonymous=anonymous):
+            console.print(f"  {printable(line)}", markup=False, highlight=False, soft_wrap=True)
+    if len(board.kits) > 1:
+        console.print(
+            f"Graded by {count(len(board.kits), 'kit')} ({', '.join(board.kits)}), each with a reference of its own: "
+            "grade all with one to compare them",
+            markup=False,
+            highlight=False,
+        )
+
+
+def print_caption(console: Console) -> None:
+    """How to read the tables."""
+    console.print(_CAPTION, style="dim", highlight=False)
+    console.print(_COUNTED, style="dim", highlight=False)
+
+
+def _board(board: Board, *, anonymous: bool) -> dict[str, Any]:
+    return {
+        "id": board.step.id,
+        "title": board.step.title,
+        "pictures": list(board.step.limited_pictures),
+        "kits": list(board.kits),
+        "reference_bytes": board.reference_bytes,
+        "ranked": [
+            {
+                "rank": one.rank,
+                "name": None if anonymous else one.name,
+                "work": one.effort.relative,
+                "bytes": one.effort.bytes,
+                "pictures": dict(one.effort.pictures),
+            }
+            for one in board.ranked
+        ],
+        "not_ranked": [
+            {"name": None if anonymous else other.name, "reason": other.reason} for other in board.not_ranked
+        ],
+    }
+
+
+def to_json(boards: Sequence[Board], *, anonymous: bool) -> dict[str, Any]:
+    """Checked against its schema."""
+    document = {
+        "schema": "raysteps/leaderboard/v1",
+        "anonymous": anonymous,
+        "steps": [_board(board, anonymous=anonymous) for board in boards],
+    }
+    problem = complaint(document, read_schema("raysteps.classroom", "leaderboard.schema.json"))
+    if problem:
+        raise GraderFault(f"the leaderboard would break its schema: {problem}")
+    return document

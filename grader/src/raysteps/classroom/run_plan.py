@@ -1,0 +1,254 @@
+"""What a run is to do, worked out before anything is built or graded."""
+
+import json
+import os
+import uuid
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from raysteps.classroom.database import FILE, LOCK, ClassDatabase, Registered, Registration, RunFacts, Scope
+from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
+from raysteps.classroom.entry_names import name_entries
+from raysteps.classroom.jobs import KIT_GRADER
+from raysteps.classroom.late_policy import parse_late_policy
+from raysteps.classroom.roster import Matches, Student, match, read_roster
+from raysteps.common.errors import UsageError
+from raysteps.common.text import count
+from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.project import Project
+from raysteps.grading.options import Feedback
+
+# What was asked for.
+
+
+@dataclass(frozen=True)
+class Order:
+    """What was asked for on the command line."""
+
+    folder: Path
+    out: Path
+    roster: Path | None = None
+    jobs: int = 1
+    resume: bool = False
+    only: tuple[str, ...] = ()
+    late_policy: Path | None = None
+    seed: int = 1
+    feedback: Feedback = "full"
+    limits: Mapping[str, float] = field(default_factory=dict)
+    require_sandbox: bool = False
+    scheduler: str = ""
+    shard: Shard = field(default_factory=Shard)
+    grader: str = KIT_GRADER
+    no_roster: bool = False  # nor that of the last run
+    no_late_policy: bool = False
+
+
+# The folders and files that a class is graded from, and into.
+
+
+def _inside(path: Path, folder: Path) -> bool:
+    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+
+
+def check_places(folder: Path, out: Path, *, resume: bool) -> None:
+    """Results must not come to lie among the submissions."""
+    if not folder.is_dir():
+        raise UsageError(f"{folder}: expected a folder with one entry per submission")
+    if _inside(out, folder):
+        raise UsageError(f"--out {out}: lies in the folder of the submissions; name another folder")
+    if _inside(folder, out / "submissions"):
+        raise UsageError(f"--out {out}: its results would go into the folder of the submissions")
+    # A run that was ended while the kit was built has left nothing but its lock.
+    others = [path for path in out.iterdir() if path.name != LOCK] if out.is_dir() else []
+    if resume and others and not (out / FILE).is_file():
+        raise UsageError(f"--resume: {out} holds no {FILE} to go on from")
+
+
+def read_text(path: Path) -> str:
+    """The late policy."""
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        why = "is not UTF-8" if isinstance(error, UnicodeDecodeError) else error.strerror
+        raise UsageError(f"{path}: the late policy cannot be read: {why}") from error
+
+
+# What the last run was given beside the submissions: a --resume that does not name it anew uses it again.
+
+_NOBODY = Student(0, "", "", "")
+
+
+@dataclass
+class Given:
+    """`files` are no submissions, wherever they lie; `said` tells what comes from the last run."""
+
+    students: list[Student] = field(default_factory=list)
+    late_policy: str = ""  # the text of the file
+    files: list[Path] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)
+
+
+def roster_text(students: Sequence[Student]) -> str:
+    """As the database keeps it."""
+    return json.dumps([vars(student) for student in students], ensure_ascii=False)
+
+
+@dataclass
+class _Last(Given):
+    is_lost: bool = False  # a version of the kit that did not keep everything wrote the database
+
+
+def _last(out: Path) -> _Last:
+    """What the database knows; nothing where no run has begun yet."""
+    if not (out / FILE).is_file():
+        return _Last()
+    with closing(ClassDatabase(out)) as database:
+        run = database.connection.execute(
+            "SELECT late_policy, given.roster, given.files, EXISTS (SELECT 1 FROM students) AS had_roster "
+            "FROM runs LEFT JOIN given USING (uid) ORDER BY number DESC LIMIT 1"
+        ).fetchone()
+    if run is None:
+        return _Last()
+    if run["roster"] is None:
+        return _Last([_NOBODY] if run["had_roster"] else [], run["late_policy"], is_lost=True)
+    students = [Student(**row) for row in json.loads(run["roster"])]
+    return _Last(students, run["late_policy"], [Path(path) for path in json.loads(run["files"])])
+
+
+def _used_again(last: _Last, out: Path, option: str, what: str) -> str:
+    """The line that says so."""
+    if last.is_lost:
+        raise UsageError(
+            f"--resume: the last run in {out} had a {option[2:].replace('-', ' ')}, but an earlier version of the kit "
+            f"did not keep all of it; give it again with {option} FILE, or drop it with {option} none"
+        )
+    return f"{what} of the last run in {out} is used again; {option} FILE takes another one, {option} none drops it"
+
+
+def read_given(order: Order) -> Given:
+    """The roster and the late policy that were named, else with --resume those of the last run."""
+    last = _last(order.out) if order.resume else _Last()
+    given = Given(files=[path for path in (order.roster, order.late_policy) if path is not None] + last.files)
+    if order.late_policy is not None:
+        given.late_policy = read_text(order.late_policy)
+        parse_late_policy(given.late_policy, str(order.late_policy))
+    elif last.late_policy and not order.no_late_policy:
+        given.late_policy = last.late_policy
+        given.said.append(_used_again(last, order.out, "--late-policy", "the late policy"))
+    if order.roster is not None:
+        given.students = read_roster(order.roster)
+    elif last.students and not order.no_roster:
+        given.students = last.students
+        what = f"the roster ({count(len(last.students), 'student')})"
+        given.said.append(_used_again(last, order.out, "--roster", what))
+    return given
+
+
+@dataclass(frozen=True)
+class Plan:
+    """`entries` are those of this shard, with their names."""
+
+    order: Order
+    steps: list[Step]
+    chosen: list[Step]
+    listing: Listing
+    given: Given
+    matches: Matches
+    uid: str = field(default_factory=lambda: uuid.uuid4().hex)
+
+    @property
+    def students(self) -> list[Student]:
+        return self.given.students
+
+    @property
+    def late_policy(self) -> str:
+        return self.given.late_policy
+
+    @property
+    def grading(self) -> dict[str, Any]:
+        """Beside the kit and the submission, all that a grade depends on. The database keeps everything that is known;
+        what a student is not to see is left out when results.json is made from it."""
+        only = [step.id for step in self.chosen] if self.order.only else []
+        return {"seed": self.order.seed, "only": only, "feedback": "full", "limits": self.order.limits}
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """As the instructor gave them."""
+        return {**self.grading, "feedback": self.order.feedback}
+
+    def facts(self, kit: str) -> RunFacts:
+        columns = [
+            {"id": step.id, "title": step.title, "points": step.points, "bonus": step.bonus} for step in self.chosen
+        ]
+        folder = str(self.order.folder.resolve()).encode("utf-8", "backslashreplace").decode()
+        shard = str(self.order.shard)
+        files = [os.path.realpath(path) for path in self.given.files]
+        return RunFacts(
+            *(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored),
+            roster=roster_text(self.students),
+            files=[file.encode("utf-8", "backslashreplace").decode() for file in files],
+        )
+
+    def registered(self, known: dict[str, str]) -> list[Registered]:
+        """All entries, also those of other shards, so that merging shards shows what is missing."""
+        names = name_entries([entry.label for entry in self.listing.entries], known)
+        times = self._times()
+        rows = []
+        for at, entry in enumerate(self.listing.entries):
+            said = times.get(at, [])
+            when = said[-1][0] if said else newest_time(entry.path)
+            source = "roster" if said else "files" if when else ""
+            scope: Scope = "here" if self.order.shard.holds(entry.label) else "elsewhere"
+            note = self.matches.entry_notes.get(at, "")
+            if len(said) > 1:
+                times_said = ", ".join(time for _, time in said)
+                note = f"Its students have different times in the roster ({times_said}); the latest counts."
+            rows.append(Registered(entry.label, names[entry.label], scope, when, source, note))
+        return rows
+
+    def _times(self) -> dict[int, list[tuple[str, str]]]:
+        """What the roster says of when an entry was handed in, and that with a zone: of a team perhaps several times,
+        the latest last."""
+        zone = parse_late_policy(self.late_policy, "").deadline.tzinfo if self.late_policy else UTC
+
+        def moment(text: str) -> datetime:
+            when = datetime.fromisoformat(text)
+            return when if when.tzinfo is not None else when.replace(tzinfo=zone)
+
+        times: dict[int, dict[datetime, str]] = defaultdict(dict)
+        for at, number in self.matches.pairs:
+            text = self.students[number].submitted_at
+            if text:
+                times[at][moment(text)] = text
+        return {at: [(said[when], when.isoformat()) for when in sorted(said)] for at, said in times.items()}
+
+    def registrations(self) -> list[Registration]:
+        entries: dict[int, list[str]] = defaultdict(list)
+        for at, number in self.matches.pairs:
+            entries[number].append(self.listing.entries[at].label)
+        rows = []
+        for number, student in enumerate(self.students):
+            note = self.matches.student_notes.get(number, "")
+            if len(entries[number]) > 1:
+                note = f"Handed in more than once: {', '.join(entries[number])}. Say which one counts in the roster."
+            rows.append(Registration(student.id, student.name, student.email, tuple(entries[number]), note))
+        return rows
+
+    def mine(self) -> list[Entry]:
+        return [entry for entry in self.listing.entries if self.order.shard.holds(entry.label)]
+
+
+def make_plan(project: Project, order: Order) -> Plan:
+    """Everything that can be wrong with the inputs is found here."""
+    check_places(order.folder, order.out, resume=order.resume)
+    steps = read_steps(project)
+    chosen = choose(steps, list(order.only))
+    given = read_given(order)
+    listing = list_entries(order.folder, given.files)
+    matches = match([entry.label for entry in listing.entries], given.students)
+    return Plan(order, steps, chosen, listing, given, matches)

@@ -1,0 +1,114 @@
+"""The commands of ./raysteps. Each has a module of its own, which is imported when the command is typed."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from types import ModuleType
+from typing import Literal
+
+from raysteps.cli.errors import EXITS, console_here, ended
+from raysteps.course.project import Project, here
+
+Kit = Literal["any", "whole", "students"]
+
+
+@dataclass(frozen=True)
+class Command:
+    """What can be typed. Its module has `add_arguments(parser)` and `run(project, arguments, console)`."""
+
+    name: str
+    about: str
+    module: str
+    kit: Kit = "whole"
+
+
+_IMPL = "{impl}"  # where there is a reference, its programs can be chosen
+COMMANDS = (
+    Command("watch", "build, test and draw a step again with every save", "raysteps.cli.watch", "any"),
+    Command("list", "the steps, and where you stand", "raysteps.cli.steps", "any"),
+    Command("next", "which step to work on, what to open and what to type", "raysteps.cli.steps", "any"),
+    Command("hint", "the next hint of a step", "raysteps.cli.steps", "any"),
+    Command("reset", "begin a step again: your file is kept in build/reset/", "raysteps.cli.steps", "any"),
+    Command(
+        "render",
+        f"render a scene with your own steps: the arguments of raytrace{_IMPL}",
+        "raysteps.cli.render",
+        "any",
+    ),
+    Command("inspect", "follow one pixel: its rays, tests and light", "raysteps.cli.inspect", "any"),
+    Command("view", f"a window on a scene: move the camera, click pixels{_IMPL}", "raysteps.cli.view", "any"),
+    Command("check", "check your own steps", "raysteps.cli.check", "any"),
+    Command("compare", "two pictures, pixel by pixel", "raysteps.cli.compare_pictures", "any"),
+    Command("report", "make report.html of results that are there already", "raysteps.cli.report", "any"),
+    Command("update", "take in a newer kit; your own files stay", "raysteps.cli.update", "students"),
+    Command("replay", "ask a hidden case again, as `check` or `grade` wrote it", "raysteps.cli.replay"),
+    Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade"),
+    Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
+    Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
+    Command("release", "make the repository that students get", "raysteps.cli.release"),
+    Command("export", "for Gradescope, Classroom 50, Canvas and others", "raysteps.cli.export"),
+    Command("demo", "one picture per step, and two sample submissions graded", "raysteps.cli.demo"),
+    Command("gallery", "a page that walks through the steps in pictures", "raysteps.cli.gallery"),
+    Command("bench", "measure the reference", "tools.bench.command"),
+    Command("docs", "the documents as a site that needs no network", "tools.site.command"),
+    Command("figures", "make the figures of the handouts", "tools.figures.command"),
+    Command("test", "test the kit itself", "tools.selftest.run"),
+    Command("dev", "for those who maintain the kit", "tools.dev"),
+)
+
+
+def _commands(project: Project) -> list[Command]:
+    left_out = "students" if project.has_reference else "whole"
+    tools = (project.root / "tools").is_dir()  # an autograder is packed without them
+    return [one for one in COMMANDS if one.kit != left_out and (tools or not one.module.startswith("tools."))]
+
+
+def _module(project: Project, command: Command) -> ModuleType:
+    root = os.fspath(project.root)
+    if command.module.startswith("tools.") and root not in sys.path:
+        sys.path.append(root)
+    return import_module(command.module)
+
+
+def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentParser:
+    """Of all commands; with `only`, the arguments of no other command are known, which saves importing it."""
+    parser = argparse.ArgumentParser(
+        prog="raysteps",
+        description="A ray tracer in graded steps.",
+        epilog=EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    impl = "; --impl mine|reference" if project.has_reference else ""
+    for command in _commands(project):
+        child = commands.add_parser(command.name, help=command.about.replace(_IMPL, impl))
+        if only in (None, command.name):
+            _module(project, command).add_arguments(child)
+    return parser
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs one command and returns its exit code."""
+    project = here()
+    words = list(sys.argv[1:] if argv is None else argv)
+    command = next((one for one in _commands(project) if words[:1] == [one.name]), None)
+
+    def parser() -> argparse.ArgumentParser:
+        return new_parser(project, command.name if command is not None else "")
+
+    def started(words: Sequence[str]) -> int:
+        if command is not None:
+            module = _module(project, command)
+            run_words: Callable[[Project, list[str]], int] | None = getattr(module, "run_words", None)
+            if run_words is not None:  # what follows is for a program, and not read here
+                return run_words(project, list(words[1:]))
+        arguments = parser().parse_args(words)
+        assert command is not None, "the parser lets no other word pass"
+        code: int = _module(project, command).run(project, arguments, console_here())
+        return code
+
+    return ended(started, parser, words)

@@ -1,0 +1,61 @@
+"""The command `compare`: two pictures, pixel by pixel."""
+
+import argparse
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.course.project import Project
+from raysteps.images.compare import (
+    TOLERANCE,
+    PictureError,
+    Pixels,
+    difference,
+    gaps,
+    read_png,
+    read_ppm,
+    widest,
+    write_png,
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Two pictures, and where their difference goes."""
+    parser.add_argument("mine", type=Path, metavar="MINE", help="a picture, .png or .ppm")
+    parser.add_argument("reference", type=Path, metavar="REFERENCE", help="another one of the same size")
+    parser.add_argument("-o", dest="out", type=Path, metavar="FILE.png", help="the difference, 8 times as bright")
+
+
+def _read(path: Path) -> Pixels:
+    try:
+        if path.suffix.lower() == ".ppm":
+            return read_ppm(path)
+        return read_png(path)
+    except (OSError, ValueError, PictureError) as error:
+        raise UsageError(f"{path}: expected a picture, .png or .ppm: {error}") from error
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when no channel of any pixel differs by more than rounding, else 1."""
+    if arguments.out is not None and arguments.out.suffix.lower() != ".png":
+        raise UsageError(f"{arguments.out}: the difference is written as .png; expected a name that ends so")
+    mine, reference = _read(arguments.mine), _read(arguments.reference)
+    if mine.shape != reference.shape:
+        sizes = [f"{pixels.shape[1]}x{pixels.shape[0]}" for pixels in (mine, reference)]
+        raise UsageError(f"{arguments.mine}: is {sizes[0]} pixels, and the other {sizes[1]}; expected one size")
+    gap = gaps(mine, reference)
+    wrong = int((gap > TOLERANCE).sum())
+    console.print(f"{wrong} of {gap.size} pixels ({wrong / gap.size:.2%}) differ by more than {TOLERANCE} of 255.")
+    if gap.any():
+        x, y = widest(gap)
+        colors = f"{tuple(mine[y, x].tolist())} and {tuple(reference[y, x].tolist())}"
+        console.print(f"The largest difference is at x={x}, y={y}: {colors}.", highlight=False)
+    if arguments.out is not None:
+        try:
+            write_png(difference(mine, reference), arguments.out)
+        except OSError as error:
+            raise UsageError(f"{arguments.out}: cannot be written: {error.strerror or error}") from error
+        console.print(f"Difference: {escape(str(arguments.out))}", soft_wrap=True, highlight=False)
+    return 1 if wrong else 0

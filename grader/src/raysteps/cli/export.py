@@ -1,0 +1,308 @@
+"""The command `export`: results, autograders and gradebooks for other systems."""
+
+import argparse
+import re
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.common.text import clean, count
+from raysteps.course.manifest import choose, read_steps
+from raysteps.course.project import Project
+from raysteps.course.settings import read_course
+from raysteps.exports import hosted as running
+from raysteps.exports.autograders import (
+    autolab_tar,
+    classroom50_autograder,
+    github_workflow,
+    gradescope_zip,
+    into_folder,
+    prairielearn_folder,
+)
+from raysteps.exports.autolab import as_lines, to_autolab
+from raysteps.exports.class_results import Graded, moodle_cell, read_class, results_of
+from raysteps.exports.formats import validate, write, write_out
+from raysteps.exports.gradebook import MOODLE_COLUMNS, canvas, fill, moodle, read_sheet
+from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
+from raysteps.exports.hosted import Options, by_id
+from raysteps.exports.prairielearn import to_prairielearn
+from raysteps.exports.similarity import add_similarity_arguments, export_similarity
+from raysteps.grading.options import withhold
+from raysteps.results.store import read_results
+from raysteps.toolchain.limits import parse_limits
+
+# `export canvas` and `export moodle`.
+
+
+def _renamed(text: str) -> tuple[str, str]:
+    kind, _, name = text.partition("=")
+    if kind not in MOODLE_COLUMNS or not name.strip():
+        raise argparse.ArgumentTypeError(
+            f"'{text}': expected KIND=HEADING with KIND one of {', '.join(MOODLE_COLUMNS)}"
+        )
+    return kind, name.strip()
+
+
+def add_gradebook_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
+    """Both fill a file that was exported from the system."""
+    for system, title in (("canvas", "a gradebook exported from Canvas"), ("moodle", "a Moodle grading worksheet")):
+        add = systems.add_parser(system, help=f"fill in {title}")
+        add.add_argument("--template", type=Path, required=True, metavar="FILE", help=title)
+        add.add_argument("--results", type=Path, required=True, metavar="DIR", help="the output of grade-class")
+        add.add_argument("--out", type=Path, required=True, metavar="FILE", help="the filled file")
+        add.add_argument(
+            "--points", choices=["scale", "as-is"], help="what to do when the maximum there is not the kit's"
+        )
+        if system == "canvas":
+            add.add_argument("--assignment", metavar="NAME", help="its name or number, when there are several")
+        else:
+            add.add_argument(
+                "--column",
+                type=_renamed,
+                action="append",
+                default=[],
+                metavar="KIND=HEADING",
+                help=f"a heading in another language; KIND is one of {', '.join(MOODLE_COLUMNS)}",
+            )
+
+
+def _is_same_file(one: Path, other: Path) -> bool:
+    return one.resolve() == other.resolve()
+
+
+def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Writes the filled file, and says on stderr whom it could not grade."""
+    if _is_same_file(arguments.template, arguments.out):
+        raise UsageError(f"{arguments.out}: is the template; expected another name")
+    sheet = read_sheet(arguments.template)
+    is_moodle = arguments.system == "moodle"
+    renamed: Mapping[str, str] = dict(arguments.column) if is_moodle else {}
+    book = moodle(sheet, renamed) if is_moodle else canvas(sheet, arguments.assignment)
+    steps = by_id(read_steps(project))
+
+    graded = read_class(arguments.results)
+    documents = {one.submission: results_of(arguments.results, one) for one in graded if one.submission}
+
+    def feedback(one: Graded) -> str | None:
+        return moodle_cell(documents.get(one.submission), one, steps)
+
+    # Moodle leaves a grade above the maximum out without a word.
+    filled = fill(sheet, book, graded, feedback, points=arguments.points, clip=is_moodle)
+    for note in (*book.notes, *filled.notes):
+        print(f"raysteps: {clean(note)}", file=sys.stderr)
+    if not filled.graded:
+        raise UsageError(
+            f"{arguments.template}: no student in it is in {arguments.results / 'results.csv'}; nothing was written. "
+            "Expected are the same ids, email addresses or names in both, such as by a --roster for grade-class"
+        )
+    write_out(arguments.out, sheet.filled(filled.changes))
+    console.print(f"{escape(str(arguments.out))}: {count(filled.graded, 'grade')}", soft_wrap=True, highlight=False)
+    return 0
+
+
+# The options of `export`.
+
+_NUMBER = re.compile(r"[0-9]{1,18}")
+_MOST_MINUTES = 24 * 60
+
+
+def _seed(text: str) -> str:
+    if not _NUMBER.fullmatch(text):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a seed; expected a whole number from 0 on")
+    return text
+
+
+def _minutes(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value <= _MOST_MINUTES:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a time; expected minutes, such as 9")
+    return value
+
+
+def _add_grading(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("how submissions are graded there")
+    group.add_argument("--require-sandbox", action="store_true", help="grade only where student code can be shut in")
+    group.add_argument("--seed", type=_seed, metavar="N", help="of the hidden cases")
+    group.add_argument("--feedback", choices=["full", "diagnosis", "score"], help="how much the results tell")
+    group.add_argument(
+        "--steps",
+        "--only",
+        dest="steps",
+        nargs="+",
+        default=[],
+        metavar="STEP",
+        help="only these; all when none is given",
+    )
+    group.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as memory_mb=512")
+    group.add_argument("--minutes", type=_minutes, default=9.0, metavar="N", help="give up after that long (9)")
+
+
+def _add_results(parser: argparse.ArgumentParser) -> None:
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument("--results", type=Path, metavar="FILE", help="a results.json of `grade`, to be converted")
+    source.add_argument("--run", type=Path, metavar="PLACE", help="grade there: what the autograder itself calls")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="where the outcome goes")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The systems and their options."""
+    systems = parser.add_subparsers(dest="system", required=True, metavar="SYSTEM")
+    add = systems.add_parser("gradescope", help="autograder.zip, or one results.json")
+    _add_results(add)
+    add.add_argument("--hidden", choices=VISIBILITIES, default="visible", help="who sees the hidden checks (visible)")
+    add.add_argument("--metadata", type=Path, metavar="FILE", help="submission_metadata.json, with --results")
+    _add_grading(add)
+    add = systems.add_parser("classroom50", help="result.json, its autograder.py, or a workflow")
+    _add_results(add)
+    add.add_argument("--legacy", action="store_true", help="the output of GitHub Classroom's autograding instead")
+    add.add_argument("--repository", type=Path, default=Path(), metavar="DIR", help="the checked out submission (.)")
+    add.add_argument("--workflow", type=Path, metavar="FILE", help="write a workflow that grades")
+    add.add_argument("--kit", metavar="OWNER/REPOSITORY", help="where the workflow finds the kit")
+    add.add_argument("--autograder", type=Path, metavar="FILE", help="write an autograder.py")
+    _add_grading(add)
+    add = systems.add_parser("autolab", help="a tar with Makefile and driver, or the last lines of one")
+    _add_results(add)
+    _add_grading(add)
+    add = systems.add_parser("prairielearn", help="a folder for serverFilesCourse, or one results.json")
+    _add_results(add)
+    _add_grading(add)
+    add_gradebook_arguments(systems)
+    add_similarity_arguments(systems)
+
+
+def grading_words(arguments: argparse.Namespace) -> list[str]:
+    """The options that are passed on to `grade`."""
+    words = ["--require-sandbox"] if arguments.require_sandbox else []
+    words += ["--seed", arguments.seed] if arguments.seed is not None else []
+    words += ["--feedback", arguments.feedback] if arguments.feedback is not None else []
+    for limit in arguments.limit:
+        words += ["--limit", limit]
+    return words + (["--only", *arguments.steps] if arguments.steps else [])
+
+
+def refuse_grading_words(arguments: argparse.Namespace) -> None:
+    """With --results everything is graded already; only --feedback still makes a difference."""
+    for word in grading_words(arguments):
+        if word.startswith("--") and word != "--feedback":
+            option = "--steps" if word == "--only" else word
+            raise UsageError(f"--results converts what is graded already; leave {option} out, it is for grading")
+
+
+def script_words(arguments: argparse.Namespace) -> list[str]:
+    """The same options as `export` takes them, for the scripts that call it."""
+    words = ["--minutes", f"{arguments.minutes:g}", *grading_words(arguments)]
+    words = ["--steps" if word == "--only" else word for word in words]
+    return ["--hidden", arguments.hidden, *words] if arguments.system == "gradescope" else words
+
+
+def out_file(arguments: argparse.Namespace, what: str) -> Path:
+    """--out, where it cannot be left away."""
+    if arguments.out is None:
+        raise UsageError(f"say where it goes with --out {what}")
+    path: Path = arguments.out
+    return path
+
+
+# Writes what is uploaded to another system.
+
+
+def package(project: Project, arguments: argparse.Namespace) -> list[Path]:
+    """The files or folders that were written."""
+    choose(read_steps(project), arguments.steps)
+    parse_limits(arguments.limit)
+    words = script_words(arguments)
+    match arguments.system:
+        case "gradescope":
+            path = out_file(arguments, "autograder.zip")
+            write_out(path, gradescope_zip(project, words))
+        case "autolab":
+            path = out_file(arguments, "raysteps-autolab.tar")
+            write_out(path, autolab_tar(project, words))
+        case "prairielearn":
+            path = out_file(arguments, "serverFilesCourse/raysteps")
+            into_folder(prairielearn_folder(project, words), path)
+        case _:
+            return _package_github(arguments, words)
+    return [path]
+
+
+def _package_github(arguments: argparse.Namespace, words: list[str]) -> list[Path]:
+    if arguments.workflow is not None:
+        write_out(arguments.workflow, github_workflow(arguments.kit, words, legacy=arguments.legacy))
+    if arguments.autograder is not None:
+        write_out(arguments.autograder, classroom50_autograder(words))
+    written = [path for path in (arguments.workflow, arguments.autograder) if path is not None]
+    if not written:
+        raise UsageError("expected --results FILE, --workflow FILE or --autograder FILE")
+    return written
+
+
+__all__ = ["add_arguments", "run"]
+
+
+def _options(arguments: argparse.Namespace) -> Options:
+    words = tuple(grading_words(arguments))
+    return Options(arguments.minutes * 60, tuple(arguments.steps), words, echo=arguments.system == "gradescope")
+
+
+def _run_there(project: Project, arguments: argparse.Namespace) -> int:
+    place, options = arguments.run.resolve(), _options(arguments)
+    match arguments.system:
+        case "gradescope":
+            return running.gradescope(project, place, options, arguments.hidden)
+        case "prairielearn":
+            return running.prairielearn(project, place, options)
+        case "autolab":
+            return running.autolab(project, place, options)
+        case _:
+            return running.github(project, place, options, arguments.out, legacy=arguments.legacy)
+
+
+def _convert(project: Project, arguments: argparse.Namespace) -> int:
+    refuse_grading_words(arguments)
+    document, steps = read_results(arguments.results), by_id(read_steps(project))
+    document = withhold(document, arguments.feedback or "full")
+    match arguments.system:
+        case "gradescope":
+            names = submitters(arguments.metadata) if arguments.metadata is not None else []
+            results = to_gradescope(document, steps, hidden=arguments.hidden, names=names)
+            write(results, "gradescope", out_file(arguments, "results.json"))
+        case "prairielearn":
+            results = to_prairielearn(document, steps, arguments.results.parent)
+            write(results, "prairielearn", out_file(arguments, "results.json"))
+        case "autolab":
+            lines = to_autolab(document, steps)
+            validate(lines, "autolab")
+            if arguments.out is None:
+                print(as_lines(lines), end="", flush=True)
+            else:
+                write_out(arguments.out, as_lines(lines).encode())
+        case _:
+            running.deliver_github(document, steps, arguments.out, arguments.repository, legacy=arguments.legacy)
+    return 0
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Runs `export` and returns its exit code."""
+    if arguments.system in ("canvas", "moodle"):
+        return fill_gradebook(project, arguments, console)
+    if arguments.system == "similarity":
+        return export_similarity(project, arguments)
+    if arguments.run is not None:
+        return _run_there(project, arguments)
+    if arguments.results is not None:
+        return _convert(project, arguments)
+    course = read_course(project)
+    if arguments.seed is None and course.seed is not None:
+        arguments.seed = str(course.seed)  # what is uploaded does not take course.toml along
+    for path in package(project, arguments):
+        print(f"raysteps: wrote {path}", file=sys.stderr)
+    return 0

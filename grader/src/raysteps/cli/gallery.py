@@ -1,0 +1,86 @@
+"""The command `gallery`: chosen scenes after every step, on one page."""
+
+import argparse
+import re
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.common.files import usable_folder
+from raysteps.common.text import size as shown_size
+from raysteps.course.project import Project
+from raysteps.exports.formats import write_out
+from raysteps.gallery.gallery_page import Hung, gallery_page
+from raysteps.gallery.scenes import CHOSEN, Shown, shown_scenes
+from raysteps.gallery.shots import MySteps, my_steps, reference_efforts, reference_shots
+from raysteps.report.terminal import progress, short_path
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+
+SIZE = "800x600"
+_LEAST, _MOST = 16, 2048  # pixels along a side
+
+
+def _size(word: str) -> str:
+    found = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", word)
+    if found is None or not all(_LEAST <= int(side) <= _MOST for side in found.groups()):
+        raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MOST}, like 800x600")
+    return word
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What to show, and where."""
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where index.html goes")
+    parser.add_argument(
+        "--scene",
+        action="append",
+        default=[],
+        metavar="S",
+        help=f"an NFF file, or the name of a scene of the kit; may be repeated ({', '.join(CHOSEN)})",
+    )
+    parser.add_argument("--mine", action="store_true", help="show the pictures of your own steps, too")
+    parser.add_argument("--size", type=_size, default=SIZE, metavar="WxH", help=f"of the pictures ({SIZE})")
+
+
+def _hang(kit: BuiltKit, scene: Shown, size: str, own: MySteps | None, say: Say) -> Hung:
+    shots = reference_shots(kit, scene, size, say)
+    efforts = reference_efforts(kit, scene, say)
+    if own is None:
+        return Hung(scene, shots, efforts)
+    mine = []
+    for step in kit.steps:
+        say(f"{scene.name}: your step {step.number}")
+        mine.append(own.shot(step, scene, size))
+    return Hung(scene, shots, efforts, mine, own.efforts(scene))
+
+
+def _notes(scenes: Sequence[Hung], kit: BuiltKit) -> list[str]:
+    """Of steps without a picture; each note once."""
+    pairs = [(step, shot) for hung in scenes for step, shot in zip(kit.steps, hung.mine, strict=False)]
+    return list(dict.fromkeys(f"{step.id}: {shot.note}" for step, shot in pairs if shot.pixels is None))
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when the page was made, also where some of the student's pictures could not be."""
+    out: Path = arguments.out
+    if out.is_file():
+        raise UsageError(f"--out {out}: is a file; expected a folder")
+    usable_folder(out)
+    scenes = shown_scenes(project, arguments.scene)
+    with console.status("starting") as status, ExitStack() as stack:
+        say = progress(console, status)
+        kit = build_kit(project, say)
+        own = stack.enter_context(my_steps(kit, say)) if arguments.mine else None
+        hung = [_hang(kit, scene, arguments.size, own, say) for scene in scenes]
+        say("writing the page")
+        page = gallery_page(kit.steps, hung).encode("utf-8", "replace")
+    path = out / "index.html"
+    write_out(path, page)
+    for note in _notes(hung, kit):
+        console.print(f"No picture of {note}", markup=False, highlight=False, soft_wrap=True)
+    console.print(f"Gallery: {escape(short_path(path.resolve()))} ({shown_size(len(page))})", soft_wrap=True)
+    return 0

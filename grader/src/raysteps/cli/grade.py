@@ -1,0 +1,95 @@
+"""The command `grade`: somebody else's steps."""
+
+import argparse
+import hashlib
+import os
+import re
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from rich.console import Console
+
+from raysteps.common.files import one_at_a_time
+from raysteps.common.platform import own_command, typed
+from raysteps.course.manifest import choose, read_steps
+from raysteps.course.project import Project
+from raysteps.course.settings import read_course
+from raysteps.grading.options import Settings
+from raysteps.grading.pipeline import grade_one
+from raysteps.progress.check import clear, exit_code
+from raysteps.report.student import try_student_page
+from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
+from raysteps.results.model import Results
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.submission.load import submission_name, take_in
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.limits import parse_limits
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What was asked for on the command line of `grade`."""
+
+    submission: Path
+    out: Path | None = None
+    settings: Settings = field(default_factory=Settings)
+    require_sandbox: bool = False
+    details: bool = True
+    jobs: int | None = None  # steps at a time; as many as there are processors when not said
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What is graded, and how."""
+    parser.add_argument("submission", type=Path)
+    parser.add_argument("--out", type=Path, help="where results.json and the pictures go")
+    parser.add_argument("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
+    parser.add_argument("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only")
+    parser.add_argument(
+        "--feedback", choices=["full", "diagnosis", "score"], default="full", help="what results.json tells"
+    )
+    parser.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
+    parser.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
+    parser.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
+
+
+def _above_0(word: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,4}", word) or int(word) == 0:
+        raise argparse.ArgumentTypeError(f"{word}: expected a whole number above 0")
+    return int(word)
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Grades one submission."""
+    only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
+    seed = read_course(project).seed_or(arguments.seed)
+    settings = Settings(seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
+    wish = Wish(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
+    return exit_code(grade(project, wish, console))
+
+
+def grade(project: Project, wish: Wish, console: Console) -> Results:
+    """Grades one submission in the sandbox, writes its results and prints what came out."""
+
+    def again(case: str) -> str:
+        words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
+        return f"{own_command()} {typed(words)}"
+
+    sandbox = find_sandbox(require=wish.require_sandbox)
+    out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
+    lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
+    with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
+        say = progress(console, status)
+        submission = take_in(wish.submission, read_steps(project))
+        kit = build_kit(project, say)
+        clear(out, kit.steps, kit.steps)
+        settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
+        results = grade_one(kit, submission, settings, sandbox, out, say)
+        page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
+
+    if wish.details:
+        print_details(console, results, kit.steps, out, again)
+        console.print()
+    print_table(console, results)
+    print_isolation(console, results)
+    print_files(console, out / "results.json", page)
+    return results

@@ -1,0 +1,241 @@
+"""The command `grade-class`."""
+
+import argparse
+import os
+import shlex
+from collections.abc import Container, Iterator
+from contextlib import closing, contextmanager
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from raysteps.classroom.class_document import class_document
+from raysteps.classroom.class_files import withdraw_tables, write_class
+from raysteps.classroom.cluster import Cluster
+from raysteps.classroom.database import LOCK, ClassDatabase
+from raysteps.classroom.entries import Shard, read_shard
+from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
+from raysteps.classroom.local_pool import LocalPool
+from raysteps.classroom.merge import merge
+from raysteps.classroom.run_plan import Order, Plan, make_plan
+from raysteps.classroom.session import Runner, Session, terminated_as_interrupted
+from raysteps.classroom.summary import Meter, print_summary
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import try_lock, usable_folder
+from raysteps.common.platform import refuse_on_windows
+from raysteps.course.project import Project
+from raysteps.course.settings import Course, read_course
+from raysteps.toolchain.limits import parse_limits
+
+# The words after `grade-class`.
+
+_NO_COURSE = Course()
+_NONE = "none"  # instead of a file: without one, also where the last run had one
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What may follow `grade-class`."""
+    add = parser.add_argument
+    add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per submission")
+    add("--out", type=Path, required=True, metavar="OUT", help="where class.sqlite, results.csv and the rest go")
+    add("--roster", metavar="CSV", help="the students: id, name, email, submission, submitted_at; or `none`")
+    add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
+    add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
+    add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
+    add(
+        "--late-policy",
+        metavar="TOML",
+        help="deadline, grace, percent per day, extensions; or `none`",
+    )
+    add("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
+    add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
+    add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
+    add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
+    add("--scheduler", default="", metavar="ADDRESS", help="grade on a Dask cluster, such as tcp://head:8786")
+    add("--shard", default="1/1", metavar="i/n", help="grade only the i-th of n parts of the class")
+    add(
+        "--merge", nargs="+", type=Path, default=[], metavar="OUT", help="bring the results of shards together in --out"
+    )
+
+
+def refuse_beside_merge(arguments: argparse.Namespace) -> None:
+    """All other options say how to grade; to ignore them without a word would be worse."""
+    if arguments.folder is not None:
+        raise UsageError("--merge brings together what is graded already; leave DIR out")
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    for name, value in vars(arguments).items():
+        option = f"--{name.replace('_', '-')}"
+        if name not in ("merge", "out") and option in parser.format_help() and value != parser.get_default(name):
+            raise UsageError(f"--merge brings together what is graded already; {option} is for the shards")
+
+
+def _file(word: str | None) -> Path | None:
+    return None if word is None or word == _NONE else Path(word)
+
+
+def read_order(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> Order:
+    """What is not said is as course.toml says."""
+    if arguments.folder is None:
+        raise UsageError("grade-class: expected a folder of submissions (or --merge)")
+    if arguments.jobs is not None and arguments.scheduler:
+        raise UsageError("--jobs is for this machine; with --scheduler the workers say how much they do at a time")
+    jobs = arguments.jobs
+    if jobs is None:
+        jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if not 1 <= jobs <= 1024:
+        raise UsageError(f"--jobs {jobs}: expected a number from 1 to 1024")
+    return Order(
+        arguments.folder,
+        arguments.out,
+        _file(arguments.roster),
+        jobs,
+        arguments.resume,
+        tuple(arguments.only),
+        course.late_policy if arguments.late_policy is None else _file(arguments.late_policy),
+        course.seed_or(arguments.seed),
+        arguments.feedback,
+        parse_limits(arguments.limit),
+        arguments.require_sandbox,
+        arguments.scheduler,
+        read_shard(arguments.shard),
+        grader,
+        no_roster=arguments.roster == _NONE,
+        no_late_policy=arguments.late_policy == _NONE,
+    )
+
+
+def _plain(value: float) -> str:
+    """All digits, and no exponent: it must give the same number again."""
+    return format(Decimal(repr(value)), "f").removesuffix(".0")
+
+
+def line_to_go_on(order: Order) -> str:
+    """The line that goes on with the same run."""
+    words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
+    for option, path, dropped in (
+        ("--roster", order.roster, order.no_roster),
+        ("--late-policy", order.late_policy, order.no_late_policy),
+    ):
+        named = f"./{path}" if str(path) == _NONE else str(path)
+        words += [option, named] if path is not None else [option, _NONE] if dropped else []
+    if order.scheduler:
+        words += ["--scheduler", order.scheduler]
+    else:
+        words += ["--jobs", str(order.jobs)]
+    if order.seed != 1:
+        words += ["--seed", str(order.seed)]
+    if order.feedback != "full":
+        words += ["--feedback", order.feedback]
+    for name, value in order.limits.items():
+        words += ["--limit", f"{name}={_plain(value)}"]
+    words += ["--require-sandbox"] if order.require_sandbox else []
+    words += ["--shard", str(order.shard)] if order.shard != Shard() else []
+    words += ["--only", *order.only] if order.only else []
+    return shlex.join([*words, "--resume"])
+
+
+__all__ = ["add_arguments", "run"]
+
+
+@contextmanager
+def _only_one(out: Path) -> Iterator[None]:
+    """Two runs into one folder would take each other's results for changes."""
+    usable_folder(out)
+    with (out / LOCK).open("a") as file:
+        try:
+            is_ours = try_lock(file.fileno())
+        except OSError:
+            is_ours = True  # a file system without locks
+        if not is_ours:
+            raise UsageError(f"{out}: another grade-class is writing there; wait for it, or name another --out")
+        yield
+
+
+def _finish(console: Console, database: ClassDatabase, out: Path, done: Container[str] = ()) -> dict[str, Any]:
+    document = class_document(database)
+    write_class(database, out, document, done)
+    print_summary(console, document, out)
+    return document
+
+
+def _runner(plan: Plan, kit: str, meter: Meter) -> Runner:
+    order = plan.order
+    if not order.scheduler:
+        return LocalPool(order.jobs)
+    sandbox = order.require_sandbox
+    return Cluster(order.scheduler, plan.uid, kit, order.grader, require_sandbox=sandbox, say=meter.say)
+
+
+def _prepare(order: Order, meter: Meter) -> Grader:
+    """The kit of this machine: its fingerprint is what every result is held against."""
+    sandbox = order.require_sandbox and not order.scheduler
+    grader = make_grader(order.grader, require_sandbox=sandbox, say=meter.say)
+    if not order.scheduler:
+        meter.say(grader.isolation.description)
+    return grader
+
+
+def _again(order: Order) -> str:
+    return f"To go on:\n  {line_to_go_on(order)}"
+
+
+def _interrupted(console: Console, again: str) -> int:
+    console.print(f"Interrupted. {again}", markup=False, highlight=False, soft_wrap=True)
+    return 130
+
+
+def _grade(console: Console, plan: Plan, grader: Grader, meter: Meter) -> int:
+    order = plan.order
+    again = _again(order)
+    runner = _runner(plan, grader.fingerprint, meter)
+    with closing(ClassDatabase(order.out)) as database:
+        registered = plan.registered(database.names())
+        run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
+        names = {row.entry: row.name for row in registered}
+        session = Session(plan, grader.fingerprint, database, meter, run, names)
+        try:
+            with meter:
+                complete = session.grade(runner)
+        except GraderFault as fault:
+            if session.recorded:
+                _finish(console, database, order.out, session.recorded)
+            raise GraderFault(f"{fault}\n{again}") from fault
+        document = _finish(console, database, order.out, session.recorded)
+    if not complete:
+        return _interrupted(console, again)
+    return GraderFault.exit_code if document["faults"] else 0
+
+
+def _merge(console: Console, folders: list[Path], out: Path) -> int:
+    with _only_one(out), closing(ClassDatabase(out)) as database:
+        missing, warnings = merge(folders, database)
+        withdraw_tables(out)
+        document = _finish(console, database, out)
+    for warning in warnings:
+        console.print(f"Warning: {warning}", markup=False, highlight=False, soft_wrap=True)
+    if missing:
+        console.print(f"Missing: {', '.join(missing)} of the shards", markup=False)
+    return GraderFault.exit_code if missing or document["faults"] or document["not_graded"] else 0
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console, *, grader: str = KIT_GRADER) -> int:
+    """0 when all were graded, whatever their points; 4 when the grader failed with one, or when a merge leaves some
+    that are not graded yet; 130 when interrupted."""
+    refuse_on_windows("grade-class")
+    if arguments.merge:
+        refuse_beside_merge(arguments)
+        return _merge(console, arguments.merge, arguments.out)
+    plan = make_plan(project, read_order(arguments, grader, read_course(project)))
+    with _only_one(plan.order.out):
+        meter = Meter(console, len(plan.mine()))
+        for words in plan.given.said:
+            meter.say(words)
+        try:
+            with terminated_as_interrupted():
+                made = _prepare(plan.order, meter)
+        except KeyboardInterrupt:
+            return _interrupted(console, _again(plan.order))
+        return _grade(console, plan, made, meter)

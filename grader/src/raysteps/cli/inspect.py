@@ -1,0 +1,141 @@
+"""The command `inspect`."""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.cli.render import build_program, whose
+from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
+from raysteps.common.errors import UsageError
+from raysteps.common.text import listed
+from raysteps.course.manifest import choose, read_steps
+from raysteps.course.project import Project
+from raysteps.exports.formats import encoded, write_out
+from raysteps.inspector.pixel_page import write_page
+from raysteps.inspector.programs import Inspected, Wish, inspect, last_good_step
+from raysteps.inspector.records import Difference, Record
+from raysteps.toolchain.cmake import release_tree
+
+
+def _pixel(word: str) -> str:
+    """One of the two; told at once, as whoever writes both in one word would hear that Y is missing."""
+    if not re.fullmatch(r"[0-9]{1,5}", word):
+        raise argparse.ArgumentTypeError(f"expected X and Y, two whole numbers from 0 on like 80 60, found '{word}'")
+    return word
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which pixel of which picture, and whose steps."""
+    parser.add_argument("scene", metavar="SCENE", help="such as scenes/lessons/three-spheres.nff")
+    parser.add_argument("x", metavar="X", type=_pixel, help="pixels from the left, from 0")
+    parser.add_argument("y", metavar="Y", type=_pixel, help="pixels from the top, from 0")
+    parser.add_argument("--step", metavar="N", help="with what the course has after step N (8, or the kit's last step)")
+    parser.add_argument("--size", metavar="WxH", help="pixels of the picture (the scene's own)")
+    parser.add_argument("--depth", metavar="D", help="longest chain of rays, the eye ray included (5)")
+    parser.add_argument("--view", choices=["color", "normals"], help="what step 2 shows (color)")
+    parser.add_argument(
+        "--accel",
+        choices=["none", "boxes", "octree", "bvh"],
+        help="none before step 6, octree from there on, bvh for step 9",
+    )
+    parser.add_argument("--impl", choices=["mine", "reference"], default="mine", help="whose steps (mine)")
+    parser.add_argument(
+        "--against", choices=["reference"], help="both trees side by side, and where they part; exit code 1 if they do"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the record there, too")
+    parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")
+
+
+def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
+    steps = read_steps(project)
+    named = ["step", "size", "depth", "view", "accel"]
+    words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
+    if arguments.impl == "mine":
+        words += as_far_as_written(project, words)
+    at = words.index("--step") if "--step" in words else len(words)
+    (step,) = choose(steps, words[at + 1 : at + 2] or [str(usual_step(project))])
+    return Wish(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
+
+
+def _say_unfinished(project: Project, wish: Wish) -> None:
+    left = unfinished(project, wish.step)
+    if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
+        file = f"steps/{left[0][0].path.as_posix()}"
+        other = ", or look at the reference: --impl reference" if project.has_reference else ""
+        raise UsageError(
+            f"your steps are not started: expected a camera in {file}, found the stub. Write it first{other}"
+        )
+    for step, functions in left:
+        print(f"raysteps: step {step.number}: {listed(functions)} not written yet", file=sys.stderr)
+
+
+def _tell_problem(inspected: Inspected, program: Path, wish: Wish) -> None:
+    good = last_good_step(program, wish)
+    up_to = f" With --step {good} it comes to its end." if 0 < good < wish.step else ""
+    print(f"raysteps: {whose(program)} {inspected.problem}{up_to}", file=sys.stderr)
+
+
+def _write_json(arguments: argparse.Namespace, inspected: Inspected, console: Console) -> None:
+    if arguments.json is not None and inspected.record is not None:
+        write_out(arguments.json, encoded(inspected.record))
+        console.print(f"Record: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when the pixel could be followed and, where two are compared, they agree."""
+    wish = _wish(project, arguments)
+    if (arguments.against or arguments.impl == "reference") and not project.has_reference:
+        raise UsageError("a students' kit has no reference to inspect; pictures made with it lie in reference/")
+    if arguments.against and arguments.impl == "reference":
+        raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
+    if not Path(arguments.scene).is_file():
+        raise UsageError(f"{arguments.scene}: expected a scene, found no file of that name")
+    if arguments.impl == "mine":
+        _say_unfinished(project, wish)
+
+    tree = release_tree(project)
+    program = build_program(tree, "inspect", arguments.impl)
+    reference = build_program(tree, "inspect", "reference") if arguments.against else None
+    inspected = inspect(program, wish)
+    if inspected.problem:
+        _tell_problem(inspected, program, wish)
+        return 1
+    _write_json(arguments, inspected, console)
+    if reference is not None:
+        return compare(project, inspected, inspect(reference, wish), console, arguments.html)
+    assert inspected.record is not None
+    sys.stdout.write(inspected.text)
+    _write_html(arguments.html, console, inspected.record)
+    return 1 if inspected.record["endless"] else 0
+
+
+def _write_html(
+    path: Path | None,
+    console: Console,
+    record: Record,
+    reference: Record | None = None,
+    parting: Difference | None = None,
+) -> None:
+    if path is not None:
+        write_page(record, reference, parting, path)
+        console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
+
+
+def compare(project: Project, mine: Inspected, reference: Inspected, console: Console, html: Path | None = None) -> int:
+    """Both trees, and the first place where they part."""
+    # What knows the formulas of the steps is not for students.
+    from raysteps.inspector.divergence import find_parting
+    from raysteps.inspector.side_by_side import print_trees, print_verdict
+
+    assert mine.record is not None
+    if reference.record is None:
+        raise UsageError(f"the reference's program {reference.problem}")
+    parting = find_parting(mine.record, reference.record)
+    print_trees(console, mine.record, reference.record, parting)
+    print_verdict(console, read_steps(project), mine.record, reference.record, parting)
+    _write_html(html, console, mine.record, reference.record, parting)
+    return 0 if parting is None else 1

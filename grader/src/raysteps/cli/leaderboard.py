@@ -1,0 +1,56 @@
+"""The command `leaderboard`."""
+
+import argparse
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.classroom.leaderboard import print_board, print_caption, rank, read_entries, to_json
+from raysteps.common.errors import UsageError
+from raysteps.common.text import listed
+from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.project import Project
+from raysteps.exports.formats import encoded, write_out
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where the results are, and what to make of them."""
+    parser.add_argument(
+        "places",
+        nargs="+",
+        type=Path,
+        metavar="PLACE",
+        help="the folder of a graded class, its class.json or class.sqlite, or results.json files",
+    )
+    parser.add_argument(
+        "--step", action="append", default=[], metavar="STEP", help="such as 06; may be repeated (all with counters)"
+    )
+    parser.add_argument("--anonymous", action="store_true", help="leave the names out")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the ranking there, too")
+
+
+def _steps(project: Project, names: list[str]) -> list[Step]:
+    steps = read_steps(project)
+    counted = [step.id for step in steps if step.limited_pictures]
+    chosen = choose(steps, names or counted)
+    for step in chosen:
+        if step.id not in counted:
+            raise UsageError(f"--step: in {step.id} no work is counted; expected {listed(counted)}")
+    return chosen
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when the boards were made, also where nobody can be ranked."""
+    steps = _steps(project, arguments.step)
+    entered = read_entries(arguments.places)
+    boards = [rank(entered, step) for step in steps]
+    document = to_json(boards, anonymous=arguments.anonymous)
+    for board in boards:
+        print_board(console, board, anonymous=arguments.anonymous)
+        console.print()
+    print_caption(console)
+    if arguments.json is not None:
+        write_out(arguments.json, encoded(document))
+        console.print(f"Ranking: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
+    return 0

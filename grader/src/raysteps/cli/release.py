@@ -1,0 +1,107 @@
+"""The command `release`."""
+
+import argparse
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.common.text import count, listed
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project
+from raysteps.release.build_release import first_steps, release, usable, written_files
+from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searched
+from raysteps.release.secrets import Secrets, gather
+from raysteps.report.terminal import progress
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.updater.generated_files import FOLDERS
+
+_MOST_SHOWN = 20
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where to, and what of it; or what to look through."""
+    where = parser.add_mutually_exclusive_group(required=True)
+    where.add_argument("--out", type=Path, metavar="DIR", help="a new or empty folder, or an earlier release")
+    where.add_argument("--check", type=Path, metavar="DIR", help="look for solutions in a folder that is to go out")
+    parser.add_argument("--steps", metavar="1-N", help="the first steps only, such as 1-4, or 4")
+    parser.add_argument("--course", default="Raysteps", metavar="NAME", help="for the README (Raysteps)")
+
+
+def _tell(console: Console, leaks: list[Leak]) -> bool:
+    for leak in leaks[:_MOST_SHOWN]:
+        console.print(f"[red]leak[/red]  {escape(str(leak))}", highlight=False, soft_wrap=True)
+    if len(leaks) > _MOST_SHOWN:
+        console.print(f"      and {count(len(leaks) - _MOST_SHOWN, 'more')}", highlight=False)
+    return bool(leaks)
+
+
+def refuse_inside(project: Project, out: Path) -> None:
+    """A release among the files of the kit would be taken for a part of it, and given out with the next one."""
+    root = project.root.resolve()
+    if out == root or (root in out.parents and project.build.resolve() not in out.parents):
+        raise UsageError(f"{out}: lies in the kit's own folder; expected one elsewhere, such as ../{out.name}")
+
+
+def _check(secrets: Secrets, folder: Path, console: Console) -> int:
+    """0 only when all of the folder was searched, as all of it may be handed out."""
+    if not folder.is_dir():
+        raise UsageError(f"{folder}: expected the folder of a release")
+    left_out = not_searched(folder)
+    leaks = _tell(console, find_leaks(secrets, folder, tried=True))
+    if not leaks:
+        console.print(f"No solution was found in {'what was searched' if left_out else 'it'}.")
+    if left_out:
+        _say(
+            console,
+            f"Not searched: {left_out}. Setting up and trying a kit makes these; they are no part of a release and "
+            "may hold anything. Take them away and check again before you hand this folder out",
+        )
+    return 1 if leaks or left_out else 0
+
+
+def _say(console: Console, text: str) -> None:
+    console.print(escape(text), highlight=False, soft_wrap=True)
+
+
+def _chosen(project: Project, text: str | None, console: Console) -> list[Step]:
+    steps = first_steps(text, read_steps(project))
+    if text is not None and "-" not in text and len(steps) > 1:
+        _say(console, f"steps {steps[0].index}-{steps[-1].index}: a kit begins with step {steps[0].number}")
+    return steps
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when nothing leaks, else 1."""
+    if not project.has_reference:
+        raise UsageError("a students' kit cannot be released; expected the whole kit, with solutions/")
+    if arguments.check is not None:
+        return _check(gather(project), arguments.check, console)
+    course = arguments.course.strip()
+    if "\n" in arguments.course or not course:
+        raise UsageError("--course: expected a name of one line")
+    out = arguments.out.resolve()
+    refuse_inside(project, out)
+    usable(out)
+    steps = _chosen(project, arguments.steps, console)
+    written_files(project, steps, course)  # what may not go out is told before anything is built
+    secrets = gather(project)
+    with console.status("starting") as status:
+        say = progress(console, status)
+
+        def leaks(folder: Path, history: Path) -> bool:
+            told = [_tell(console, find_leaks(secrets, folder)), _tell(console, leaks_in_history(secrets, history))]
+            if told[1]:
+                console.print(escape(f"{history}: its history tells this for good; name a new folder with --out"))
+            return any(told)
+
+        written = release(build_kit(project, say), steps, course, out, leaks, say)
+    if not written:
+        console.print("Nothing was written.")
+        return 1
+    _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
+    kept = [name for name in FOLDERS if (out / name).is_dir()]
+    if kept:
+        _say(console, f"Kept from before, and not searched: {listed(kept)}")
+    return 0

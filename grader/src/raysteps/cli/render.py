@@ -1,0 +1,173 @@
+"""The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
+
+import argparse
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from raysteps.cli.todo_steps import advice, as_far_as_written, wanted_step
+from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.process import Outcome
+from raysteps.common.text import printable
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project, here
+from raysteps.grading.build_messages import (
+    compile_message,
+    errors_in,
+    is_of_a_linker,
+    link_message,
+    missing_message,
+    missing_name,
+    undefined_message,
+)
+from raysteps.images.compare import PictureError, read_ppm, write_png
+from raysteps.sandbox.task import Ran
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
+
+# What a student is told when a program that is made of the own steps does not build.
+
+_FAILED = re.compile(r"^FAILED: .*$", re.MULTILINE)
+_USUAL = "It does not build: "
+
+
+def _failed_step(steps: list[Step], said: str) -> Step | None:
+    """The first whose own file has an error, else the one at which the build stopped: its error is in a header. Where
+    a file of the kit fails as well, it is the kit's."""
+    with_errors = [step for step in steps if errors_in(said, step.file)]
+    failed = [line.replace("\\", "/") for line in _FAILED.findall(said)]
+    stopped = [next((step for step in steps if step.path.as_posix() in line), None) for line in failed]
+    return next(iter(with_errors or ([] if None in stopped else stopped)), None)
+
+
+def _not_linked(steps: list[Step], said: str, ran: Ran) -> str:
+    """Something that a header asks for, or a helper that was declared and forgotten."""
+    missing = missing_name(said)
+    if missing is None:
+        return f"your steps do not build: {link_message(ran).removeprefix(_USUAL)}"
+    name, line = missing
+    bare = name.partition("(")[0].rpartition("::")[2].strip()
+    owner = next((step for step in steps if bare in step.functions), None)
+    step = owner or next((step for step in steps if step.file in line), None)
+    why = (missing_message if owner else undefined_message)((name,)).removeprefix(_USUAL)
+    return f"{f'step {step.number} does not build' if step else 'your steps do not build'}: {why}"
+
+
+def why_own_steps_do_not_build(project: Project, outcome: Outcome) -> str:
+    """The first error in a file of the student's with the lines around it, as `check` shows it."""
+    if outcome.timed_out:
+        return f"your steps do not build: it was stopped after {outcome.seconds:.0f} s"
+    said = printable(outcome.stdout + outcome.stderr)
+    ran = Ran(Outcome(outcome.code, outcome.timed_out, "", said, outcome.seconds), {}, outcome.seconds, "")
+    steps = read_steps(project)
+    step = _failed_step(steps, said)
+    if step is not None:
+        source = (project.steps / step.path).read_text(encoding="utf-8", errors="replace")
+        return f"step {step.number} does not build: {compile_message(step, source, ran).removeprefix(_USUAL)}"
+    if is_of_a_linker(said):
+        return _not_linked(steps, said, ran)
+    return f"your steps do not build:\n{what_failed(outcome)}"
+
+
+def take_impl(args: list[str]) -> tuple[str, list[str]]:
+    """Takes `--impl X` out of the arguments."""
+    impl = "mine"
+    rest = []
+    words = iter(args)
+    for word in words:
+        if word == "--impl":
+            impl = next(words, "")
+        elif word.startswith("--impl="):
+            impl = word.removeprefix("--impl=")
+        else:
+            rest.append(word)
+    if impl not in ("mine", "reference"):
+        raise UsageError(f"--impl: expected mine or reference, found '{impl}'")
+    if impl == "reference" and not here().has_reference:
+        raise UsageError("--impl reference: a students' kit has none; pictures made with it lie in reference/")
+    return impl, rest
+
+
+def _say(text: str) -> None:
+    print(f"raysteps: {text}; the first time takes a minute or two", file=sys.stderr, flush=True)
+
+
+def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
+    """Builds a program from the student's steps; what the compiler says is told only when that fails."""
+    if not tree.program(target).exists():
+        _say("building")
+    with tree.locked():
+        outcome = tree.build([target])
+    if outcome.code != 0:
+        raise StudentBuildError(why_own_steps_do_not_build(tree.project, outcome))
+    return tree.program(target)
+
+
+def build_reference(tree: BuildTree, target: str) -> Path:
+    """Builds a program from the reference's steps."""
+    if not tree.program(target).exists():
+        _say("building")
+    with tree.locked():
+        outcome = tree.build([target])
+    if outcome.code != 0:
+        raise GraderFault(f"{target} does not build:\n{what_failed(outcome)}")
+    return tree.program(target)
+
+
+def build_program(tree: BuildTree, name: str, impl: str) -> Path:
+    """NAME-mine or NAME-reference."""
+    return (build_mine if impl == "mine" else build_reference)(tree, f"{name}-{impl}")
+
+
+def whose(program: Path) -> str:
+    """A program as people speak of it."""
+    return "your program" if program.stem.endswith("-mine") else "the reference's program"
+
+
+def run_raytrace(program: Path, args: list[str]) -> None:
+    """Runs the program on this terminal, so that its progress bar shows."""
+    code = subprocess.run([program, *args], check=False).returncode
+    name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_words
+    if name is not None:
+        print(f"raysteps: {whose(program)} crashed ({name}) while it rendered", file=sys.stderr)
+        raise SystemExit(1)
+    if code != 0:
+        raise SystemExit(code)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The program itself reads them: see `run_words`."""
+    parser.add_argument("args", nargs=argparse.REMAINDER)
+
+
+def run_words(project: Project, args: list[str]) -> int:
+    """Same arguments as raytrace, and a name in .png makes a PNG."""
+    impl, args = take_impl(args)
+    at = args.index("-o") + 1 if "-o" in args else len(args)
+    if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
+        raise UsageError(f"{args[at]}: pictures are written as .png or .ppm; expected a name that ends so")
+    program = (
+        build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
+    )
+    if impl == "mine" and at < len(args):
+        args = [*args, *as_far_as_written(project, args)]
+        said = advice(project, wanted_step(project, args))
+        if said:
+            print(f"raysteps: {said}", file=sys.stderr)
+    if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
+        run_raytrace(program, args)
+        return 0
+    target = Path(args[at])
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        picture = Path(folder) / "picture.ppm"
+        run_raytrace(program, [*args[:at], str(picture), *args[at + 1 :]])
+        if not picture.exists():  # such as --help, which renders nothing
+            return 0
+        try:
+            write_png(read_ppm(picture), target)
+        except (PictureError, OSError) as error:
+            print(f"raysteps: {target}: {error}", file=sys.stderr)
+            return 2
+    return 0

@@ -1,0 +1,114 @@
+"""The command `replay`: one hidden case, asked again."""
+
+import argparse
+import tempfile
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.text import shorten
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project
+from raysteps.grading.build_messages import link_message, why_not_built
+from raysteps.judge.cases import functions_of
+from raysteps.judge.counterexamples import LONGEST, CaseFile, read_case
+from raysteps.judge.decode_case import read_inputs
+from raysteps.judge.functions import Case, Function
+from raysteps.judge.protocol import Garbled
+from raysteps.judge.worker import Ask, Judged, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.load import take_in
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.compile import StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import limits_of
+
+
+def _find(project: Project, path: Path) -> Path:
+    """As it was typed, or below the results of `check`, which prints the short form."""
+    below = project.build / "check" / path
+    return below if not path.exists() and below.is_file() else path
+
+
+def _read(project: Project, path: Path) -> tuple[CaseFile, Step, Case]:
+    file = read_case(path)
+    steps = read_steps(project)
+    step = next((step for step in steps if step.id == file.step), None)
+    if step is None:
+        raise UsageError(f"{path}: step: expected one of {', '.join(step.id for step in steps)}, found '{file.step}'")
+    if file.function not in step.functions:
+        raise UsageError(f"{path}: function: expected one of {', '.join(step.functions)}, found '{file.function}'")
+    try:
+        return file, step, Case(file.function, file.kind, read_inputs(_function(step, file), file.line))
+    except Garbled as error:
+        raise UsageError(f"{path}: line: {error}") from error
+
+
+def _function(step: Step, file: CaseFile) -> Function:
+    return functions_of(step.number)[file.function]
+
+
+def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder: Path) -> Ask:
+    """Builds the step between steps of the reference."""
+    build, limits = StudentBuild(kit, sandbox, folder), limits_of(step, {})
+    compiled = build.compile(step, source, limits)
+    if compiled.binary is None:
+        raise StudentBuildError(why_not_built(kit, step, compiled, source.decode("utf-8", "replace")))
+    program, ran = build.program("worker", step, [compiled.binary], limits)
+    if program is None:
+        raise StudentBuildError(link_message(ran) if ran is not None else "It does not build.")
+    return ask_student(sandbox, program, limits)
+
+
+def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> Judged:
+    """The reference is asked as well: a case may have been written by hand."""
+    reply = ask_worker(student, [case], TimeBudget(step.seconds, 1)).replies[0]
+    expected = ask_worker(lambda cases, _: reference_unkept(kit, cases), [case], TimeBudget(60, 1)).replies[0]
+    try:
+        return judge_reply(functions_of(step.number)[case.function], case, expected.line, reply)
+    except GraderFault as error:
+        raise UsageError(f"{path}: line: the reference has no right answer to it: {error}") from error
+
+
+def _print(console: Console, file: CaseFile, judged: Judged) -> int:
+    verdict = judged.verdict
+    console.print(f"[bold]{escape(file.step)}[/bold] {escape(file.function)}, a case of '{escape(file.kind)}'")
+    words = (("given", judged.case.given()), ("expected", verdict.expected), ("actual", verdict.actual))
+    for label, text in words:
+        console.print(f"  {label:<9} {escape(shorten(text, LONGEST))}", highlight=False)
+    if not verdict.problem:
+        console.print("[green]now right[/green]")
+        return 0
+    before = f" (before: {file.problem})" if file.problem and file.problem != verdict.problem else ""
+    console.print(f"[red]still wrong[/red]: {escape(verdict.problem + before)}")
+    return 1
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which case, and whose steps."""
+    parser.add_argument("case", type=Path, help="such as cases/02-sphere-intersect.json")
+    parser.add_argument("--submission", type=Path, metavar="PATH", help="whose steps: a folder, zip or tar (your own)")
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Asks the case again, of one's own steps or of a submission."""
+    return replay(project, arguments.case, arguments.submission, console)
+
+
+def replay(project: Project, path: Path, submission: Path | None, console: Console) -> int:
+    """One's own steps run in the open, as for `check`; a submission in the sandbox, as for `grade`."""
+    path = _find(project, path)
+    file, step, case = _read(project, path)
+    sandbox = OpenAir() if submission is None else find_sandbox()
+    taken = take_in(submission or project.steps, read_steps(project))
+    if step.id not in taken.sources:
+        raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
+    with console.status("building") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        kit = build_kit(project, status.update)
+        student = _student(kit, step, taken.sources[step.id], sandbox, Path(folder))
+        judged = _ask(kit, step, path, case, student)
+    return _print(console, file, judged)

@@ -1,0 +1,57 @@
+"""The command `report`: the page of results that are there already, of a submission or a class."""
+
+import argparse
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project, here
+from raysteps.report.student import write_student_page
+from raysteps.report.terminal import short_path
+from raysteps.results.store import read_results
+
+RESULTS = "results.json"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where the results are."""
+    parser.add_argument(
+        "place",
+        type=Path,
+        nargs="?",
+        default=here().build / "check",
+        metavar="PLACE",
+        help="a results.json, the folder that it lies in, or the folder of a class; your last check when none is given",
+    )
+
+
+def _student_page(project: Project, place: Path) -> Path:
+    path = place / RESULTS if place.is_dir() else place
+    document = read_results(path)
+    try:
+        return write_student_page(document, path.parent, read_steps(project))
+    except OSError as error:
+        raise UsageError(f"{path.parent}: the report cannot be written there: {error.strerror or error}") from error
+
+
+def _class_page(place: Path) -> Path | None:
+    """None where no class was graded."""
+    from raysteps.classroom.class_files import (
+        class_source,
+        remake_class_page,  # students have none
+    )
+
+    source = class_source(place)
+    return remake_class_page(source) if source is not None else None
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Writes report.html beside the results of a submission, class.html beside those of a class."""
+    place: Path = arguments.place
+    page = _class_page(place) if project.has_reference else None
+    page = page or _student_page(project, place)
+    console.print(f"Report: {escape(short_path(page.resolve()))}", soft_wrap=True, highlight=False)
+    return 0

@@ -1,0 +1,100 @@
+"""The command `watch`."""
+
+import argparse
+import os
+import queue
+import signal
+import sys
+import webbrowser
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack, suppress
+from types import FrameType
+
+from rich.console import Console
+
+from raysteps.cli.steps import STEP_NAMES
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.progress.standing import chosen_or_next
+from raysteps.watch.events import Event
+from raysteps.watch.file_watcher import Saves, why_poll
+from raysteps.watch.keyboard import find_keyboard
+from raysteps.watch.page_state import Board, page_of, state_of
+from raysteps.watch.runner import WORKER, Runner
+from raysteps.watch.server import PageServer
+from raysteps.watch.session import Session
+from raysteps.watch.step_view import View
+from raysteps.watch.terminal_view import Showing
+
+_INTERRUPTED = 130
+
+
+def _port(word: str) -> int:
+    if not (word.isascii() and word.isdigit() and int(word) <= 65535):
+        raise argparse.ArgumentTypeError(f"{word}: expected a port from 1 to 65535, or 0 for any that is free")
+    return int(word)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("step", nargs="?", metavar="STEP", help=f"{STEP_NAMES}; the next one when none is given")
+    parser.add_argument(
+        "--browser", action=argparse.BooleanOptionalAction, help="open the page in a browser (on a desktop)"
+    )
+    parser.add_argument("--poll", action="store_true", help="look for saves every moment, where events do not work")
+    parser.add_argument("--quick", action="store_true", help="never check hidden cases by itself")
+    parser.add_argument("--port", type=_port, default=0, metavar="N", help="of the page (any that is free)")
+
+
+def on_a_desktop(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> bool:
+    """Whether a browser that is opened here is seen by whoever types here."""
+    if "SSH_CONNECTION" in environment or "CI" in environment:
+        return False
+    return platform in ("darwin", "win32") or any(environment.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
+
+
+def _end(_number: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def _watch(project: Project, step: Step, arguments: argparse.Namespace, showing: Showing, words: Sequence[str]) -> None:
+    events: queue.Queue[Event] = queue.Queue()
+    why = "--poll" if arguments.poll else why_poll(project.steps)
+    with ExitStack() as stack:
+        board = Board(state_of(View(step)))
+        server = PageServer(board, page_of, arguments.port)
+        stack.callback(server.close)
+        runner = Runner(project, events.put, words)
+        stack.callback(runner.close)
+        saves = Saves(project, step, events.put, poll=bool(why))
+        stack.callback(saves.close)
+        keyboard = find_keyboard(events.put)
+        stack.callback(keyboard.close)
+        saves.start()
+        keyboard.start()
+        showing.console.print(f"Page: {server.address}", highlight=False, soft_wrap=True)
+        if why:
+            showing.dim(f"Files are polled: {why}.")
+        if on_a_desktop() if arguments.browser is None else arguments.browser:
+            with suppress(webbrowser.Error, OSError):
+                webbrowser.open(server.address)
+        session = Session(project, step, events, runner, saves, keyboard, board, showing, checks=not arguments.quick)
+        session.run()
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console, worker: Sequence[str] = WORKER) -> int:
+    """Watches until somebody quits. `worker` is the program that does the jobs."""
+    step = chosen_or_next(project, arguments.step)
+    showing = Showing(console)
+    if step is None:
+        showing.line("All steps are done. Name the one that you want to watch, such as: ./raysteps watch 03")
+        return 0
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), _end)
+    try:
+        _watch(project, step, arguments, showing, worker)
+    except KeyboardInterrupt:
+        showing.command("\nStopped watching.")
+        return _INTERRUPTED
+    showing.line("Stopped watching.")
+    return 0

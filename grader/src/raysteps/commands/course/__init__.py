@@ -1,1 +1,0 @@
-"""Where a student stands in the course: the steps, the next one, hints, and beginning again."""

@@ -1,1 +1,0 @@
-"""The command `inspect`: the life of one pixel, and where it parts from the reference."""

@@ -1,1 +1,0 @@
-"""Submissions ranked by counted work."""

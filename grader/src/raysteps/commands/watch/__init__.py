@@ -1,1 +1,0 @@
-"""The command `watch`: a step is built, tested and drawn again with every save."""

@@ -1,0 +1,161 @@
+"""Reads steps/NN-name/step.toml."""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.project import Project
+
+
+@dataclass(frozen=True)
+class ImageCase:
+    """One picture: what to render, how many pixels may be wrong, how many of the objects a ray may be tested with."""
+
+    name: str
+    scene: str
+    args: tuple[str, ...]
+    max_wrong: float
+    max_share: float | None = None
+
+    @property
+    def has_tree(self) -> bool:
+        """Whether it asks for a tree by name."""
+        return "--accel" in self.args
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step as its manifest describes it."""
+
+    id: str
+    title: str
+    points: float
+    bonus: bool
+    files: tuple[str, ...]
+    functions: tuple[str, ...]
+    hints: tuple[str, ...]
+    weight_tests: float
+    weight_images: float
+    weight_hidden: float
+    weight_together: float
+    seconds: float
+    images: tuple[ImageCase, ...]
+    memory_mb: int = 4096
+    more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
+    about: str = ""  # one or two sentences for the gallery
+    left_out: bool = False  # built, because the framework calls it, but no part of this course
+
+    @property
+    def number(self) -> str:
+        return self.id[:2]
+
+    @property
+    def index(self) -> int:
+        return int(self.number)
+
+    @property
+    def is_about_a_tree(self) -> bool:
+        """Whether it changes what a picture costs, and not what it shows."""
+        return any(case.has_tree for case in self.images)
+
+    @property
+    def file(self) -> str:
+        """The one source file that the student writes."""
+        return self.files[0]
+
+    @property
+    def path(self) -> Path:
+        """NN-name/name.cpp."""
+        return Path(self.id) / self.file
+
+    @property
+    def limited_pictures(self) -> tuple[str, ...]:
+        """Those in which a ray may be tested with few of the objects only."""
+        return tuple(image.name for image in self.images if image.max_share is not None)
+
+
+def _image(table: dict[str, Any]) -> ImageCase:
+    return ImageCase(
+        name=str(table["name"]),
+        scene=str(table["scene"]),
+        args=tuple(str(arg) for arg in table.get("args", [])),
+        max_wrong=float(table["max_wrong"]),
+        max_share=float(table["max_share"]) if "max_share" in table else None,
+    )
+
+
+def read_step(path: Path) -> Step:
+    """Reads one manifest; a bad one is the kit's fault."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        table = tomllib.loads(text)
+        weights = table["weights"]
+        step = Step(
+            id=str(table["id"]),
+            title=str(table["title"]),
+            points=float(table["points"]),
+            bonus=bool(table.get("bonus", False)),
+            files=tuple(table["files"]),
+            functions=tuple(table["functions"]),
+            hints=tuple(table.get("hints", [])),
+            weight_tests=float(weights["tests"]),
+            weight_images=float(weights["images"]),
+            weight_hidden=float(weights["hidden"]),
+            weight_together=float(weights["together"]),
+            seconds=float(table["limits"]["seconds"]),
+            images=tuple(_image(image) for image in table.get("images", [])),
+            memory_mb=int(table["limits"].get("memory_mb", 4096)),
+            more_limits=tuple(
+                (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
+            ),
+            about=" ".join(str(table.get("about", "")).split()),
+            left_out=bool(table.get("left_out", False)),
+        )
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise GraderFault(f"{path}: not a step manifest: {error}") from error
+    if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
+        raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
+    if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
+        raise GraderFault(f'{path}: CMake reads this, too; expected a line like `picture = "fog_picture"`')
+    weights_sum = step.weight_tests + step.weight_images + step.weight_hidden + step.weight_together
+    if abs(weights_sum - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
+        raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
+    return step
+
+
+def read_all_steps(project: Project) -> list[Step]:
+    """All steps that are built, in order."""
+    paths = sorted(project.steps.glob("[0-9][0-9]-*/step.toml"))
+    if not paths:
+        raise GraderFault(f"{project.steps} holds no step.toml")
+    steps = [read_step(path) for path in paths]
+    numbers = [step.number for step in steps]
+    twice = next((step for step in steps if numbers.count(step.number) > 1), None)
+    if twice is not None:
+        raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
+    return steps
+
+
+def read_steps(project: Project) -> list[Step]:
+    """The steps of the course, in order: all but those that are left out."""
+    steps = [step for step in read_all_steps(project) if not step.left_out]
+    if not steps:
+        raise GraderFault(f"{project.steps}: every step.toml says `left_out = true`; a course needs a step")
+    return steps
+
+
+def choose(steps: list[Step], names: list[str]) -> list[Step]:
+    """The steps with these names (`02`, `2` or `02-intersection`); all of them when there are no names."""
+    if not names:
+        return steps
+    chosen = []
+    for name in names:
+        number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
+        found = [step for step in steps if name == step.id or number == step.number]
+        if not found:
+            raise UsageError(f"there is no step '{name}'; the steps are {', '.join(step.id for step in steps)}")
+        chosen += found
+    return [step for step in steps if step in chosen]

@@ -1,0 +1,205 @@
+"""Makes the stubs from the marked regions of solutions/."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_if_changed
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+
+# Takes C++ apart into tokens: enough to tell code from comments, strings and white space.
+
+# No alternative may give up after a long run, or a source made for it would take for ever: so an open string goes on to
+# the end of its line.
+# A backslash at the end of a line joins it with the next, even within a name or a comment mark.
+_J = r"(?:\\\n)*"
+_PREFIX = rf"(?:u{_J}8|[uUL])?"
+_TOKEN = re.compile(
+    rf"""
+    (?P<newline>\n)
+  | (?P<space>[^\S\n]+|\\\n)
+  | (?P<line_comment>/{_J}/(?:\\\n|[^\n])*)
+  | (?P<block_comment>/{_J}\*)
+  | (?P<raw>{_PREFIX}{_J}R{_J}"(?P<delimiter>[^\s()\\"]{{0,16}})\()
+  | (?P<string>{_PREFIX}{_J}(?:"(?:\\(?:.|\n)|[^"\\\n])*"?|'(?:\\(?:.|\n)|[^'\\\n])*'?))
+  | (?P<number>\.?{_J}[0-9](?:{_J}(?:[eEpP]{_J}[+-]|'{_J}\w|[\w.]))*)
+  | (?P<name>[^\W\d](?:{_J}\w)*)
+  | (?P<other>.)
+    """,
+    re.VERBOSE,
+)
+_BLOCK_END = re.compile(rf"\*{_J}/")
+
+
+def _end_of_rest(source: str, kind: str, found: re.Match[str]) -> int:
+    """Where a block comment or raw string ends: at its mark, or with the file when there is none."""
+    if kind == "block_comment":
+        closed = _BLOCK_END.search(source, found.end())
+        return len(source) if closed is None else closed.end()
+    mark = f'){found["delimiter"]}"'
+    at = source.find(mark, found.end())
+    return len(source) if at < 0 else at + len(mark)
+
+
+def tokens(source: str) -> list[str]:
+    """Names, numbers, strings and single signs in their order; a newline stands where it ends a directive."""
+    source = source.replace("\r\n", "\n")
+    result: list[str] = []
+    position, fresh_line, directive = 0, True, False
+    while position < len(source):
+        found = _TOKEN.match(source, position)
+        assert found is not None  # some alternative takes any character
+        kind = found.lastgroup if found.lastgroup != "delimiter" else "raw"
+        assert kind is not None
+        position = found.end()
+        if kind in ("block_comment", "raw"):
+            position = _end_of_rest(source, kind, found)
+        text = source[found.start() : position]
+        if kind == "newline":
+            if directive:
+                result.append("\n")
+            fresh_line, directive = True, False
+        elif kind == "raw":
+            result.append(text)
+            fresh_line = False
+        elif kind in ("string", "number", "name", "other"):
+            directive = directive or (fresh_line and text == "#")
+            result.append(text.replace("\\\n", ""))
+            fresh_line = False
+    return [*result, "\n"] if directive else result
+
+
+_BEGIN = re.compile(r"^(\s*)// BEGIN SOLUTION(?: (\S.*))?$")
+_END = re.compile(r"^\s*// END SOLUTION$")
+_MARKER = re.compile(r"^\s*// (BEGIN SOLUTION|END SOLUTION|TODO:|RETURN )")
+
+
+@dataclass(frozen=True)
+class _Region:
+    indent: str
+    name: str | None
+    body: list[str]
+
+
+def _stub_lines(region: _Region, step: Step, where: str) -> list[str]:
+    if region.name is None:
+        return []
+    todo = [line for line in region.body if line.strip().startswith("// TODO: ")]
+    returns = [line.strip() for line in region.body if line.strip().startswith("// RETURN")]
+    if len(todo) != 1 or len(returns) > 1:
+        raise GraderFault(f"{where}: region {region.name} needs one TODO line and at most one RETURN line")
+    lines = [todo[0], f'{region.indent}RAYSTEPS_TODO("{step.id}", "{region.name}");']
+    if returns and returns[0] != "// RETURN":
+        lines.append(f"{region.indent}return {returns[0].removeprefix('// RETURN ')};")
+    return lines
+
+
+@dataclass(frozen=True)
+class MarkedRegion:
+    """What students write themselves: a function, or without a name a helper of the solution."""
+
+    name: str | None
+    line: int
+    body: list[str]
+
+
+def solution_regions(solution: str) -> list[MarkedRegion]:
+    """The marked regions, without what the stub is made of."""
+    found: list[MarkedRegion] = []
+    region: MarkedRegion | None = None
+    for number, line in enumerate(solution.splitlines(), start=1):
+        begin = _BEGIN.match(line)
+        if begin is not None:
+            region = MarkedRegion(begin.group(2), number, [])
+            found.append(region)
+        elif _END.match(line):
+            region = None
+        elif region is not None and not _MARKER.match(line):
+            region.body.append(line)
+    return found
+
+
+def make_stub(solution: str, step: Step) -> str:
+    """The student's starting point: every named region becomes a TODO, unnamed regions vanish."""
+    where = f"solutions/{step.path.as_posix()}"
+    out: list[str] = []
+    names: list[str] = []
+    region: _Region | None = None
+    drop_blank = False
+    for line in solution.splitlines():
+        begin = _BEGIN.match(line)
+        if begin is not None:
+            if region is not None:
+                raise GraderFault(f"{where}: a region begins inside another")
+            region = _Region(begin.group(1), begin.group(2), [])
+        elif _END.match(line):
+            if region is None:
+                raise GraderFault(f"{where}: END SOLUTION without BEGIN SOLUTION")
+            out += _stub_lines(region, step, where)
+            names += [region.name] if region.name else []
+            drop_blank = region.name is None and (not out or not out[-1].strip())
+            region = None
+        elif region is not None:
+            region.body.append(line)
+        else:
+            if not (drop_blank and not line.strip()):
+                out.append(line)
+            drop_blank = False
+    if region is not None:
+        raise GraderFault(f"{where}: a region has no END SOLUTION")
+    if sorted(names) != sorted(step.functions):
+        raise GraderFault(f"{where}: its regions are {names}, but step.toml lists {list(step.functions)}")
+    return "\n".join(out).rstrip() + "\n"
+
+
+def without_markers(solution: str) -> str:
+    """The solution as a student would hand it in."""
+    return "\n".join(line for line in solution.splitlines() if not _MARKER.match(line)).rstrip() + "\n"
+
+
+def unfinished_functions(source: str, step: Step) -> list[str]:
+    """The functions whose RAYSTEPS_TODO line is still in the source (a commented-out one is not)."""
+    code = tokens(source)
+    called = [code[at : at + 6] for at, word in enumerate(code) if word == "RAYSTEPS_TODO"]
+    left = {call[4] for call in called if len(call) == 6 and (call[1], call[3], call[5]) == ("(", ",", ")")}
+    return [name for name in step.functions if f'"{name}"' in left]
+
+
+def same_code(one: str, other: str) -> bool:
+    """Whether two sources differ in comments and white space only."""
+    return tokens(one) == tokens(other)
+
+
+def stub_for(project: Project, step: Step) -> str:
+    """What the solution generates for this step."""
+    return make_stub((project.solutions / step.path).read_text(encoding="utf-8"), step)
+
+
+def pristine_stub(project: Project, step: Step) -> str:
+    """The step as the student got it: made from the solution, or where there are none, as the kit keeps it."""
+    if project.has_reference:
+        return stub_for(project, step)
+    path = project.stubs / step.path
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraderFault(f"{path}: expected the stub of {step.id}; take it from a fresh copy of the kit") from error
+
+
+def _stub_files(project: Project, steps: list[Step]) -> dict[Path, bytes]:
+    """Path and content, where students write."""
+    return {project.steps / step.path: stub_for(project, step).encode() for step in steps}
+
+
+def outdated_stubs(project: Project, steps: list[Step]) -> list[Path]:
+    """The files that differ from what the solutions generate."""
+    return [
+        path for path, data in _stub_files(project, steps).items() if not path.is_file() or path.read_bytes() != data
+    ]
+
+
+def write_stubs(project: Project, steps: list[Step]) -> list[Path]:
+    """Writes all stubs; returns the files that changed."""
+    return [path for path, data in _stub_files(project, steps).items() if write_if_changed(path, data)]

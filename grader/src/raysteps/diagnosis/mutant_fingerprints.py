@@ -1,0 +1,163 @@
+"""What the known mistakes of a step answer and draw, as it is kept in the built kit."""
+
+import io
+import json
+import tempfile
+import zipfile
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import one_at_a_time, write_bytes
+from raysteps.common.text import shorten
+from raysteps.course.manifest import Step
+from raysteps.course.mutants import Mutant, reference_source
+from raysteps.diagnosis.evidence import Answers, Said, listen, questions_of
+from raysteps.images.compare import Pixels
+from raysteps.images.render import render
+from raysteps.judge.plan import Plan
+from raysteps.judge.worker import ask_student
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.toolchain.compile import Program, StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, Say
+from raysteps.toolchain.limits import limits_of
+
+_FACTS = "answers"
+
+
+@dataclass(frozen=True)
+class Fingerprint:
+    """Of one mistake: its wrong answers, and its pictures by name where it makes any."""
+
+    answers: Answers
+    pictures: Mapping[str, Pixels]
+
+
+Known: TypeAlias = Mapping[str, Fingerprint]  # by the name of the form of a mistake
+
+
+def write_known(path: Path, known: Known) -> None:
+    """One file, complete or not there."""
+    answers = {
+        mistake: {
+            function: {str(number): asdict(said) for number, said in wrong.items()}
+            for function, wrong in fingerprint.answers.items()
+        }
+        for mistake, fingerprint in known.items()
+    }
+    arrays: dict[str, Any] = {_FACTS: np.frombuffer(json.dumps(answers).encode(), dtype=np.uint8)}
+    for mistake, fingerprint in known.items():
+        arrays |= {f"{mistake}/{name}": pixels for name, pixels in fingerprint.pictures.items()}
+    data = io.BytesIO()
+    np.savez_compressed(data, **arrays)
+    write_bytes(path, data.getvalue())
+
+
+def read_known(path: Path) -> Known | None:
+    """None where there is no such file, or none that can be read."""
+    try:
+        with np.load(path, allow_pickle=False) as arrays:
+            answers = json.loads(arrays[_FACTS].tobytes())
+            pictures = {tuple(key.split("/", 1)): arrays[key] for key in arrays.files if key != _FACTS}
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
+    return {
+        mistake: Fingerprint(
+            {
+                function: {int(number): Said(**said) for number, said in wrong.items()}
+                for function, wrong in functions.items()
+            },
+            {name: pixels for (owner, name), pixels in pictures.items() if owner == mistake},
+        )
+        for mistake, functions in answers.items()
+    }
+
+
+# Learns what the known mistakes of a step answer and draw: once for each built kit, by whoever needs it first.
+
+_AT_A_TIME = 2
+_SECONDS = 20.0  # for one program of a mistake, on the clock of a busy machine
+_COMPILE_SECONDS = 300.0
+
+
+class _Learner:
+    """Builds the mistakes with the kit's own tools; their code is the kit's, so no sandbox is needed."""
+
+    def __init__(self, kit: BuiltKit, step: Step, plan: Plan | None, folder: Path) -> None:
+        self._kit = kit
+        self._step = step
+        self._questions = {} if plan is None else questions_of(kit, step, plan, step.functions)
+        self._folder = folder
+        self._air = OpenAir()
+        self._limits = replace(limits_of(step, {}), seconds=_SECONDS, compile_seconds=_COMPILE_SECONDS)
+        self._reference = reference_source(kit.project, step)
+
+    def learn(self, name: str, mutant: Mutant) -> Fingerprint:
+        build = StudentBuild(self._kit, self._air, self._folder / name)
+        compiled = build.compile(self._step, mutant.applied(self._reference).encode(), self._limits)
+        if compiled.binary is None:
+            said = shorten(compiled.ran.outcome.stderr.strip(), 1000)
+            raise GraderFault(f"{self._step.id}/mutants.toml: {mutant.id} does not build: {said}")
+
+        def program(kind: Kind) -> Program:
+            assert compiled.binary is not None
+            found, _ = build.program(kind, self._step, [compiled.binary], self._limits)
+            if found is None:
+                raise GraderFault(f"{self._step.id}/mutants.toml: {mutant.id} cannot be linked")
+            return found
+
+        answers = self._answers(program("worker")) if self._questions else {}
+        return Fingerprint(answers, self._pictures(program("raytrace")))
+
+    def _answers(self, worker: Program) -> Answers:
+        return listen(self._questions, ask_student(self._air, worker, self._limits), _SECONDS)
+
+    def _pictures(self, raytrace: Program) -> dict[str, Pixels]:
+        """Those that it makes."""
+        pictures = {}
+        for case in self._step.images:
+            scene = self._kit.project.root / case.scene
+            rendered = render(self._air, raytrace, scene, case.args, self._limits.of_program())
+            if rendered.pixels is not None:
+                pictures[case.name] = rendered.pixels
+        return pictures
+
+
+@lru_cache(maxsize=16)
+def _read(path: Path, _changed: int) -> Known | None:
+    return read_known(path)
+
+
+def _found(path: Path) -> Known | None:
+    try:
+        return _read(path, path.stat().st_mtime_ns)
+    except OSError:
+        return None
+
+
+def known_mistakes(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], say: Say) -> Known:
+    """By the names of their forms. A mistake of the catalogue that does not build is the kit's fault."""
+    path = kit.folder / "mistakes" / f"{step.number}.npz"
+    known = _found(path)
+    if known is None:
+        with one_at_a_time(path.with_suffix(".lock")):
+            known = _found(path)
+            if known is None:
+                say(f"learning the known mistakes of {step.number} (once)")
+                known = _learn(kit, step, plan, mutants)
+                write_known(path, known)
+    return known
+
+
+def _learn(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant]) -> Known:
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder, ThreadPoolExecutor(_AT_A_TIME) as pool:
+        learner = _Learner(kit, step, plan, Path(folder))
+        forms = {name: form for mutant in mutants for name, form in mutant.choices().items()}
+        learned = list(pool.map(learner.learn, forms, forms.values()))
+    return dict(zip(forms, learned, strict=True))

@@ -1,0 +1,94 @@
+"""The page of the gallery."""
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from raysteps.course.manifest import Step
+from raysteps.gallery.scenes import Shown, what_is_new
+from raysteps.gallery.shots import Effort, Shot
+from raysteps.images.compare import Pixels
+from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, pixel_data, render_page
+
+# The pictures of the gallery as they travel in its page: each once, however often it is shown.
+
+
+class Album:
+    """Gives each picture a number. Steps that change nothing share one."""
+
+    def __init__(self) -> None:
+        self.sources: list[str] = []
+        self._known: dict[bytes, int] = {}
+
+    def add(self, pixels: Pixels) -> int:
+        key = hashlib.sha256(repr(pixels.shape).encode() + pixels.tobytes()).digest()
+        if key not in self._known:
+            self._known[key] = len(self.sources)
+            self.sources.append(pixel_data(pixels).src)
+        return self._known[key]
+
+
+_SCRIPTS = ("gallery-walk", "gallery-work", "gallery-strip", "gallery")
+_TITLE = "From ray directions to glass"
+
+
+@dataclass(frozen=True)
+class Hung:
+    """A scene with all its pictures: after each step, and the work of those that save some."""
+
+    scene: Shown
+    reference: Sequence[Shot]
+    efforts: Mapping[int, Sequence[Effort]]
+    mine: Sequence[Shot] = field(default_factory=list)  # empty where nobody asked for them
+    my_efforts: Mapping[int, Effort] = field(default_factory=dict)
+
+
+def _shot(shot: Shot, album: Album) -> dict[str, object]:
+    return {"picture": None if shot.pixels is None else album.add(shot.pixels), "note": shot.note}
+
+
+def _effort(effort: Effort, album: Album) -> dict[str, object]:
+    height, width = effort.map.shape[:2]
+    return {
+        "name": effort.name,
+        "map": album.add(effort.map),
+        "width": width,
+        "height": height,
+        "surfaces": round(effort.work.surfaces_per_ray, 3),
+        "boxes": round(effort.work.boxes_per_ray, 3),
+    }
+
+
+def _scene(hung: Hung, album: Album) -> dict[str, object]:
+    efforts = {
+        step: [*before_and_after, *filter(None, [hung.my_efforts.get(step)])]
+        for step, before_and_after in hung.efforts.items()
+    }
+    pixels = next((shot.pixels for shot in hung.reference if shot.pixels is not None), None)
+    return {
+        "name": hung.scene.name,
+        "title": hung.scene.title,
+        "words": hung.scene.words,
+        "width": pixels.shape[1] if pixels is not None else 4,
+        "height": pixels.shape[0] if pixels is not None else 3,
+        "reference": [_shot(shot, album) for shot in hung.reference],
+        "mine": [_shot(shot, album) for shot in hung.mine],
+        "work": {str(step): [_effort(one, album) for one in shown] for step, shown in efforts.items()},
+    }
+
+
+def gallery_page(steps: Sequence[Step], scenes: Sequence[Hung]) -> str:
+    """The document. Its pictures lie in its data and are read when their scene is chosen."""
+    album = Album()
+    hung = [_scene(one, album) for one in scenes]
+    shown = [
+        {"number": step.number, "index": step.index, "title": step.title, "bonus": step.bonus, "new": what_is_new(step)}
+        for step in steps
+    ]
+    data = {"steps": shown, "scenes": hung, "pictures": album.sources}
+    first = hung[0]["reference"]
+    assert isinstance(first, list)
+    plain = [album.sources[shot["picture"]] for shot in (first[0], first[-1]) if shot["picture"] is not None]
+    context = {"steps": shown, "scenes": hung, "mine": any(one.mine for one in scenes), "plain": plain}
+    styles = (*COMPARE_STYLES, "gallery", "gallery-strip")
+    return render_page("gallery", _TITLE, context, (*COMPARE_SCRIPTS, *_SCRIPTS), styles, data)

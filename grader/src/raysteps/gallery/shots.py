@@ -1,0 +1,202 @@
+"""What a scene looks like after a step, and what it costs."""
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.text import listed, shorten
+from raysteps.course.manifest import Step
+from raysteps.course.stubs import unfinished_functions
+from raysteps.gallery.scenes import Shown
+from raysteps.grading.build_messages import link_message, why_not_built
+from raysteps.grading.images import trouble
+from raysteps.grading.step import GradingContext
+from raysteps.images.compare import Pixels
+from raysteps.images.render import Rendered, reference_picture, reference_work, render
+from raysteps.results.work_ratio import Work
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.submission.load import Submission, take_in
+from raysteps.toolchain.compile import Program, StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.limits import StepLimits, limits_of
+
+_TREE = 6  # the step from which on pictures are made with a tree
+_MAP_SIZE = "240x180"  # every surface for every ray takes its time
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture, or a note why there is none; a note may also go with a picture."""
+
+    pixels: Pixels | None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Where the tests went, as a map, and what was counted."""
+
+    name: str
+    map: Pixels
+    work: Work
+
+
+def picture_args(step: Step, size: str) -> tuple[str, ...]:
+    """Of raytrace. Before there is a tree the reference's saves time; the picture is the same."""
+    early = ("--accel", "octree") if step.index < _TREE else ()
+    return ("--step", str(step.index), "--size", size, *early)
+
+
+def map_args(step: int, accel: str) -> tuple[str, ...]:
+    """Of raytrace, for a map of the tests of surfaces."""
+    return ("--step", str(step), "--size", _MAP_SIZE, "--accel", accel, "--map", "tests")
+
+
+@dataclass(frozen=True)
+class Tree:
+    """A step that saves work: what came before it, and what it brings."""
+
+    step: int
+    before: tuple[str, tuple[str, ...]]
+    after: tuple[str, tuple[str, ...]]
+
+
+TREES = (
+    Tree(6, ("every surface", map_args(5, "none")), ("octree", map_args(6, "octree"))),
+    Tree(9, ("octree", map_args(8, "octree")), ("bounding volumes", map_args(9, "bvh"))),
+)
+
+
+# The pictures of a student's own steps. What goes wrong in a step is a note, and the others go on.
+
+_SECONDS = 120.0
+_LONGEST = 600
+
+
+class MySteps:
+    """A student's steps, each built by itself. After step N the steps up to N are the student's; where one of
+    these is not there, the reference stands in, and a note says so."""
+
+    def __init__(self, kit: BuiltKit, submission: Submission, folder: Path, say: Say) -> None:
+        self._kit = kit
+        self._sandbox = OpenAir()
+        self._build = StudentBuild(kit, self._sandbox, folder)
+        work = GradingContext(kit, submission, self._sandbox, folder, folder)
+        self._limits: dict[str, StepLimits] = {}
+        self._binaries: dict[str, Path] = {}
+        self._notes: dict[str, str] = {}
+        self._programs: dict[str, tuple[Program | None, str]] = {}
+        for step in kit.steps:
+            say(f"building your step {step.number}")
+            self._limits[step.id] = limits_of(step, {"seconds": max(_SECONDS, step.seconds)})
+            self._compile(step, work.source(step))
+
+    def _compile(self, step: Step, source: str | None) -> None:
+        if source is None:
+            self._notes[step.id] = f"Step {step.number} is not started: {step.file} is still the stub."
+            return
+        compiled = self._build.compile(step, source.encode(), self._limits[step.id])
+        if compiled.binary is None:
+            self._notes[step.id] = shorten(why_not_built(self._kit, step, compiled, source), _LONGEST)
+            return
+        self._binaries[step.id] = compiled.binary
+        left = unfinished_functions(source, step)
+        self._notes[step.id] = f"Unfinished: {listed(left)}." if left else ""
+
+    def _program(self, step: Step) -> tuple[Program | None, str]:
+        if step.id not in self._programs:
+            up_to = [other for other in self._kit.steps if other.index <= step.index]
+            objects = [self._binaries.get(other.id) or self._kit.reference_step(other) for other in up_to]
+            program, ran = self._build.program("raytrace", step, objects, self._limits[step.id], together=True)
+            self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _LONGEST))
+        return self._programs[step.id]
+
+    def _render(self, program: Program, step: Step, scene: Shown, args: tuple[str, ...]) -> Rendered:
+        rendered = render(self._sandbox, program, scene.path, args, self._limits[step.id].of_program())
+        if rendered.ran.stopped in ("wall", "cpu"):
+            self._limits[step.id] = self._limits[step.id].after_a_timeout()
+        return rendered
+
+    def _remarks(self, step: Step) -> str:
+        missing = [
+            other.number for other in self._kit.steps if other.index < step.index and other.id not in self._binaries
+        ]
+        stand_in = f"The reference stands in for {listed(missing)}." if missing else ""
+        return " ".join(filter(None, [self._notes[step.id], stand_in]))
+
+    def shot(self, step: Step, scene: Shown, size: str) -> Shot:
+        """After one step."""
+        if step.id not in self._binaries:
+            return Shot(None, self._notes[step.id])
+        program, problem = self._program(step)
+        if program is None:
+            return Shot(None, problem)
+        rendered = self._render(program, step, scene, picture_args(step, size))
+        if rendered.pixels is None:
+            return Shot(None, trouble(rendered)[1])
+        return Shot(rendered.pixels, self._remarks(step))
+
+    def efforts(self, scene: Shown) -> dict[int, Effort]:
+        """By step, of those that save work and can be run."""
+        found = {}
+        for tree in TREES:
+            step = next((step for step in self._kit.steps if step.index == tree.step), None)
+            if step is None or step.id not in self._binaries:
+                continue
+            program, _ = self._program(step)
+            if program is None:
+                continue
+            rendered = self._render(program, step, scene, tree.after[1])
+            if rendered.pixels is not None and rendered.work is not None:
+                found[tree.step] = Effort(f"my {tree.after[0]}", rendered.pixels, rendered.work)
+        return found
+
+
+@contextmanager
+def my_steps(kit: BuiltKit, say: Say) -> Iterator[MySteps]:
+    """Built into a folder that is deleted in the end."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        yield MySteps(kit, take_in(kit.project.steps, kit.steps), Path(folder), say)
+
+
+# The reference's pictures, which are kept from run to run.
+
+
+def _of_the_kit(kit: BuiltKit, scene: Shown) -> bool:
+    """Else it is a file of the user's."""
+    return scene.path.is_relative_to(kit.project.root)
+
+
+def reference_shots(kit: BuiltKit, scene: Shown, size: str, say: Say) -> list[Shot]:
+    """After every step."""
+    shots = []
+    for step in kit.steps:
+        say(f"{scene.name}: step {step.number}")
+        try:
+            shots.append(Shot(reference_picture(kit, scene.path, picture_args(step, size))))
+        except GraderFault as fault:
+            if _of_the_kit(kit, scene):
+                raise
+            raise UsageError(f"--scene {scene.path}: {fault}") from fault
+    return shots
+
+
+def reference_efforts(kit: BuiltKit, scene: Shown, say: Say) -> dict[int, list[Effort]]:
+    """By step: before and after. A scene of the user's has none when it is too large to be traced without a tree."""
+    efforts = {}
+    for tree in TREES:
+        if not any(step.index == tree.step for step in kit.steps):
+            continue
+        say(f"{scene.name}: work in step {tree.step:02d}")
+        try:
+            efforts[tree.step] = [
+                Effort(name, reference_picture(kit, scene.path, args), reference_work(kit, scene.path, args))
+                for name, args in (tree.before, tree.after)
+            ]
+        except GraderFault:
+            if _of_the_kit(kit, scene):
+                raise
+    return efforts

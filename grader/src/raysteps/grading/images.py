@@ -1,0 +1,127 @@
+"""The pictures of a step, made with the student's code and compared."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from raysteps.common.text import listed
+from raysteps.course.manifest import ImageCase, Step
+from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, write_png
+from raysteps.images.render import Rendered, ending_of, reference_picture, reference_work, render
+from raysteps.results.model import Cumulative, Ending, ImageResult
+from raysteps.sandbox.task import Sandbox
+from raysteps.toolchain.compile import Program
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import StepLimits
+
+_TREE, _NO_TREE = "--accel", "none"
+
+
+@dataclass
+class Gallery:
+    """What pictures are made and judged with, and where they go. Patience ends with the first program that hangs."""
+
+    kit: BuiltKit
+    sandbox: Sandbox
+    limits: StepLimits
+    out: Path
+    made: dict[str, Pixels] = field(default_factory=dict)  # the step's own pictures, by name
+
+    def hung(self) -> None:
+        self.limits = self.limits.after_a_timeout()
+
+    def args_of(self, case: ImageCase) -> tuple[str, ...]:
+        """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""
+        return case.args if self.kit.has_reference or case.has_tree else (*case.args, _TREE, _NO_TREE)
+
+    def render(self, program: Program, scene: Path, args: tuple[str, ...]) -> Rendered:
+        rendered = render(self.sandbox, program, scene, args, self.limits.of_program())
+        if rendered.ran.stopped in ("wall", "cpu"):
+            self.hung()
+        return rendered
+
+
+def trouble(rendered: Rendered) -> tuple[Ending, str]:
+    """What kept a picture from being made."""
+    outcome, message = ending_of(rendered.ran, "The picture")
+    return outcome, message or f"{rendered.problem.capitalize()}."
+
+
+def too_many_tests(share: float | None, most: float) -> str:
+    """Why a right picture was made with too much work, or nothing."""
+    if not share:
+        return "The picture is right, but no test of an object was counted: ask a surface with surface->hit(ray)."
+    if share <= most:
+        return ""
+    return (
+        f"The picture is right, but each ray tested {share * 100:.3g} % of the objects; at most {most * 100:.3g} % are "
+        "allowed: the boxes must spare the rays most of the tests."
+    )
+
+
+def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> ImageResult:
+    """One picture, with copies of mine, reference and difference as PNG."""
+    scene = gallery.kit.project.root / case.scene
+    reference = reference_picture(gallery.kit, scene, case.args)
+    rendered = gallery.render(program, scene, gallery.args_of(case))
+    result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share)
+    result.seconds = round(rendered.ran.outcome.seconds, 2)
+    folder = Path("pictures") / step.id
+    result.reference = (folder / f"{case.name}-reference.png").as_posix()
+    write_png(reference, gallery.out / result.reference)
+    if rendered.pixels is None:
+        result.outcome, result.message = trouble(rendered)
+        return result
+    gallery.made[case.name] = rendered.pixels
+    if rendered.pixels.shape == reference.shape:
+        result.mine = (folder / f"{case.name}-mine.png").as_posix()
+        write_png(rendered.pixels, gallery.out / result.mine)
+    verdict = compare(rendered.pixels, reference, case.max_wrong)
+    if not (verdict.passed or gallery.kit.has_reference) and case.has_tree:
+        verdict = _beside_no_tree(gallery, program, scene, case, rendered.pixels) or verdict
+    result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
+    if case.max_share is not None:
+        result.work, result.reference_work = rendered.work, reference_work(gallery.kit, scene, case.args)
+        result.share_tested = None if rendered.share_tested is None else round(rendered.share_tested, 6)
+        problem = too_many_tests(rendered.share_tested, case.max_share)
+        if result.passed and problem:
+            result.passed, result.message = False, problem
+    result.outcome = "ok" if result.passed else "wrong"
+    if rendered.pixels.shape == reference.shape:
+        result.difference = (folder / f"{case.name}-difference.png").as_posix()
+        write_png(difference(rendered.pixels, reference), gallery.out / result.difference)
+    return result
+
+
+def _beside_no_tree(
+    gallery: Gallery, program: Program, scene: Path, case: ImageCase, pixels: Pixels
+) -> Comparison | None:
+    """A tree must change no pixel. So where earlier steps are the student's, too, a picture is right if it is the one
+    that the same program draws without a tree; none where it is not, or shows nothing."""
+    at = case.args.index(_TREE) + 1
+    plain = gallery.render(program, scene, (*case.args[:at], _NO_TREE, *case.args[at + 1 :])).pixels
+    if plain is None or is_flat(pixels):
+        return None
+    verdict = compare(pixels, plain, case.max_wrong)
+    words = "The same as without a tree; what differs from the reference comes from an earlier step."
+    return replace(verdict, message=words) if verdict.passed else None
+
+
+def judge_together(
+    gallery: Gallery, program: Program, step: Step, own: Sequence[Step], replaced: Sequence[str]
+) -> Cumulative:
+    """The step's first picture with the student's steps up to this one, `own`; `replaced` are the reference's among
+    them. Each step may differ by as much as its own pictures may, and in one picture the differences add up."""
+    case = step.images[0]
+    scene = gallery.kit.project.root / case.scene
+    rendered = gallery.render(program, scene, case.args)
+    if rendered.pixels is None:
+        return Cumulative(False, f"{case.name}: {trouble(rendered)[1]}")
+    most_wrong = sum(max(image.max_wrong for image in other.images) for other in own)
+    verdict = compare(rendered.pixels, reference_picture(gallery.kit, scene, case.args), most_wrong)
+    if not verdict.passed:
+        return Cumulative(False, f"{case.name}: {verdict.message}")
+    why = (
+        f"The reference stood in for {listed(replaced)}: not graded in this run, or not right yet." if replaced else ""
+    )
+    return Cumulative(True, why)

@@ -1,0 +1,61 @@
+"""Grades one submission."""
+
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
+from raysteps.grading.hidden import JudgedGrader
+from raysteps.grading.options import Settings, withhold
+from raysteps.grading.scoring import is_right
+from raysteps.grading.self_check import Counted
+from raysteps.grading.step import GradingContext, StepGrader, compile_steps
+from raysteps.results.model import Results, StepResult, Timing
+from raysteps.results.store import write_document
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.load import Submission
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import limits_of
+
+
+def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
+    return [step for step in kit.steps if not settings.only or step.id in settings.only]
+
+
+def grade_one(
+    kit: BuiltKit,
+    submission: Submission,
+    settings: Settings,
+    sandbox: Sandbox,
+    out: Path,
+    say: Callable[[str], None] = lambda text: None,
+) -> Results:
+    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only."""
+    start = time.monotonic()
+    counted = Counted(sandbox)
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        work = GradingContext(kit, submission, counted, Path(folder), out, say)
+        chosen = _chosen(kit, settings)
+        with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
+            say("building the steps")
+            compiled = compile_steps(work, chosen, pool, settings.limits)
+
+            def grade(grader: StepGrader) -> StepResult:
+                say(f"checking {grader.step.id}")
+                return grader.grade()
+
+            graders = [
+                JudgedGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
+            ]
+            right = {result.id for result in pool.map(grade, graders) if is_right(result)}
+            steps = list(pool.map(lambda grader: grader.finish(right), graders))
+    timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+    results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+    try:
+        write_document(withhold(results.to_json(), settings.feedback), out)
+    except OSError as error:
+        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+    return results

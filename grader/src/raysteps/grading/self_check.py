@@ -1,0 +1,152 @@
+"""Checks steps in a students' kit: visible tests and pictures, with the student's own steps before each."""
+
+import tempfile
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.text import listed
+from raysteps.course.manifest import Step
+from raysteps.grading.scoring import is_right, status_and_points
+from raysteps.grading.step import GradingContext, StepGrader, compile_steps
+from raysteps.images.render import given_path
+from raysteps.results.model import Cumulative, Results, StepResult, Timing
+from raysteps.results.store import write_document
+from raysteps.sandbox.task import Isolation, Limits, Ran, Sandbox, Task
+from raysteps.submission.load import Submission
+from raysteps.toolchain.compile import Compiled, Program
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, Say
+from raysteps.toolchain.limits import limits_of
+
+# One step between the student's own steps: a students' kit has no reference to put around it.
+
+
+def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -> list[Path]:
+    """Those before this one. Where one does not build or was not started its stub stands in."""
+    found = []
+    for other in work.kit.steps:
+        if other.index < step.index:
+            own = compiled.get(other.id)
+            binary = own.binary if own is not None else None
+            found.append(binary or work.kit.reference_step(other))
+    return found
+
+
+class OwnGrader(StepGrader):
+    """What a student can be told at home."""
+
+    def _program(self, kind: Kind, binary: Path) -> Program | None:
+        return self._linked(kind, [*own_steps(self._work, self.step, self._compiled), binary], together=True)
+
+    def check(self) -> StepResult:
+        """The visible part, with its points. The pictures are made with the student's own steps already."""
+        result = self.grade()
+        if self._ran:
+            result.cumulative = Cumulative(all(image.passed for image in result.images[:1]))
+            result.status, result.points = status_and_points(result, self.step)
+        return result
+
+
+# A sandbox that adds up what its tasks cost, and tells of limits in round numbers.
+
+
+def _as_limited(ran: Ran, limits: Limits) -> Ran:
+    """A task that was stopped took as long as it may, however late the grader looked: so the same submission always
+    gets the same words."""
+    if ran.stopped not in ("wall", "cpu"):
+        return ran
+    seconds = limits.wall_seconds if ran.stopped == "wall" else limits.cpu_seconds
+    return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
+
+
+class Counted:
+    """Hands each task on and keeps the sum of processor seconds. Safe for several threads."""
+
+    def __init__(self, sandbox: Sandbox) -> None:
+        self._sandbox = sandbox
+        self._lock = threading.Lock()
+        self.cpu_seconds = 0.0
+
+    @property
+    def isolation(self) -> Isolation:
+        return self._sandbox.isolation
+
+    def run(self, task: Task) -> Ran:
+        """Runs the task in the sandbox."""
+        ran = self._sandbox.run(task)
+        with self._lock:
+            self.cpu_seconds += ran.cpu_seconds
+        return _as_limited(ran, task.limits)
+
+
+_TROUBLE = {
+    "not-started": "is not started: its stub does nothing, and that shows here too",
+    "does-not-build": "does not build: its stub stands in for it here, and that shows",
+}
+
+
+def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> list[str]:
+    """Earlier steps that are not right, and the pictures to compare with. Trees show in their own pictures only."""
+    earlier = [other for other in work.kit.steps if other.index < step.index and not other.is_about_a_tree]
+    wrong = [other for other in earlier if not is_right(found[other.id])]
+    if not wrong:
+        return []
+    first, *others = wrong
+    lines = [
+        f"Step {first.number} {_TROUBLE.get(found[first.id].status, 'is not right yet: its mistakes show here too')}."
+    ]
+    if others:
+        named = listed([other.number for other in others])
+        lines.append(f"Not right either, perhaps only because of it: {named}. Mend {first.number} first.")
+    root = work.kit.project.root
+    pictures = [given_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
+    lines.append(f"Compare with the reference's picture{'s' if len(pictures) > 1 else ''}: {listed(pictures)}.")
+    return lines
+
+
+def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]) -> dict[str, StepResult]:
+    """The chosen steps; the others only where something is wrong that they may have caused, and out of sight."""
+    found: dict[str, StepResult] = {}
+    with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
+        work.say("building the steps")
+        compiled = compile_steps(work, list(steps), pool, {})
+
+        def check(step: Step) -> StepResult:
+            shown = step in chosen
+            if shown:
+                work.say(f"checking {step.id}")
+            here = work if shown else replace(work, out=work.folder / "unseen")
+            return OwnGrader(here, step, limits_of(step, {}), compiled).check()
+
+        found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))
+        wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
+        rest = [step for step in steps if step.id not in found and any(step.index < other.index for other in wrong)]
+        found.update(zip([step.id for step in rest], pool.map(check, rest), strict=True))
+    for step in wrong:
+        found[step.id].messages[:0] = blame(work, step, found)
+    return found
+
+
+def check_own(
+    kit: BuiltKit, submission: Submission, chosen: list[Step], jobs: int, sandbox: Sandbox, out: Path, say: Say
+) -> Results:
+    """Writes out/results.json and out/pictures/. Points are those of the visible part."""
+    start = time.monotonic()
+    counted = Counted(sandbox)
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        work = GradingContext(kit, submission, counted, Path(folder), out, say)
+        steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
+        found = _check(work, steps, jobs, chosen)
+    timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+    results = Results(
+        submission.name, [found[step.id] for step in chosen], 0, kit.fingerprint, counted.isolation, timing
+    )
+    try:
+        write_document(results.to_json(), out)
+    except OSError as error:
+        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+    return results

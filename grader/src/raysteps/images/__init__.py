@@ -1,0 +1,1 @@
+"""Pictures: how they are made, read and compared."""

@@ -1,0 +1,190 @@
+"""Pictures: the reference's, which are kept, and a student's, made in the sandbox."""
+
+import contextlib
+import hashlib
+import json
+import math
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import mark, write_bytes, write_json
+from raysteps.common.process import run
+from raysteps.common.text import in_seconds, printable, shorten
+from raysteps.course.manifest import ImageCase, Step
+from raysteps.course.project import Project
+from raysteps.images.compare import PictureError, Pixels, parse_ppm, read_png, read_ppm, write_png
+from raysteps.results.model import Ending
+from raysteps.results.work_ratio import Work, read_work
+from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
+from raysteps.toolchain.compile import Program
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+# The reference's pictures as files of a students' kit, reference/NN-name/CASE.png, and what is known of them.
+
+_AGAIN = "take it from a fresh copy of the kit, or let ./raysteps update put it back"
+
+
+def given_path(project: Project, step: Step, case: ImageCase) -> Path:
+    """Where the picture is."""
+    return project.given / step.id / f"{case.name}.png"
+
+
+def write_given(project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None) -> None:
+    """A picture without a word in it, and beside it what it was made of and what it cost."""
+    path = given_path(project, step, case)
+    write_png(pixels, path)
+    write_json(
+        path.with_suffix(".json"), {"scene": mark(scene.read_bytes()), "work": None if work is None else asdict(work)}
+    )
+
+
+@dataclass(frozen=True)
+class _Given:
+    path: Path
+    facts: dict[str, Any]
+
+
+def _find(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> _Given:
+    for step in kit.steps:
+        for case in step.images:
+            if kit.project.root / case.scene == scene and case.args == args:
+                path = given_path(kit.project, step, case)
+                try:
+                    facts = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
+                    same = facts["scene"] == mark(scene.read_bytes())
+                except (OSError, ValueError, KeyError, TypeError) as error:
+                    raise UsageError(f"{path.with_suffix('.json')}: cannot be read; {_AGAIN}") from error
+                if not same:
+                    raise UsageError(
+                        f"{case.scene}: was changed; expected the scene of which {path.name} was made; {_AGAIN}"
+                    )
+                return _Given(path, facts)
+    raise GraderFault(f"{scene}: a students' kit has no picture of it with {' '.join(args)}")
+
+
+def given_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+    """The picture of one of the manifests' cases."""
+    path = _find(kit, scene, args).path
+    try:
+        return read_png(path)
+    except (OSError, ValueError) as error:
+        raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
+
+
+def given_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
+    """What it cost the reference."""
+    given = _find(kit, scene, args)
+    try:
+        return Work(**given.facts["work"])
+    except (KeyError, TypeError) as error:
+        raise UsageError(f"{given.path.with_suffix('.json')}: holds no counters; {_AGAIN}") from error
+
+
+_REFERENCE_SECONDS = 600
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """A picture, or why there is none."""
+
+    ran: Ran
+    pixels: Pixels | None
+    problem: str = ""
+    share_tested: float | None = None
+    work: Work | None = None
+
+
+def _share_tested(stats: bytes) -> float | None:
+    """From the statistics of raytrace: how much of the scene each ray was tested against."""
+    try:
+        share = float(json.loads(stats)["share_tested"])
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return None
+    return share if math.isfinite(share) and share >= 0 else None
+
+
+def render(sandbox: Sandbox, program: Program, scene: Path, args: tuple[str, ...], limits: Limits) -> Rendered:
+    """One picture by a student's program, which learns neither where it is nor what for."""
+    command: tuple[Word, ...] = (*program.words, Input(scene, "scene.nff"), *args, "--quiet")
+    command += ("-o", Output("picture"), "--stats", Output("stats"))
+    ran = sandbox.run(Task(command, limits))
+    if ran.outcome.timed_out or ran.stopped or ran.outcome.code != 0:
+        return Rendered(ran, None)
+    try:
+        pixels = parse_ppm(ran.outputs.get("picture", b""))
+    except PictureError as error:
+        return Rendered(ran, None, str(error))
+    stats = ran.outputs.get("stats", b"")
+    return Rendered(ran, pixels, share_tested=_share_tested(stats), work=read_work(stats))
+
+
+def _kept(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Path:
+    """Where the reference's picture of a scene is kept; its statistics lie beside it."""
+    if not scene.is_file():
+        raise GraderFault(f"the scene {scene} is missing")
+    key = hashlib.sha256(scene.read_bytes() + "\0".join(args).encode()).hexdigest()
+    return kit.pictures / f"{key[:32]}.ppm"
+
+
+def _stats_beside(picture: Path) -> Path:
+    return picture.with_suffix(".json")
+
+
+def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+    """Rendered at the first call; a reference that cannot is the kit's fault. A students' kit has it ready."""
+    if not kit.has_reference:
+        return given_picture(kit, scene, args)
+    path = _kept(kit, scene, args)
+    if _stats_beside(path).is_file():
+        with contextlib.suppress(PictureError):
+            return read_ppm(path)
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        picture, stats = Path(folder) / "picture.ppm", Path(folder) / "stats.json"
+        command: list[str | Path] = [kit.reference("raytrace"), scene, *args, "-o", picture, "--quiet"]
+        command += ["--stats", stats]
+        outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder))
+        try:
+            pixels, told = read_ppm(picture), stats.read_bytes()
+        except (PictureError, OSError) as error:
+            said = outcome.stderr.strip() or str(error)
+            raise GraderFault(f"the reference cannot render {scene.name}: {said}") from error
+        write_bytes(_stats_beside(path), told)
+        write_bytes(path, picture.read_bytes())
+    return pixels
+
+
+def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
+    """What the same picture costs the reference."""
+    if not kit.has_reference:
+        return given_work(kit, scene, args)
+    reference_picture(kit, scene, args)
+    path = _stats_beside(_kept(kit, scene, args))
+    work = read_work(path.read_bytes())
+    if work is None:
+        raise GraderFault(f"{path}: expected what `raytrace --stats` writes; delete the folder {kit.pictures}")
+    return work
+
+
+# How a student's program ended, in words.
+
+ENDLESS = "Is there an endless loop? Once a program of a step has hung, the next ones get less time."
+
+
+def ending_of(ran: Ran, what: str) -> tuple[Ending, str]:
+    """`what` is what the program was to make, such as `The picture`. Only for a program that did not make it."""
+    outcome = ran.outcome
+    if ran.stopped == "memory":
+        return "crashed", f"{what} needed more memory than a program may have here."
+    if outcome.timed_out or ran.stopped in ("wall", "cpu"):
+        return "timeout", f"{what} was not ready after {in_seconds(outcome.seconds)}. {ENDLESS}"
+    if outcome.signal_name is not None:
+        return "crashed", f"{what} was not made: the program crashed ({outcome.signal_words})."
+    if outcome.code != 0:
+        said = shorten(printable(outcome.stderr.strip().rpartition("\n")[2]), 200)
+        return "crashed", f"{what} was not made: the program gave up with exit code {outcome.code}" + (
+            f": {said}" if said else "."
+        )
+    return "wrong", ""

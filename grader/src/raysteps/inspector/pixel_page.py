@@ -1,0 +1,353 @@
+"""A pixel as a page: its rays and boxes in three dimensions, and the tree of rays in words."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.text import count
+from raysteps.exports.formats import write_out
+from raysteps.inspector.records import (
+    EYE,
+    Difference,
+    Record,
+    Vector,
+    as_float,
+    brief,
+    is_finite,
+    length,
+    meets,
+    minus,
+    point,
+    surface_name,
+)
+from raysteps.report.page import render_page
+
+# A record as the lines of a tree, each with a key, so that two trees can stand side by side.
+
+Key = tuple[str, ...]
+
+TITLES = {
+    "eye": "eye ray",
+    "reflect": "reflected ray",
+    "refract": "refracted ray",
+    "internal": "ray mirrored inside the glass",
+}
+_KINDS = {"internal": "refract"}
+
+
+@dataclass(frozen=True)
+class Line:
+    """`cost`: it tells of work, in which two right programs may differ."""
+
+    key: Key
+    level: int
+    text: str
+    cost: bool = False
+
+
+def _search(ray: Record, key: Key, level: int) -> Iterator[Line]:
+    counts = ray["counts"]
+    if counts["box_tests"]:
+        text = f"boxes: {counts['box_tests']} asked, {counts['boxes_entered']} entered"
+        yield Line((*key, "boxes"), level, text, cost=True)
+    if counts["surface_tests"]:
+        text = f"{count(counts['surface_tests'], 'surface test')}, {counts['unique_surfaces']} different"
+        yield Line((*key, "tests"), level, text, cost=True)
+
+
+def _hit(ray: Record, key: Key, level: int) -> Iterator[Line]:
+    hit = ray["hit"]
+    yield Line((*key, "hit"), level, meets(hit))
+    if hit is not None:
+        side = "outside" if hit["from_outside"] else "inside"
+        yield Line((*key, "position"), level + 1, f"position {point(hit['position'])}, from {side}")
+        yield Line((*key, "normal"), level + 1, f"normal {point(hit['normal'])}")
+
+
+def light_words(light: Record) -> str:
+    if light["lit"]:
+        return "visible" if light["rays"] else "counts"
+    hit = light["rays"][-1]["hit"] if light["rays"] else None
+    return "hidden" if hit is None else f"blocked by {surface_name(hit)} at distance {brief(hit['distance'])}"
+
+
+def _light(light: Record, key: Key, level: int) -> Iterator[Line]:
+    number = light["light"] + 1
+    yield Line((*key, f"light{number}"), level, f"light {number}: {light_words(light)}")
+    for ray in light["rays"]:
+        text = f"shadow ray {point(ray['origin'])} towards {point(ray['direction'])}"
+        yield Line((*key, f"shadow{number}"), level + 1, text)
+        yield from _search(ray, (*key, f"shadow{number}"), level + 2)
+    text = f"l.n {brief(light['l_n'])}  diffuse {point(light['diffuse'])}  specular {point(light['specular'])}"
+    yield Line((*key, f"terms{number}"), level + 1, text)
+
+
+def _ray(ray: Record, key: Key, level: int, step: int) -> Iterator[Line]:
+    depth = "" if ray["role"] == "eye" else f", depth {ray['depth']}"
+    text = f"{TITLES[ray['role']]}{depth}: {point(ray['origin'])} towards {point(ray['direction'])}"
+    yield Line((*key, "ray"), level, text)
+    if step > 1:
+        yield from _search(ray, key, level + 1)
+        yield from _hit(ray, key, level + 1)
+    for light in ray["lights"]:
+        yield from _light(light, key, level + 1)
+    if ray["direct"] is not None:
+        yield Line((*key, "direct"), level + 1, f"sum over the lights {point(ray['direct'])}")
+    for kind in ("refract", "reflect"):
+        for bounce in ray["bounces"]:
+            if _KINDS.get(bounce["role"], bounce["role"]) == kind:
+                yield from _ray(bounce, (*key, kind), level + 1, step)
+        if kind == "refract" and ray["transmitted"] is not None and any(map(float, ray["transmitted"])):
+            yield Line((*key, "transmitted"), level + 1, f"shines through {point(ray['transmitted'])}")
+    color = "unknown" if ray["color"] is None else point(ray["color"])
+    yield Line((*key, "color"), level + 1, f"colour {color}")
+
+
+def lines_of(record: Record) -> list[Line]:
+    """From the camera to the bytes."""
+    frame = record["frame"]
+    lines = [Line(("frame",), 0, f"camera: forward {point(frame['forward'])}, up {point(frame['up'])}")]
+    lines += _ray(record["ray"], (EYE,), 0, record["step"])
+    if record["mapped"] is not None:
+        lines.append(Line(("mapped",), 0, f"tone mapping {point(record['mapped'])}"))
+    ending = "the rays never end" if record["endless"] else f"bytes {' '.join(map(str, record['bytes'] or []))}"
+    return [*lines, Line(("bytes",), 0, ending)]
+
+
+# A record as a tree of rays for a page: words to read, and where each ray runs in space.
+
+
+@dataclass
+class PageRay:
+    """One ray; `key` begins the keys of its lines in the tree."""
+
+    key: Key
+    title: str
+    ending: str
+    record: Record
+    lines: list[str] = field(default_factory=list)  # of the hit
+    sums: list[str] = field(default_factory=list)  # of the light, in the order of computation
+    color: str = ""  # as HTML names colours
+    boxes: list[str] = field(default_factory=list)
+    children: list["PageRay"] = field(default_factory=list)
+    role: str = ""
+
+    @property
+    def id(self) -> str:
+        return "-".join(self.key)
+
+    def all_rays(self) -> Iterator["PageRay"]:
+        """Itself, and all that come of it."""
+        yield self
+        for child in self.children:
+            yield from child.all_rays()
+
+
+def shown_color(color: Vector | None) -> str:
+    """What a screen shows of it, cut off at 1."""
+    if color is None:
+        return "#000000"
+    parts = [as_float(part) for part in color]
+    return "#" + "".join(f"{round(255 * min(max(part, 0.0), 1.0)) if part == part else 0:02x}" for part in parts)
+
+
+def _box_words(box: Record) -> str:
+    level = "" if box["level"] is None else f"level {box['level']}: "
+    if box["enter"] is None:
+        return f"{level}missed"
+    listed = f", lists {count(box['listed'], 'surface')}" if box["listed"] else ""
+    return f"{level}enters at {brief(box['enter'])}, leaves at {brief(box['leave'])}{listed}"
+
+
+def _search_lines(ray: Record, surfaces: int) -> list[str]:
+    counts = ray["counts"]
+
+    def share(number: int) -> str:
+        return f"{100 * number / surfaces:.3g} % of {surfaces}" if surfaces else "of none"
+
+    lines = []
+    if counts["box_tests"]:
+        lines.append(f"{counts['box_tests']} boxes asked, {counts['boxes_entered']} entered")
+    if counts["candidates"]:
+        lines.append(f"{counts['candidates']} candidates, duplicates counted ({share(counts['candidates'])})")
+    if counts["surface_tests"]:
+        unique = counts["unique_surfaces"]
+        lines.append(f"{count(counts['surface_tests'], 'test')} on {unique} different surfaces ({share(unique)})")
+    return lines
+
+
+def _hit_lines(hit: Record) -> list[str]:
+    fill = hit["fill"]
+    glass = f"  transmittance {brief(fill['transmittance'])}  index {brief(fill['index'])}"
+    return [
+        f"position {point(hit['position'])}, from {'outside' if hit['from_outside'] else 'inside'}",
+        f"normal {point(hit['normal'])}",
+        f"colour {point(fill['color'])}  kd {brief(fill['kd'])}  ks {brief(fill['ks'])}  shine {brief(fill['shine'])}"
+        + (glass if as_float(fill["transmittance"]) else ""),
+    ]
+
+
+def _new(ray: Record, key: Key, title: str, surfaces: int) -> PageRay:
+    made = PageRay(key, title, meets(ray["hit"]), ray, role=ray["role"])
+    made.lines = [f"from {point(ray['origin'])} towards {point(ray['direction'])}", *_search_lines(ray, surfaces)]
+    made.boxes = [_box_words(box) for box in ray["boxes"]]
+    if ray["hit"] is not None and ray["role"] != "shadow":
+        made.lines += _hit_lines(ray["hit"])
+    return made
+
+
+def _shadow_rays(light: Record, key: Key, surfaces: int) -> Iterator[PageRay]:
+    number = light["light"] + 1
+    for again, ray in enumerate(light["rays"]):
+        more = (f"ray{again + 1}",) if again else ()
+        shadow = _new(ray, (*key, f"light{number}", *more), f"shadow ray to light {number}", surfaces)
+        shadow.ending = light_words(light)
+        shadow.role = "lit" if light["lit"] else "blocked"
+        yield shadow
+
+
+def page_ray(ray: Record, surfaces: int, key: Key = ("eye",)) -> PageRay:
+    """The ray with its shadow rays and bounces."""
+    depth = "" if ray["role"] == "eye" else f", depth {ray['depth']}"
+    made = _new(ray, key, TITLES[ray["role"]] + depth, surfaces)
+    made.role = "refract" if ray["role"] == "internal" else ray["role"]
+    made.color = shown_color(ray["color"])
+    for light in ray["lights"]:
+        made.children += _shadow_rays(light, key, surfaces)
+        terms = f"diffuse {point(light['diffuse'])}  specular {point(light['specular'])}"
+        number = light["light"] + 1
+        made.sums.append(f"light {number}, {light_words(light)}: l.n {brief(light['l_n'])}  {terms}")
+    if ray["direct"] is not None:
+        made.sums.append(f"sum over the lights {point(ray['direct'])}")
+    for bounce in ray["bounces"]:
+        kind = "refract" if bounce["role"] == "internal" else bounce["role"]
+        made.children.append(page_ray(bounce, surfaces, (*key, kind)))
+    if ray["transmitted"] is not None and any(map(as_float, ray["transmitted"])):
+        made.sums.append(f"shines through {point(ray['transmitted'])}")
+    made.sums.append("colour unknown" if ray["color"] is None else f"colour {point(ray['color'])}")
+    return made
+
+
+# What a page draws of a record in space.
+
+_FAR = 3.0  # sizes of the view that a ray which meets nothing is drawn long
+
+
+def _plain(vector: Vector) -> list[float]:
+    """JSON has no infinity."""
+    return [value if math.isfinite(value) else 0.0 for value in map(as_float, vector)]
+
+
+def _along(origin: Vector, direction: Vector, distance: float) -> list[float]:
+    return _plain([a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)])
+
+
+def _end(ray: Record, size: float) -> list[float]:
+    if ray["hit"] is not None and is_finite(ray["hit"]["position"]):
+        return _plain(ray["hit"]["position"])
+    limit = _FAR * size if ray["limit"] is None else min(as_float(ray["limit"]), 10 * _FAR * size)
+    return _along(ray["origin"], ray["direction"], limit)
+
+
+def _ray_in_space(page_ray: PageRay, size: float) -> dict[str, Any]:
+    ray = page_ray.record
+    return {
+        "id": page_ray.id,
+        "role": page_ray.role,
+        "origin": _plain(ray["origin"]),
+        "end": _end(ray, size),
+        "hit": None if ray["hit"] is None else ray["hit"]["surface"],
+        "boxes": [
+            {"min": _plain(b["min"]), "max": _plain(b["max"]), "entered": b["enter"] is not None, "level": b["level"]}
+            for b in ray["boxes"]
+        ],
+        "tests": [
+            {"surface": test["surface"], "hit": test["distance"] is not None, "before": test["boxes_before"]}
+            for test in ray["tests"]
+        ],
+    }
+
+
+def _camera(record: Record) -> dict[str, Any]:
+    camera, frame = record["camera"], record["frame"]
+    half_width, half_height = as_float(frame["half_width"]), as_float(frame["half_height"])
+    axes = [_plain(frame[name]) for name in ("forward", "right", "up")]
+
+    def corner(right: int, up: int) -> list[float]:
+        return _plain([f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)])
+
+    return {
+        **{name: _plain(camera[name]) for name in ("from", "at", "up")},
+        "halfHeight": math.tan(math.radians(as_float(camera["angle"])) / 2),
+        "aspect": camera["width"] / camera["height"],
+        "corners": [corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1)],
+    }
+
+
+def _goal(record: Record) -> list[float]:
+    """What the pixel shows; a sky far behind the scene is no good place to look at."""
+    camera, hit = record["camera"], record["ray"]["hit"]
+    if hit is not None and is_finite(hit["position"]):
+        far = _FAR * length(minus(camera["at"], camera["from"]))
+        if length(minus(hit["position"], camera["from"])) <= far:
+            return _plain(hit["position"])
+    return _plain(camera["at"])
+
+
+def space_of(record: Record, tree: PageRay) -> dict[str, Any]:
+    """Camera, lights, surfaces near the rays, and the rays; `size` is how far the eye is from the goal."""
+    goal = _goal(record)
+    size = max(length(minus(goal, record["camera"]["from"])), 1e-3)
+    return {
+        "camera": _camera(record),
+        "goal": goal,
+        "size": size,
+        "lights": [_plain(light["position"]) for light in record["lights"]],
+        "surfaces": [
+            {
+                "surface": near["surface"],
+                "points": [_plain(corner) for corner in near["points"]],
+                "radii": _plain(near["radii"]),
+                "color": _plain(near["color"]),
+            }
+            for near in record["near"]
+        ],
+        "rays": [_ray_in_space(ray, size) for ray in tree.all_rays()],
+    }
+
+
+_SCRIPTS = ("space-vectors", "space-shapes", "space-painter", "space-orbit", "inspect-space", "inspect")
+
+
+def _parts_at(tree: PageRay, parting: Difference | None) -> str:
+    """The ray of the difference: the deepest one whose key begins the difference's place."""
+    if parting is None:
+        return ""
+    place = tuple(part.replace("shadow", "light").replace("terms", "light") for part in parting.place)
+    holders = [ray for ray in tree.all_rays() if place[: len(ray.key)] == ray.key]
+    return max(holders, key=lambda ray: len(ray.key)).id if holders else ""
+
+
+def page_html(record: Record, reference: Record | None = None, parting: Difference | None = None) -> str:
+    """The document; with a reference both trees stand side by side, and the first difference is marked."""
+    records = {"mine": record} if reference is None else {"mine": record, "reference": reference}
+    trees = {name: page_ray(one["ray"], one["surfaces"]) for name, one in records.items()}
+    pixel = record["pixel"]
+    context = {
+        "record": record,
+        "reference": reference,
+        "trees": trees,
+        "parting": parting,
+        "parts_at": {name: _parts_at(tree, parting) for name, tree in trees.items()},
+        "swatch": shown_color([byte / 255 for byte in record["bytes"]] if record["bytes"] else None),
+    }
+    spaces = {name: space_of(one, trees[name]) for name, one in records.items()}
+    title = f"Inside pixel ({pixel['x']}, {pixel['y']})"
+    return render_page("inspect", title, context, scripts=_SCRIPTS, styles=("inspect",), data=spaces)
+
+
+def write_page(record: Record, reference: Record | None, parting: Difference | None, target: Path) -> None:
+    """Writes the page of one record, or of two beside each other with the first difference marked."""
+    write_out(target, page_html(record, reference, parting).encode("utf-8", "replace"))

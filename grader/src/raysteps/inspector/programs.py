@@ -1,0 +1,80 @@
+"""The program inspect: run, and its record read."""
+
+import json
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import UsageError
+from raysteps.common.process import Outcome, run
+from raysteps.common.text import in_seconds, printable
+from raysteps.inspector.records import Record
+
+_SECONDS = 30
+_MOST_BYTES = 64 << 20
+_USAGE = 2
+
+
+@dataclass(frozen=True)
+class Wish:
+    """Which pixel of what; `options` are those of the program."""
+
+    scene: str
+    x: str
+    y: str
+    step: int
+    options: tuple[str, ...] = ()
+
+    def words(self, step: int | None = None) -> list[str]:
+        return [self.scene, self.x, self.y, "--step", str(step or self.step), *self.options]
+
+
+@dataclass(frozen=True)
+class Inspected:
+    """What the program said; `problem` is set where it did not come to its end."""
+
+    text: str = ""
+    record: Record | None = None
+    remarks: str = ""  # from stderr, such as functions that are not written yet
+    problem: str = ""
+
+
+def _problem(outcome: Outcome) -> str:
+    if outcome.timed_out:
+        return f"did not come to an end in {in_seconds(_SECONDS)}. Is there an endless loop?"
+    if outcome.signal_name is not None:
+        return f"crashed ({outcome.signal_words})."
+    return f"gave up with exit code {outcome.code}" if outcome.code != 0 else ""
+
+
+def _read(path: Path) -> Record | None:
+    try:
+        record = json.loads(path.read_text(encoding="utf-8", errors="replace"))  # a scene's name may be any bytes
+    except (OSError, ValueError, RecursionError):
+        return None
+    is_record = isinstance(record, dict) and record.get("schema") == "raysteps/inspect/v1"
+    return record if is_record else None
+
+
+def inspect(program: Path, wish: Wish, *, seconds: float = _SECONDS) -> Inspected:
+    """Runs the program once; bad input is a usage error, whatever the steps are like."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        file = Path(folder) / "record.json"
+        outcome = run([program, *wish.words(), "--json", file], seconds=seconds, cap=_MOST_BYTES)
+        said = printable(outcome.stderr).strip()
+        if outcome.code == _USAGE and not outcome.timed_out:
+            raise UsageError(said.removeprefix("raysteps inspect: ") or "inspect gave up without a word")
+        problem = _problem(outcome)
+        record = None if problem else _read(file)
+    if not problem and record is None:
+        problem = "left no record that can be read"
+    return Inspected(printable(outcome.stdout), record, said, problem)
+
+
+def last_good_step(program: Path, wish: Wish, *, seconds: float = 10) -> int:
+    """Up to which step the program comes to its end; 0: not even in the first."""
+    for step in range(1, wish.step):
+        outcome = run([program, *wish.words(step), "--quiet"], seconds=seconds)
+        if outcome.code != 0 or outcome.timed_out:
+            return step - 1
+    return wish.step - 1

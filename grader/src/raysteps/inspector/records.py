@@ -1,0 +1,148 @@
+"""Numbers, points and colours of a record, and when two of them are the same."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+Record = dict[str, Any]  # form raysteps/inspect/v1, or a part of it
+Number = float | str  # one that is not finite is a word
+Vector = Sequence[Number]
+
+CLOSE = 1e-4  # share by which rounding alone may move a number of a right solution
+_COARSEST = 0.3
+_NORMAL = 1e-3  # on small spheres rounding moves a normal more than a position
+_DARKEST = 2e-5  # colours below differ by less than anybody could see
+
+
+def as_float(value: Number) -> float:
+    return float(value)
+
+
+def length(vector: Vector) -> float:
+    return math.hypot(*map(as_float, vector))
+
+
+def minus(one: Vector, other: Vector) -> list[float]:
+    return [as_float(a) - as_float(b) for a, b in zip(one, other, strict=True)]
+
+
+def dot(one: Vector, other: Vector) -> float:
+    return sum(as_float(a) * as_float(b) for a, b in zip(one, other, strict=True))
+
+
+def is_finite(vector: Vector) -> bool:
+    return all(math.isfinite(as_float(value)) for value in vector)
+
+
+def same_number(one: Number, other: Number, close: float, least: float = 1e-6) -> bool:
+    a, b = as_float(one), as_float(other)
+    if not (math.isfinite(a) and math.isfinite(b)):
+        return a == b or (math.isnan(a) and math.isnan(b))
+    return abs(a - b) <= max(least, close * max(abs(a), abs(b)))
+
+
+def same_point(one: Vector, other: Vector, close: float, reach: float) -> bool:
+    """`reach`: how far the numbers come that both were computed from."""
+    if not (is_finite(one) and is_finite(other)):
+        return list(map(str, one)) == list(map(str, other))
+    return length(minus(one, other)) <= close * max(reach, length(other), 1e-3)
+
+
+def same_direction(one: Vector, other: Vector, close: float = 0.0) -> bool:
+    """Of length 1, too."""
+    if not (is_finite(one) and is_finite(other)):
+        return list(map(str, one)) == list(map(str, other))
+    return length(minus(one, other)) <= max(_NORMAL, close)
+
+
+def same_color(one: Vector | None, other: Vector | None, close: float) -> bool:
+    if one is None or other is None:
+        return one is other
+    return all(same_number(a, b, close, _DARKEST) for a, b in zip(one, other, strict=True))
+
+
+def coarser(one: Record, other: Record) -> float:
+    """How close two rays can be expected to end that begin like these."""
+    apart = length(minus(one["origin"], other["origin"])) + length(minus(one["direction"], other["direction"]))
+    return min(_COARSEST, CLOSE + 30 * apart) if math.isfinite(apart) else CLOSE
+
+
+def parted(mine: Vector | None, reference: Vector | None, expected: Vector | None, close: float) -> bool:
+    """Whether two colours differ, and mine does not follow from what it was made of."""
+    if same_color(mine, reference, close):
+        return False
+    return mine is None or expected is None or not same_color(mine, expected, 10 * CLOSE)
+
+
+def brief(value: Number) -> str:
+    return value if isinstance(value, str) else f"{value:.5g}"
+
+
+def point(vector: Vector) -> str:
+    return f"({', '.join(map(brief, vector))})"
+
+
+def told(color: Vector | None) -> str:
+    return "unknown" if color is None else point(color)
+
+
+# The same ray in two records.
+
+EYE = "eye"
+
+
+class Difference(NamedTuple):
+    """`place` is the key of a line of the tree; `function` is empty where no step's function is to blame."""
+
+    place: tuple[str, ...]
+    words: str
+    function: str
+    why: str = ""
+    shaky: bool = False  # the two rays began a little apart already, so that an edge may lie between them
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The same ray in both records, `place` being its line in the tree."""
+
+    mine: Record
+    reference: Record
+    place: tuple[str, ...]
+    name: str
+    close: float
+    step: int
+    accel: str
+    lights: list[Record]
+
+    def at(self, item: str, words: str, function: str, why: str = "") -> Difference:
+        plain = self.place == (EYE,) and not words.startswith("yours")  # what else happens at the eye ray needs no name
+        return Difference((*self.place, item), words if plain else f"{self.name}: {words}", function, why, self.shaky)
+
+    @property
+    def shaky(self) -> bool:
+        return self.close > 2 * CLOSE
+
+
+def surface_name(hit: Record) -> str:
+    return "something that is no surface" if hit["surface"] is None else f"surface {hit['surface']} ({hit['kind']})"
+
+
+def not_unit(direction: Vector) -> str:
+    """Says so of a direction whose length is not 1."""
+    size = length(direction)
+    return "" if abs(size - 1) < 1e-3 else f"its length is {size:.4g} and not 1"
+
+
+def meets(hit: Record | None) -> str:
+    return "meets nothing" if hit is None else f"meets {surface_name(hit)} at distance {brief(hit['distance'])}"
+
+
+def same_meeting(one: Record | None, other: Record | None, close: float) -> bool:
+    """Two surfaces at the same distance are the same where they look the same."""
+    if one is None or other is None:
+        return one is other
+    alike = one["surface"] == other["surface"] or (
+        one["fill"] == other["fill"] and same_direction(one["normal"], other["normal"], close)
+    )
+    return alike and same_number(one["distance"], other["distance"], close, 1e-5)

@@ -1,0 +1,173 @@
+"""Cases of step 05: reflected rays; what they bring has a module of its own."""
+
+from collections.abc import Sequence
+
+from raysteps.judge.compare import Answer, angle, channels, first
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.hits import REFLECTED_RAY
+from raysteps.judge.numbers import Vector, add, dot, length, minus, rounded, times
+from raysteps.judge.protocol import Hit, Inputs, Ray, Whole
+from raysteps.judge.random_source import Draw, next_axis
+from raysteps.judge.scripted_tracer import Script, ScriptedHit, Traced, read_traced, traced_words
+
+# Cases of step 05: what a ray brings from mirror to mirror.
+
+_DEGREES = 0.5
+_AT_THE_HIT = 0.5  # a bounced ray that starts farther away from the hit was not made by reflected_ray
+_HEAD_ON = 0.999  # cosine
+
+
+def _script(inputs: Inputs) -> Script:
+    script = inputs["tracer"]
+    assert isinstance(script, Script)
+    return script
+
+
+def _met_head_on(inputs: Inputs) -> bool:
+    """Whether the first hit sends the ray straight back."""
+    ray, hits = inputs["ray"], _script(inputs).hits
+    assert isinstance(ray, Ray)
+    return bool(hits) and abs(dot(ray.direction, hits[0].normal)) > _HEAD_ON
+
+
+def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -> bool:
+    """Where exactly a bounced ray starts is reflected_ray's matter, and so is its direction where that is not simple: a
+    mistake there alone must not make all of trace wrong. The hits lie on the rays that were really cast."""
+    same = [angle(mine.direction, theirs.direction) <= _DEGREES for mine, theirs in zip(expected, actual, strict=True)]
+    if not same[0] or not length(minus(expected[0].origin, actual[0].origin)) <= 1e-3:
+        return True
+    for before, after, hit in zip(actual, actual[1:], _script(inputs).hits, strict=False):
+        position = add(before.origin, before.direction, hit.distance)
+        if not length(minus(after.origin, position)) <= _AT_THE_HIT:
+            return True
+    return _met_head_on(inputs) and not all(same)
+
+
+def _trace_problem(inputs: Inputs, expected: Traced, actual: Traced) -> str:
+    counts = ""
+    if len(actual.cast) != len(expected.cast):
+        counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
+    astray = not counts and bool(expected.cast) and _is_astray(inputs, expected.cast, actual.cast)
+    shaded = sorted(expected.shaded) == sorted(actual.shaded)
+    return first(
+        counts,
+        "a ray that was cast is wrong" if astray else "",
+        channels("the colour", expected.color, actual.color),
+        "" if shaded else "local_light was asked for other hits, or with another depth",
+    )
+
+
+def _scripted(draw: Draw, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
+    """ks between low and high."""
+    distances = [float(i + 1) + draw.real(0.1, 0.8) for i in range(count)]
+    return tuple(
+        ScriptedHit(distance, draw.direction(), draw.real(low, high), draw.color(0.05, 1.0)) for distance in distances
+    )
+
+
+def _trace(draw: Draw, hits: tuple[ScriptedHit, ...], depth: int, most: int) -> Inputs:
+    ray = Ray(draw.point(3), draw.direction())
+    return {"ray": ray, "depth": Whole(depth), "tracer": Script(most, draw.color(0.2, 0.9), hits)}
+
+
+def _mirror_and_dull(draw: Draw) -> Inputs:
+    """Some mirrors, then something dull or nothing."""
+    hits = _scripted(draw, draw.whole(1, 3), 0.2, 0.9)
+    end = _scripted(draw, 4, 0.0, 0.0)[3:] if draw.chance(0.6) else ()
+    return _trace(draw, hits + end, 1, 6)
+
+
+def _simple_trace(draw: Draw) -> Inputs:
+    """One hit straight ahead, ks 0.5, and perhaps a dull one behind."""
+    down: Vector = (0.0, 0.0, -1.0)
+    mirror = ScriptedHit(5.0, (0.0, 0.0, 1.0), 0.5, draw.color())
+    dull = ScriptedHit(3.0, (0.0, 0.0, -1.0), 0.0, draw.color())
+    hits = (mirror, dull) if draw.chance(0.7) else (mirror,)
+    return {"ray": Ray((0.0, 0.0, 5.0), down), "depth": Whole(1), "tracer": Script(5, draw.color(), hits)}
+
+
+def _depth_limit(draw: Draw) -> Inputs:
+    """More mirrors than the limit lets a ray see."""
+    most = draw.whole(1, 5)
+    return _trace(draw, _scripted(draw, most + 2, 0.3, 0.9), 1, most)
+
+
+def _deepest(draw: Draw) -> Inputs:
+    """The depth at the start is the last that counts."""
+    most = draw.whole(1, 6)
+    return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most, most)
+
+
+def _too_deep(draw: Draw) -> Inputs:
+    most = draw.whole(1, 6)
+    return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most + draw.whole(1, 3), most)
+
+
+def _faint(draw: Draw) -> Inputs:
+    """Any ks above 0 is a mirror, and so is a whole one."""
+    low, high = (0.001, 0.01) if draw.chance(0.5) else (1.0, 1.0)
+    return _trace(draw, _scripted(draw, draw.whole(1, 3), low, high), 1, 5)
+
+
+def _corridor(draw: Draw) -> Inputs:
+    """Very many mirrors in a row; the last rays miss, or the limit ends them."""
+    return _trace(draw, _scripted(draw, draw.whole(12, 20), 0.8, 0.95), 1, draw.whole(10, 25))
+
+
+TRACE = Function(
+    "trace",
+    Answer(read_traced, traced_words, _trace_problem),
+    (
+        Group("mirrors and what they show", _mirror_and_dull),
+        Group("simple numbers", _simple_trace),
+        Group("dull surfaces", lambda d: _trace(d, _scripted(d, d.whole(1, 3), 0.0, 0.0), 1, 5)),
+        Group("a miss", lambda d: _trace(d, (), 1, 5)),
+        Group("the depth limit", _depth_limit),
+        Group("the deepest ray", _deepest),
+        Group("faint mirrors and whole ones", _faint),
+        Group("many mirrors", _corridor),
+        Group("no depth at all", lambda d: _trace(d, _scripted(d, 1, 0.3, 0.9), 1, 0), telling=False),
+        Group("a bounced ray that misses", lambda d: _trace(d, (), d.whole(2, 4), 5), telling=False),
+        Group("beyond the limit", _too_deep, telling=False),
+    ),
+)
+
+
+def _hit(draw: Draw, low: float = 0.15, high: float = 1.0, reach: float = 3.0) -> Inputs:
+    normal = draw.direction()
+    return {"hit": Hit(draw.point(reach), normal, rounded(times(-1.0, draw.above(normal, low, high))))}
+
+
+def _simple_hit(draw: Draw) -> Inputs:
+    normal = draw.axis()
+    side = next_axis(normal)
+    straight = draw.chance(0.4)
+    direction = times(-1.0, normal) if straight else rounded(add(times(-0.8, normal), side, 0.6))
+    return {"hit": Hit(draw.simple_point(3), normal, direction)}
+
+
+def _far_hit(draw: Draw) -> Inputs:
+    normal = draw.direction()
+    position = rounded(add((100.0, -100.0, 100.0), draw.point(3)))
+    return {"hit": Hit(position, normal, rounded(times(-1.0, draw.above(normal, 0.3))))}
+
+
+def _head_on(draw: Draw) -> Inputs:
+    normal = draw.axis() if draw.chance(0.3) else draw.direction()
+    return {"hit": Hit(draw.point(3), normal, times(-1.0, normal))}
+
+
+_REFLECTED_RAY = Function(
+    "reflected_ray",
+    REFLECTED_RAY,
+    (
+        Group("any hit", _hit),
+        Group("simple numbers", _simple_hit),
+        Group("at a grazing angle", lambda d: _hit(d, 0.06, 0.15)),
+        Group("far from the centre of the world", _far_hit),
+        Group("head-on", _head_on),
+        Group("almost along the surface", lambda d: _hit(d, 0.02, 0.06)),
+    ),
+)
+
+FUNCTIONS = (_REFLECTED_RAY, TRACE)

@@ -1,0 +1,259 @@
+"""Cases of step 08: transmitted rays; refracted directions and what comes through glass have modules of their own."""
+
+import math
+from dataclasses import dataclass, replace
+
+from raysteps.judge.compare import Answer, channels, direction, first
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.hits import TRANSMITTED_RAY, hit_of
+from raysteps.judge.numbers import Vector, dot, f32, length, minus, rounded, times
+from raysteps.judge.protocol import Fill, Garbled, Hit, Inputs, Ray, Real, Tokens, Vec, Whole, vector_words
+from raysteps.judge.random_source import Draw
+from raysteps.judge.scripted_tracer import MOST_ASKED
+
+# What the cases of step 08 share: glass, and rays that meet it on this or that side of the critical angle.
+
+_CLEAR = 0.05  # how far the sine of a refracted ray keeps from 1, where rounding decides
+
+
+def index_of_glass(draw: Draw) -> float:
+    """Also the eta of a ray that leaves it."""
+    return draw.real(1.2, 2.2)
+
+
+def into(draw: Draw) -> float:
+    """The eta of a ray that enters glass."""
+    return f32(1 / index_of_glass(draw))
+
+
+def _sine(eta: float, cosine: float) -> float:
+    return eta * math.sqrt(1 - min(1.0, cosine * cosine))
+
+
+def directions(draw: Draw, eta: float, *, total: bool) -> tuple[Vector, Vector]:
+    """Ray and normal, on this or that side of the critical angle."""
+
+    def make() -> tuple[Vector, Vector]:
+        normal = draw.direction()
+        return rounded(times(-1.0, draw.above(normal, 0.05))), normal
+
+    def clear(found: tuple[Vector, Vector]) -> bool:
+        sine = _sine(eta, dot(*found))
+        return sine > 1 + _CLEAR if total else sine < 1 - _CLEAR
+
+    return draw.until(clear, make)
+
+
+def hit_on_glass(draw: Draw, index: float, *, outside: bool, total: bool = False) -> Hit:
+    eta = (1 / index if outside else index) if index > 0 else 1.0
+    ray, normal = directions(draw, eta, total=total)
+    fill = replace(draw.fill(), transmittance=draw.real(0.2, 1.0), index=index)
+    return Hit(draw.point(3), normal, ray, draw.real(1, 9), fill, outside)
+
+
+def any_hit(draw: Draw) -> Hit:
+    if draw.chance(0.2):
+        return hit_on_glass(draw, index_of_glass(draw), outside=False, total=True)
+    return hit_on_glass(draw, index_of_glass(draw), outside=draw.chance(0.5))
+
+
+def simple_hit(draw: Draw) -> Hit:
+    """Straight down into or out of glass of index 1.5."""
+    normal = draw.axis()
+    fill = Fill(transmittance=0.5, index=1.5)
+    return Hit((0.0, 0.0, 0.0), normal, times(-1.0, normal), 1.0, fill, draw.chance(0.5))
+
+
+# Cases of step 08: refracted directions.
+
+
+@dataclass(frozen=True)
+class _Refracted:
+    """A direction, or nothing."""
+
+    direction: Vector | None
+
+
+def _read_refracted(tokens: Tokens) -> _Refracted:
+    word = tokens.word()
+    if word not in ("none", "direction"):
+        raise Garbled("the answer is neither a direction nor nothing")
+    return _Refracted(tokens.vector() if word == "direction" else None)
+
+
+def _refracted_words(answer: _Refracted) -> str:
+    return "nothing (total internal reflection)" if answer.direction is None else vector_words(answer.direction)
+
+
+def _refracted_problem(_inputs: Inputs, expected: _Refracted, actual: _Refracted) -> str:
+    if expected.direction is None:
+        return "" if actual.direction is None else "refraction is impossible, and a direction came"
+    if actual.direction is None:
+        return "refraction is possible, and nothing came"
+    return direction("the direction", expected.direction, actual.direction)
+
+
+def _refract(draw: Draw, eta: float, *, total: bool = False) -> Inputs:
+    ray, normal = directions(draw, eta, total=total)
+    return {"direction": Vec(ray), "normal": Vec(normal), "eta": Real(eta)}
+
+
+def _any_refract(draw: Draw) -> Inputs:
+    if draw.chance(0.2):
+        return _refract(draw, index_of_glass(draw), total=True)
+    return _refract(draw, into(draw) if draw.chance(0.5) else index_of_glass(draw))
+
+
+def _straight(draw: Draw) -> Inputs:
+    normal = draw.axis()
+    eta = (f32(1 / 1.5), 1.0, 1.5)[draw.whole(0, 2)]
+    return {"direction": Vec(times(-1.0, normal)), "normal": Vec(normal), "eta": Real(eta)}
+
+
+def _close_to_critical(draw: Draw) -> Inputs:
+    """Out of glass, a little before total reflection or beyond it."""
+    eta, normal = index_of_glass(draw), draw.direction()
+    sine = (draw.fine(0.97, 0.985) if draw.chance(0.5) else draw.fine(1.015, 1.03)) / eta
+    cosine = math.sqrt(1 - sine * sine)
+    return {
+        "direction": Vec(rounded(times(-1.0, draw.above(normal, cosine, cosine)))),
+        "normal": Vec(normal),
+        "eta": Real(eta),
+    }
+
+
+def _head_on(draw: Draw) -> Inputs:
+    """1 - cos^2 is 0, or by rounding a little less."""
+    normal = draw.direction()
+    eta = into(draw) if draw.chance(0.5) else index_of_glass(draw)
+    return {"direction": Vec(times(-1.0, normal)), "normal": Vec(normal), "eta": Real(eta)}
+
+
+def _grazing(draw: Draw) -> Inputs:
+    """Into glass, almost along its surface."""
+    normal = draw.direction()
+    direction = rounded(times(-1.0, draw.above(normal, 0.02, 0.08)))
+    return {"direction": Vec(direction), "normal": Vec(normal), "eta": Real(into(draw))}
+
+
+REFRACT = Function(
+    "refract",
+    Answer(_read_refracted, _refracted_words, _refracted_problem),
+    (
+        Group("any direction", _any_refract, telling=False),
+        Group("straight on", _straight),
+        Group("into glass", lambda d: _refract(d, into(d))),
+        Group("out of glass", lambda d: _refract(d, index_of_glass(d))),
+        Group("eta 1", lambda d: _refract(d, 1.0)),
+        Group("strong glass", lambda d: _refract(d, d.real(0.25, 0.4) if d.chance(0.5) else d.real(2.5, 4))),
+        Group("head-on", _head_on),
+        Group("almost along the surface", _grazing),
+        Group("close to the critical angle", _close_to_critical, telling=False),
+        Group("total internal reflection", lambda d: _refract(d, index_of_glass(d), total=True), telling=False),
+    ),
+)
+
+
+# Cases of step 08: what comes through glass.
+
+_AT_THE_HIT = 0.5  # a ray that starts farther away from the hit was not made by transmitted_ray
+
+
+@dataclass(frozen=True)
+class _Brought:
+    """The colour, and the rays that were traced for it."""
+
+    color: Vector
+    traced: tuple[tuple[Ray, int], ...]
+
+
+def _read_brought(tokens: Tokens) -> _Brought:
+    color = tokens.vector()
+    count = tokens.whole(0, MOST_ASKED)
+    return _Brought(
+        color, tuple((Ray(tokens.vector(), tokens.vector()), tokens.whole(-MOST_ASKED)) for _ in range(count))
+    )
+
+
+def _brought_words(answer: _Brought) -> str:
+    traced = "; ".join(f"{ray.words()} at depth {depth}" for ray, depth in answer.traced) or "none"
+    return f"colour {vector_words(answer.color)}; rays traced: {traced}"
+
+
+def _same_way(hit: Hit, expected: Ray, actual: Ray) -> str:
+    """Where exactly the ray starts is transmitted_ray's matter, and so is its direction where the glass is index 1:
+    a mistake there alone must not make all of transmitted_light wrong."""
+    if not length(minus(actual.origin, hit.position)) <= _AT_THE_HIT:
+        return "the traced ray does not start at the hit"
+    return "" if hit.fill.index == 1 else direction("the traced ray's direction", expected.direction, actual.direction)
+
+
+def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
+    if len(expected.traced) != len(actual.traced):
+        return f"too {'many' if len(actual.traced) > len(expected.traced) else 'few'} rays were traced"
+    hit = hit_of(inputs)
+    problems = [
+        first(
+            _same_way(hit, mine[0], theirs[0]),
+            "" if mine[1] == theirs[1] else "the depth of the traced ray is wrong",
+        )
+        for mine, theirs in zip(expected.traced, actual.traced, strict=True)
+    ]
+    return first(*problems, channels("the colour", expected.color, actual.color))
+
+
+def _light(draw: Draw, hit: Hit) -> Inputs:
+    return {"hit": hit, "depth": Whole(draw.whole(1, 6)), "traced": Vec(draw.color())}
+
+
+def _faint(draw: Draw) -> Inputs:
+    """Any transmittance above 0 lets light through, and 1 all of it."""
+    hit = any_hit(draw)
+    share = draw.real(0.001, 0.01) if draw.chance(0.5) else 1.0
+    return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=share)))
+
+
+def _not_glass(draw: Draw) -> Inputs:
+    hit = any_hit(draw)
+    return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=0.0)))
+
+
+TRANSMITTED_LIGHT = Function(
+    "transmitted_light",
+    Answer(_read_brought, _brought_words, _brought_problem),
+    (
+        Group("glass of index 1", lambda d: _light(d, hit_on_glass(d, 1.0, outside=d.chance(0.5)))),
+        Group("any hit on glass", lambda d: _light(d, any_hit(d))),
+        Group("simple numbers", lambda d: _light(d, simple_hit(d))),
+        Group(
+            "total internal reflection",
+            lambda d: _light(d, hit_on_glass(d, index_of_glass(d), outside=False, total=True)),
+        ),
+        Group("hardly and wholly clear", _faint),
+        Group("not of glass", _not_glass, telling=False),
+    ),
+)
+
+
+def _unbent(draw: Draw, index: float) -> Inputs:
+    return {"hit": hit_on_glass(draw, index, outside=draw.chance(0.5))}
+
+
+_TRANSMITTED_RAY = Function(
+    "transmitted_ray",
+    TRANSMITTED_RAY,
+    (
+        Group("any hit on glass", lambda d: {"hit": any_hit(d)}),
+        Group("simple numbers", lambda d: {"hit": simple_hit(d)}),
+        Group("into glass", lambda d: {"hit": hit_on_glass(d, index_of_glass(d), outside=True)}),
+        Group("out of glass", lambda d: {"hit": hit_on_glass(d, index_of_glass(d), outside=False)}),
+        Group(
+            "total internal reflection",
+            lambda d: {"hit": hit_on_glass(d, index_of_glass(d), outside=False, total=True)},
+        ),
+        Group("index 1", lambda d: _unbent(d, 1.0), telling=False),
+        Group("index 0 counts as 1", lambda d: _unbent(d, 0.0), telling=False),
+    ),
+)
+
+FUNCTIONS = (REFRACT, _TRANSMITTED_RAY, TRANSMITTED_LIGHT)

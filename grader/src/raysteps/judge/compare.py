@@ -1,0 +1,205 @@
+"""Kinds of answers: how each is read, told in words, and compared with the reference's."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.text import printable, shorten
+from raysteps.judge.numbers import Vector, dot, length, minus, text
+from raysteps.judge.protocol import Frame, Garbled, Inputs, Ray, Tokens, vector_words
+
+T = TypeVar("T")
+
+
+class Wasteful(str):
+    """A problem of an answer that is right, but spares no work."""
+
+    __slots__ = ()
+
+
+class TooLarge(str):
+    """A problem of an answer that the judge does not look through: it earns nothing, and may be right."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the judge thinks of one answer; `problem` is empty when it is right."""
+
+    problem: str
+    expected: str
+    actual: str
+
+    @property
+    def wasteful(self) -> bool:
+        return isinstance(self.problem, Wasteful)
+
+    @property
+    def decided(self) -> bool:
+        """Whether the answer says anything about the function."""
+        return not isinstance(self.problem, TooLarge)
+
+
+@dataclass(frozen=True)
+class Answer(Generic[T]):
+    """`problem` is given inputs, the reference's answer and the student's."""
+
+    read: Callable[[Tokens], T]
+    words: Callable[[T], str]
+    problem: Callable[[Inputs, T, T], str]
+
+    def parse(self, line: str) -> T:
+        tokens = Tokens(line)
+        value = self.read(tokens)
+        tokens.end()
+        return value
+
+    def reference(self, name: str, inputs: Inputs, line: str) -> T:
+        """The reference must be right by its own measure: a NaN or a lost surface is the kit's fault."""
+        try:
+            value = self.parse(line)
+        except Garbled as error:
+            raise GraderFault(f"{name}: the reference answers {shorten(line, 200)!r}: {error}") from error
+        problem = self.problem(inputs, value, value)
+        if problem:
+            given = "; ".join(f"{key}: {value.words()}" for key, value in inputs.items())
+            raise GraderFault(f"{name}: the reference fails: {problem}; given {shorten(given, 1000)}")
+        return value
+
+    def verdict(self, name: str, inputs: Inputs, expected_line: str, actual_line: str) -> Verdict:
+        """Compares; whatever the student's line holds, it is an answer, and perhaps a wrong one."""
+        expected = self.reference(name, inputs, expected_line)
+        if actual_line.startswith("threw"):
+            said = printable(actual_line.removeprefix("threw").strip())
+            return Verdict(
+                "an exception left the function", self.words(expected), f"an exception: {shorten(said, 200)}"
+            )
+        try:
+            actual = self.parse(actual_line)
+            return Verdict(self.problem(inputs, expected, actual), self.words(expected), self.words(actual))
+        except (Garbled, OverflowError) as error:
+            return Verdict("no proper answer came", self.words(expected), str(error))
+
+
+def read_vector(tokens: Tokens) -> Vector:
+    return tokens.vector()
+
+
+def read_ray(tokens: Tokens) -> Ray:
+    return Ray(tokens.vector(), tokens.vector())
+
+
+def read_frame(tokens: Tokens) -> Frame:
+    return Frame(tokens.vector(), tokens.vector(), tokens.vector(), tokens.real(), tokens.real())
+
+
+def read_whole(tokens: Tokens) -> int:
+    return tokens.whole(-(1 << 31))
+
+
+def words_of_vector(v: Vector) -> str:
+    return vector_words(v)
+
+
+def words_of_ray(ray: Ray) -> str:
+    return ray.words()
+
+
+def words_of_frame(frame: Frame) -> str:
+    return frame.words()
+
+
+def words_of_number(number: float | int) -> str:
+    return text(number)
+
+
+def first(*problems: str) -> str:
+    """The first thing that is wrong, or nothing."""
+    return next((problem for problem in problems if problem), "")
+
+
+# Compares numbers. Each check gives a few words about what is wrong, or nothing; the words hold no numbers, so that
+# they can be shown where the cases must stay secret.
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """What two correct methods may differ by."""
+
+    absolute: float = 1e-4
+    relative: float = 1e-4
+
+    def of(self, size: float) -> float:
+        return self.absolute + self.relative * abs(size)
+
+
+LENGTHS = Tolerance(1e-3, 5e-4)  # distances and positions
+COLORS = Tolerance(2e-4, 1e-3)
+SMALL = Tolerance(1e-4, 1e-4)
+_UNIT = 1e-3
+_DEGREES = 0.3
+
+
+def real(what: str, expected: float, actual: float, tolerance: Tolerance = SMALL) -> str:
+    """NaN equals nothing, unless NaN is right."""
+    if math.isnan(actual):
+        return "" if math.isnan(expected) else f"{what} is NaN"
+    if expected == actual or abs(expected - actual) <= tolerance.of(expected) < math.inf:
+        return ""
+    return f"{what} is wrong"
+
+
+def vector(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = SMALL) -> str:
+    """By the distance of the two."""
+    if any(math.isnan(x) for x in actual):
+        return f"{what} is NaN"
+    gap = length(minus(expected, actual))
+    return "" if gap <= tolerance.of(length(expected)) < math.inf else f"{what} is wrong"
+
+
+def channels(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = COLORS) -> str:
+    """Each channel for itself."""
+    problems = [real(what, *pair, tolerance) for pair in zip(expected, actual, strict=True)]
+    return next((problem for problem in problems if problem), "")
+
+
+def unit_length(what: str, actual: Vector) -> str:
+    if any(math.isnan(x) for x in actual):
+        return f"{what} is NaN"
+    return "" if abs(length(actual) - 1) <= _UNIT else f"{what} does not have length 1"
+
+
+def angle(a: Vector, b: Vector) -> float:
+    """In degrees; exact for small ones too."""
+    size = length(a) * length(b)
+    if not 0 < size < math.inf:
+        return math.inf
+    return math.degrees(2 * math.asin(min(1.0, length(minus(_scaled(a), _scaled(b))) / 2)))
+
+
+def _scaled(v: Vector) -> Vector:
+    size = length(v)
+    return v[0] / size, v[1] / size, v[2] / size
+
+
+def direction(what: str, expected: Vector, actual: Vector, degrees: float = _DEGREES) -> str:
+    """Same direction, and length 1."""
+    wrong_length = unit_length(what, actual)
+    if not angle(expected, actual) <= degrees:
+        if wrong_length.endswith("NaN"):
+            return wrong_length
+        opposite = length(actual) > 0 and angle(expected, (-actual[0], -actual[1], -actual[2])) <= degrees
+        return f"{what} points the other way" if opposite else f"{what} is wrong"
+    return wrong_length
+
+
+def off_surface(position: Vector, normal: Vector, origin: Vector, farthest: float = 0.0101) -> str:
+    """Whether a ray starts a little off a surface, on the side that the normal points to."""
+    offset = minus(origin, position)
+    slack = 4e-7 * (length(position) + 1)  # float has no finer steps there
+    if not length(offset) <= farthest + slack:
+        return "the ray does not start at the hit"
+    return "" if dot(offset, normal) > 0 else "the ray starts on the wrong side of the surface, or on it"

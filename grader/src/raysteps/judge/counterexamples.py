@@ -1,0 +1,118 @@
+"""The example that a wrong function is shown with: the smallest that was found, kept in a file for `replay`."""
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import write_json
+from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.text import printable, shorten
+from raysteps.course.manifest import Step
+from raysteps.judge.cases import functions_of
+from raysteps.judge.choice_sequence import Choice, Recorder
+from raysteps.judge.functions import Group, seed_of
+from raysteps.judge.shrink import Patience, Shrinker
+from raysteps.judge.worker import Ask, Judged
+from raysteps.results.store import FOLDER, place_of
+
+# A single case in a file, to be asked again: cases/NN-function.json beside results.json.
+
+SCHEMA = "raysteps/case/v1"
+_LARGEST = 1 << 20  # bytes
+
+
+@dataclass(frozen=True)
+class CaseFile:
+    """`line` is what the worker reads; the words are what people read, as it was when the file was written."""
+
+    step: str
+    function: str
+    kind: str
+    seed: int
+    line: str
+    problem: str
+    given: str
+    expected: str
+    actual: str
+
+
+def write_case(path: Path, case: CaseFile) -> None:
+    write_json(path, {"schema": SCHEMA, **asdict(case)})
+
+
+def _refuse(path: Path, problem: str) -> UsageError:
+    return UsageError(f"{path}: {problem}; expected a case as `check` writes it, such as {FOLDER}/02-closest-hit.json")
+
+
+def read_case(path: Path) -> CaseFile:
+    """Anything may stand in a file that somebody names."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
+        if len(data) > _LARGEST:
+            raise _refuse(path, "too large")
+        document: Any = json.loads(data.decode("utf-8"))
+    except IsADirectoryError as error:
+        raise _refuse(path, "a folder; name a file in it") from error
+    except OSError as error:
+        raise _refuse(path, f"cannot be read ({error.strerror or error})") from error
+    except (ValueError, RecursionError) as error:
+        raise _refuse(path, f"not JSON ({error})") from error
+    problem = complaint(document, read_schema("raysteps.judge", "case.schema.json"))
+    if problem:
+        raise _refuse(path, problem)
+    del document["schema"]
+    texts = {key: printable(value) for key, value in document.items() if key != "seed"}
+    return CaseFile(seed=document["seed"], **texts)
+
+
+LONGEST = 2000  # characters of an input or an answer in words
+_PATIENCE = 8.0  # seconds that a student's worker runs for the examples of a step
+
+
+def choices_of(group: Group, seed: str, place: int) -> list[Choice]:
+    """What the case at that place of its kind is made of. Drawing once more costs less than remembering always."""
+    draw = Recorder(seed)
+    for _ in range(place):
+        group.make(draw)
+    draw.choices.clear()
+    group.make(draw)
+    return draw.choices
+
+
+class Examples:
+    """Of one step. `reference` is asked without keeping what it says: the questions are about one submission."""
+
+    def __init__(
+        self, student: Ask, reference: Ask, folder: Path, say: Callable[[str], None] = lambda text: None
+    ) -> None:
+        self._student = student
+        self._reference = reference
+        self._folder = folder
+        self._say = say
+        self._patience = Patience(_PATIENCE)
+
+    def smallest(self, step: Step, found: Judged, place: int, seed: int) -> tuple[Judged, str]:
+        """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results.
+        What goes wrong here costs no grade: the case is shown as it was asked, without a file."""
+        try:
+            return self._smallest(step, found, place, seed)
+        except (GraderFault, ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
+            self._say(f"no small case of {step.number} {found.case.function}: {error!r}")
+            return found, ""
+
+    def _smallest(self, step: Step, found: Judged, place: int, seed: int) -> tuple[Judged, str]:
+        function = functions_of(step.number)[found.case.function]
+        kind = found.case.group
+        choices = choices_of(function.by_name[kind], seed_of(step.id, function.name, kind, seed), place)
+        shrinker = Shrinker(function, self._student, self._reference, self._patience)
+        found = shrinker.shrink(found, choices)
+        verdict, given = found.verdict, shorten(found.case.given(), LONGEST)
+        expected, actual = shorten(verdict.expected, LONGEST), shorten(verdict.actual, LONGEST)
+        line, name = found.case.line(1), place_of(step.number, function.name)
+        case = CaseFile(step.id, function.name, kind, seed, line, str(verdict.problem), given, expected, actual)
+        write_case(self._folder / name, case)
+        return found, name

@@ -1,0 +1,138 @@
+"""Reads the inputs of a function back from the line that the worker reads."""
+
+from collections.abc import Callable
+from typing import Any
+
+from raysteps.judge.functions import Function
+from raysteps.judge.numbers import Vector, f32
+from raysteps.judge.protocol import (
+    Box,
+    Camera,
+    Fill,
+    Frame,
+    Garbled,
+    Hit,
+    Inputs,
+    Light,
+    Lights,
+    Ray,
+    Real,
+    Tokens,
+    Vec,
+    Whole,
+)
+from raysteps.judge.random_source import Draw
+from raysteps.judge.scripted_tracer import Script, ScriptedHit
+from raysteps.judge.searches import Rays, Reach, Reaches, WhoseBvh, WhoseTree
+from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
+
+_MOST_ITEMS = 1000
+_LOWEST = -1_000_000_000  # as the worker takes them
+_HIGHEST = 1_000_000_000
+
+
+class _Numbers:
+    """Words as the worker understands them: float32."""
+
+    def __init__(self, tokens: Tokens) -> None:
+        self._tokens = tokens
+        self.flag = tokens.flag
+
+    def real(self) -> float:
+        return f32(self._tokens.real())
+
+    def whole(self) -> int:
+        return self._tokens.whole(_LOWEST, _HIGHEST)
+
+    def vector(self) -> Vector:
+        return self.real(), self.real(), self.real()
+
+    def many(self, read: Callable[["_Numbers"], Any]) -> tuple[Any, ...]:
+        return tuple(read(self) for _ in range(self._tokens.whole(0, _MOST_ITEMS)))
+
+
+def _fill(n: _Numbers) -> Fill:
+    return Fill(n.vector(), n.real(), n.real(), n.real(), n.real(), n.real())
+
+
+def _ray(n: _Numbers) -> Ray:
+    return Ray(n.vector(), n.vector())
+
+
+def _light(n: _Numbers) -> Light:
+    return Light(n.vector(), n.vector())
+
+
+def _hit(n: _Numbers) -> Hit:
+    position, fill, normal, direction = n.vector(), _fill(n), n.vector(), n.vector()
+    return Hit(position, normal, direction, n.real(), fill, n.flag())
+
+
+def _camera(n: _Numbers) -> Camera:
+    return Camera(n.vector(), n.vector(), n.vector(), n.real(), n.whole(), n.whole())
+
+
+def _frame(n: _Numbers) -> Frame:
+    return Frame(n.vector(), n.vector(), n.vector(), n.real(), n.real())
+
+
+def _surface(n: _Numbers) -> Surface:
+    kind = n.whole()
+    if kind in (0, 4):
+        return Sphere(n.vector(), n.real(), glass=kind == 4)
+    if kind == 1:
+        return Triangle(n.vector(), n.vector(), n.vector())
+    if kind in (2, 3):
+        return Scripted(n.real() if kind == 2 else None)
+    raise Garbled(f"there is no surface of kind {kind}")
+
+
+def _scripted_hit(n: _Numbers) -> ScriptedHit:
+    return ScriptedHit(n.real(), n.vector(), n.real(), n.vector())
+
+
+_READERS: dict[type, Callable[[_Numbers], Any]] = {
+    Real: lambda n: Real(n.real()),
+    Whole: lambda n: Whole(n.whole()),
+    Vec: lambda n: Vec(n.vector()),
+    Ray: _ray,
+    Camera: _camera,
+    Frame: _frame,
+    Fill: _fill,
+    Light: _light,
+    Lights: lambda n: Lights(n.many(_light)),
+    Hit: _hit,
+    Box: lambda n: Box(n.vector(), n.vector()),
+    Sphere: lambda n: Sphere(n.vector(), n.real(), _fill(n)),
+    Triangle: lambda n: Triangle(n.vector(), n.vector(), n.vector(), _fill(n)),
+    Surfaces: lambda n: Surfaces(n.many(_surface)),
+    Script: lambda n: Script(n.whole(), n.vector(), n.many(_scripted_hit)),
+    WhoseTree: lambda n: WhoseTree(n.flag()),
+    WhoseBvh: lambda n: WhoseBvh(n.flag()),
+    Rays: lambda n: Rays(n.many(_ray)),
+    Reaches: lambda n: Reaches(n.many(lambda m: Reach(_ray(m), m.real()))),
+}
+_WITHOUT_FILL: dict[type, Callable[[_Numbers], Any]] = {
+    Sphere: lambda n: Sphere(n.vector(), n.real()),
+    Triangle: lambda n: Triangle(n.vector(), n.vector(), n.vector()),
+}
+
+
+def read_inputs(function: Function, line: str) -> Inputs:
+    """All cases of a function take the same kinds of values. Garbled, with what is wrong, where the line does not."""
+    tokens = Tokens(line)
+    tokens.word()  # the number of the case
+    name = tokens.word()
+    if name != function.name:
+        raise Garbled(f"expected a case of {function.name}, found {name[:100]}")
+    numbers = _Numbers(tokens)
+    inputs = {}
+    for what, sample in function.groups[0].make(Draw("a sample")).items():
+        bare = isinstance(sample, Sphere | Triangle) and sample.fill is None
+        try:
+            inputs[what] = (_WITHOUT_FILL if bare else _READERS)[type(sample)](numbers)
+        except (Garbled, OverflowError) as error:
+            raise Garbled(f"{what}: {str(error).replace('answer', 'line')}") from error
+    if not tokens.at_end():
+        raise Garbled("there are more numbers than the function takes")
+    return inputs

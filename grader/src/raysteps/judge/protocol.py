@@ -1,0 +1,265 @@
+"""What the judge gives to a function: numbers for the worker's line, and words for people.
+
+The order of the numbers is that of framework/apps/worker_values.hpp.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+from raysteps.judge.numbers import Number, Vector, text
+
+
+class Value(Protocol):
+    """One input."""
+
+    def numbers(self) -> list[Number]: ...
+
+    def words(self) -> str: ...
+
+
+Inputs: TypeAlias = Mapping[str, Value]
+
+
+def vector_words(v: Vector) -> str:
+    return f"({text(v[0])}, {text(v[1])}, {text(v[2])})"
+
+
+@dataclass(frozen=True)
+class Real:
+    """A single number."""
+
+    value: float
+
+    def numbers(self) -> list[Number]:
+        return [self.value]
+
+    def words(self) -> str:
+        return text(self.value)
+
+
+@dataclass(frozen=True)
+class Whole:
+    """A whole number."""
+
+    value: int
+
+    def numbers(self) -> list[Number]:
+        return [self.value]
+
+    def words(self) -> str:
+        return str(self.value)
+
+
+@dataclass(frozen=True)
+class Vec:
+    """A point, a direction or a colour."""
+
+    value: Vector
+
+    def numbers(self) -> list[Number]:
+        return list(self.value)
+
+    def words(self) -> str:
+        return vector_words(self.value)
+
+
+@dataclass(frozen=True)
+class Ray:
+    origin: Vector
+    direction: Vector
+
+    def numbers(self) -> list[Number]:
+        return [*self.origin, *self.direction]
+
+    def words(self) -> str:
+        return f"from {vector_words(self.origin)} towards {vector_words(self.direction)}"
+
+
+@dataclass(frozen=True)
+class Camera:
+    origin: Vector
+    at: Vector
+    up: Vector
+    angle: float
+    width: int
+    height: int
+
+    def numbers(self) -> list[Number]:
+        return [*self.origin, *self.at, *self.up, self.angle, self.width, self.height]
+
+    def words(self) -> str:
+        return (
+            f"from {vector_words(self.origin)} at {vector_words(self.at)} up {vector_words(self.up)} "
+            f"angle {text(self.angle)} resolution {self.width} {self.height}"
+        )
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The view frame of step 01."""
+
+    right: Vector
+    up: Vector
+    forward: Vector
+    half_width: float
+    half_height: float
+
+    def numbers(self) -> list[Number]:
+        return [*self.right, *self.up, *self.forward, self.half_width, self.half_height]
+
+    def words(self) -> str:
+        return (
+            f"right {vector_words(self.right)} up {vector_words(self.up)} forward {vector_words(self.forward)} "
+            f"half_width {text(self.half_width)} half_height {text(self.half_height)}"
+        )
+
+
+@dataclass(frozen=True)
+class Fill:
+    color: Vector = (1.0, 1.0, 1.0)
+    kd: float = 1.0
+    ks: float = 0.0
+    shine: float = 1.0
+    transmittance: float = 0.0
+    index: float = 1.0
+
+    def numbers(self) -> list[Number]:
+        return [*self.color, self.kd, self.ks, self.shine, self.transmittance, self.index]
+
+    def words(self) -> str:
+        return (
+            f"colour {vector_words(self.color)} kd {text(self.kd)} ks {text(self.ks)} shine {text(self.shine)} "
+            f"transmittance {text(self.transmittance)} index {text(self.index)}"
+        )
+
+
+@dataclass(frozen=True)
+class Light:
+    position: Vector
+    color: Vector = (1.0, 1.0, 1.0)
+
+    def numbers(self) -> list[Number]:
+        return [*self.position, *self.color]
+
+    def words(self) -> str:
+        return f"at {vector_words(self.position)} colour {vector_words(self.color)}"
+
+
+@dataclass(frozen=True)
+class Lights:
+    lights: tuple[Light, ...]
+
+    def numbers(self) -> list[Number]:
+        return [len(self.lights), *(number for light in self.lights for number in light.numbers())]
+
+    def words(self) -> str:
+        return "; ".join(light.words() for light in self.lights) or "none"
+
+
+@dataclass(frozen=True)
+class Hit:
+    """A hit record."""
+
+    position: Vector
+    normal: Vector
+    ray_direction: Vector
+    distance: float = 1.0
+    fill: Fill = Fill()
+    from_outside: bool = True
+
+    def numbers(self) -> list[Number]:
+        return [
+            *self.position,
+            *self.fill.numbers(),
+            *self.normal,
+            *self.ray_direction,
+            self.distance,
+            int(self.from_outside),
+        ]
+
+    def words(self) -> str:
+        return (
+            f"position {vector_words(self.position)} normal {vector_words(self.normal)} "
+            f"ray_direction {vector_words(self.ray_direction)} distance {text(self.distance)} "
+            f"from_outside {str(self.from_outside).lower()} fill: {self.fill.words()}"
+        )
+
+
+@dataclass(frozen=True)
+class Box:
+    low: Vector
+    high: Vector
+
+    def numbers(self) -> list[Number]:
+        return [*self.low, *self.high]
+
+    def words(self) -> str:
+        return f"{vector_words(self.low)} to {vector_words(self.high)}"
+
+
+# Reads the words of an answer. They come from a student's process: anything may stand there.
+
+_MOST_DIGITS = 40
+_LONGEST = 2_000_000  # characters; the largest tree is half as long
+
+
+class Garbled(Exception):
+    """An answer that does not have the form that the worker writes."""
+
+
+class Tokens:
+    """The words of one answer, from left to right."""
+
+    def __init__(self, line: str) -> None:
+        if len(line) > _LONGEST:
+            raise Garbled("the answer is too long")
+        self._words = line.split()
+        self._next = 0
+
+    def word(self) -> str:
+        if self._next >= len(self._words):
+            raise Garbled("the answer is too short")
+        self._next += 1
+        return self._words[self._next - 1]
+
+    def real(self) -> float:
+        found = self.word()
+        try:
+            return float(found) if len(found) <= _MOST_DIGITS else _refuse(found)
+        except ValueError:
+            return _refuse(found)
+
+    def whole(self, low: int = 0, high: int = 1 << 31) -> int:
+        return self.wholes(1, low, high)[0]
+
+    def wholes(self, size: int, low: int, high: int) -> tuple[int, ...]:
+        """Many at once."""
+        found = self._words[self._next : self._next + size]
+        if len(found) < size:
+            raise Garbled("the answer is too short")
+        self._next += size
+        try:
+            numbers = tuple(int(word) if len(word) <= _MOST_DIGITS else low - 1 for word in found)
+        except ValueError:
+            raise Garbled("the answer holds a word where a whole number belongs") from None
+        if numbers and not low <= min(numbers) <= max(numbers) <= high:
+            raise Garbled("the answer holds a number out of range")
+        return numbers
+
+    def flag(self) -> bool:
+        return self.whole(0, 1) == 1
+
+    def vector(self) -> Vector:
+        return self.real(), self.real(), self.real()
+
+    def at_end(self) -> bool:
+        return self._next == len(self._words)
+
+    def end(self) -> None:
+        if not self.at_end():
+            raise Garbled("the answer is too long")
+
+
+def _refuse(found: str) -> float:
+    raise Garbled("the answer holds a word where a number belongs")

@@ -1,0 +1,65 @@
+"""Scripted renderers: what they answer to trace, and what they were asked."""
+
+from dataclasses import dataclass
+
+from raysteps.judge.numbers import Number, Vector, text
+from raysteps.judge.protocol import Ray, Tokens, vector_words
+
+MOST_ASKED = 1000
+
+
+@dataclass(frozen=True)
+class ScriptedHit:
+    """What the next ray meets; the worker places it on that ray and turns the normal towards it."""
+
+    distance: float  # no two of a script are alike
+    normal: Vector
+    ks: float
+    local: Vector  # what local_light gives for it
+
+    def numbers(self) -> list[Number]:
+        return [self.distance, *self.normal, self.ks, *self.local]
+
+    def words(self) -> str:
+        return (
+            f"a hit at {text(self.distance)} with normal {vector_words(self.normal)}, ks {text(self.ks)}, "
+            f"local light {vector_words(self.local)}"
+        )
+
+
+@dataclass(frozen=True)
+class Script:
+    max_depth: int
+    background: Vector
+    hits: tuple[ScriptedHit, ...]
+
+    def numbers(self) -> list[Number]:
+        return [self.max_depth, *self.background, len(self.hits), *(n for hit in self.hits for n in hit.numbers())]
+
+    def words(self) -> str:
+        hits = ", then ".join([*(hit.words() for hit in self.hits), "misses"])
+        return f"max_ray_depth {self.max_depth}, background {vector_words(self.background)}; the rays meet {hits}"
+
+
+@dataclass(frozen=True)
+class Traced:
+    """The colour, and what the renderer was asked for it."""
+
+    color: Vector
+    cast: tuple[Ray, ...]
+    shaded: tuple[tuple[float, int], ...]  # distance of the hit, depth
+
+
+def read_traced(tokens: Tokens) -> Traced:
+    color = tokens.vector()
+    cast = tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MOST_ASKED)))
+    shaded = tuple((tokens.real(), tokens.whole(-MOST_ASKED)) for _ in range(tokens.whole(0, MOST_ASKED)))
+    return Traced(color, cast, shaded)
+
+
+def traced_words(answer: Traced) -> str:
+    cast = "; ".join(ray.words() for ray in answer.cast) or "none"
+    shaded = (
+        ", ".join(f"of the hit at {text(distance)} at depth {depth}" for distance, depth in answer.shaded) or "none"
+    )
+    return f"colour {vector_words(answer.color)}; rays cast: {cast}; local_light asked: {shaded}"

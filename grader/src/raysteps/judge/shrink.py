@@ -1,0 +1,210 @@
+"""The smallest counterexample: a wrong case, made simpler as long as it stays wrong in the same way."""
+
+import math
+import time
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from itertools import chain, islice
+
+from raysteps.common.errors import GraderFault
+from raysteps.judge.choice_sequence import Choice
+from raysteps.judge.compare import TooLarge, Wasteful
+from raysteps.judge.functions import Case, Function
+from raysteps.judge.random_source import Draw
+from raysteps.judge.shrink_passes import (
+    Candidate,
+    Change,
+    Place,
+    Recipe,
+    changes,
+    combined,
+    jittered,
+    live_choices,
+    make,
+)
+from raysteps.judge.worker import Ask, Judged, Reply, answers_until_trouble, judge_reply
+
+# How long a student's program may run for the examples that a step is shown with.
+
+_RUN_SECONDS = 2.0
+
+
+class Patience:
+    """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
+    not count, so that a busy machine shows the same examples; but a program that sleeps, and a judge that is slow, come
+    to an end too: after `longest` seconds on the clock, from the first run on."""
+
+    def __init__(self, seconds: float, longest: float = 20.0) -> None:
+        self._left = seconds
+        self._longest = longest
+        self._end = math.inf
+
+    def next_run(self) -> float:
+        now = time.monotonic()
+        self._end = min(self._end, now + self._longest)
+        return _RUN_SECONDS if self._left > 0 and now < self._end else 0.0
+
+    def spend(self, seconds: float) -> None:
+        self._left -= seconds
+
+
+# Which of many candidates are wrong in the same way as a known case, and which of these is beyond doubt.
+
+_JITTERS = 4
+_TRIED_FOR_STABILITY = 5
+_REFERENCE_SECONDS = 60.0
+
+
+@dataclass(frozen=True)
+class Wrong:
+    """A candidate that is wrong as well, and how it came from the last one."""
+
+    candidate: Candidate
+    change: Change
+    judged: Judged
+
+
+def _silent(judged: Judged) -> bool:
+    return judged.outcome in ("crashed", "timeout")
+
+
+def _same_way(one: Judged, other: Judged) -> bool:
+    if one.outcome != other.outcome:
+        return False
+    alike = type(one.verdict.problem) is type(other.verdict.problem) and one.verdict.problem == other.verdict.problem
+    return alike or one.outcome == "timeout"
+
+
+class Trials:
+    """Asks many candidates at once: one run of the student's worker and one of the reference's for each round."""
+
+    def __init__(self, function: Function, student: Ask, reference: Ask, patience: Patience) -> None:
+        self._function = function
+        self._student = student
+        self._reference = reference
+        self._patience = patience
+
+    def wrong(self, found: Judged, proposed: Sequence[tuple[Candidate, Change]], seconds: float) -> list[Wrong]:
+        """Those that are wrong in the same way, the simplest first."""
+        cases = [candidate.case for candidate, _ in proposed]
+        replies = self._replies(cases, seconds, go_on=not _silent(found))
+        answered = [i for i, reply in enumerate(replies) if reply is not None]
+        expected = self._expected([cases[i] for i in answered])
+        wrong = []
+        for i, line in zip(answered, expected, strict=True):
+            judged = self._judge(cases[i], line, replies[i])
+            if judged is not None and judged.asked and _same_way(found, judged):
+                wrong.append(Wrong(*proposed[i], judged))
+        return wrong
+
+    def _replies(self, cases: Sequence[Case], seconds: float, *, go_on: bool) -> list[Reply | None]:
+        """Simple cases come first: where the function crashes or hangs, the first such is the simplest."""
+        replies: list[Reply | None] = []
+        runs = 3 if go_on else 1
+        while len(replies) < len(cases) and runs > 0 and seconds > 0:
+            part = answers_until_trouble(self._student, cases[len(replies) :], seconds)
+            self._patience.spend(part.seconds)
+            seconds, runs = self._patience.next_run(), runs - 1
+            replies += part.replies
+        return replies + [None] * (len(cases) - len(replies))
+
+    def _expected(self, cases: Sequence[Case]) -> list[str]:
+        """The reference's lines; empty where it has none."""
+        part = answers_until_trouble(self._reference, cases, _REFERENCE_SECONDS) if cases else None
+        lines = [reply.line if reply.outcome == "ok" else "" for reply in part.replies] if part else []
+        return lines + [""] * (len(cases) - len(lines))
+
+    def _judge(self, case: Case, expected: str, reply: Reply | None) -> Judged | None:
+        """Nothing where the reference itself fails: such a case is none."""
+        try:
+            return judge_reply(self._function, case, expected, reply) if reply is not None else None
+        except GraderFault:
+            return None
+
+    def simplest_stable(self, wrong: Sequence[Wrong]) -> Wrong | None:
+        """The simplest whose right answer stays the same when all numbers move a little: where it does not, correct
+        methods may disagree. Kinds with exact numbers know what they do."""
+        first = sorted(wrong, key=lambda one: one.candidate.complexity)[:_TRIED_FOR_STABILITY]
+        if not first or self._function.by_name[first[0].candidate.case.group].exact:
+            return next(iter(first), None)
+        cases = [self._jittered(one.candidate.case, seed) for one in first for seed in range(_JITTERS)]
+        lines = self._expected([one.candidate.case for one in first] + cases)
+        for i, one in enumerate(first):
+            near = range(len(first) + i * _JITTERS, len(first) + (i + 1) * _JITTERS)
+            if all(self._agrees(one.candidate.case, lines[i], lines[k]) for k in near):
+                return one
+        return None
+
+    def _jittered(self, case: Case, seed: int) -> Case:
+        return Case(case.function, case.group, jittered(case.inputs, Draw(f"jitter {seed}").sign))
+
+    def _agrees(self, case: Case, expected: str, near: str) -> bool:
+        judged = self._judge(case, expected, Reply(near))
+        return judged is not None and not judged.verdict.problem
+
+
+_ROUNDS = 12
+_ROUNDS_OF_SILENCE = 3  # where each costs a hang
+_MOST = 200  # candidates in a round
+_MOST_CHOICES = 8000  # of all candidates in a round together
+_LEAST = 60
+_TRIES = 3  # for each candidate of a round: many changes make a case that was asked before, or none
+_BARREN = 3  # rounds without a simpler case
+_BEST = 30  # changes that did well and are tried together
+
+
+def _shape(candidate: Candidate) -> tuple[int, frozenset[Place]]:
+    return len(candidate.choices), candidate.recipe.dropped
+
+
+class Shrinker:
+    """Goes from a wrong case to simpler ones, round by round."""
+
+    def __init__(self, function: Function, student: Ask, reference: Ask, patience: Patience) -> None:
+        self._function = function
+        self._trials = Trials(function, student, reference, patience)
+        self._patience = patience
+
+    def shrink(self, found: Judged, choices: Sequence[Choice]) -> Judged:
+        """The simplest case that was found in a bounded number of rounds; the given one, if there is none."""
+        base = make(self._function, found.case.group, Recipe(tuple(choice.value for choice in choices)))
+        unclear = isinstance(found.verdict.problem, Wasteful | TooLarge)
+        if base is None or unclear or not found.asked or base.case.line(0) != found.case.line(0):
+            return found
+        tried = {base.case.line(0)}
+        live = set(live_choices(self._function, base))
+        good: list[Change] = []
+        barren = 0
+        for _ in range(_ROUNDS_OF_SILENCE if found.outcome == "timeout" else _ROUNDS):
+            seconds = self._patience.next_run()
+            proposed = self._proposed(base, live, good, tried) if seconds and barren < _BARREN else []
+            if not proposed:
+                break
+            wrong = self._trials.wrong(found, proposed, seconds)
+            simpler = [one for one in wrong if one.candidate.complexity < base.complexity]
+            best = self._trials.simplest_stable(simpler)
+            good = [one.change for one in simpler if one is not best][:_BEST]
+            barren += 1
+            if best is not None:
+                if _shape(best.candidate) != _shape(base):
+                    live = set(live_choices(self._function, best.candidate))
+                base, found, barren = best.candidate, best.judged, 0
+        return found
+
+    def _proposed(
+        self, base: Candidate, live: Collection[int], good: Sequence[Change], tried: set[str]
+    ) -> list[tuple[Candidate, Change]]:
+        """New ones only, as many as a round may have."""
+        most = max(_LEAST, min(_MOST, _MOST_CHOICES // max(1, len(base.choices))))
+        found: list[tuple[Candidate, Change]] = []
+        group = base.case.group
+        may_drop = not self._function.by_name[group].saves
+        every = chain(combined(good), changes(base, live, may_drop=may_drop))
+        for change in islice(every, _TRIES * most):
+            if len(found) == most:
+                break
+            candidate = make(self._function, group, change.of(base.recipe))
+            if candidate is not None and candidate.case.line(0) not in tried:
+                tried.add(candidate.case.line(0))
+                found.append((candidate, change))
+        return sorted(found, key=lambda one: one[0].complexity)

@@ -1,0 +1,222 @@
+"""Asks a worker all cases of a function. A crash costs the case that was running, and the rest goes on."""
+
+import hashlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_bytes
+from raysteps.common.process import Outcome
+from raysteps.common.text import in_seconds
+from raysteps.judge.compare import Verdict
+from raysteps.judge.functions import Case, Function
+from raysteps.results.model import Ending
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.task import Input, Limits, Ran, Sandbox, Task
+from raysteps.toolchain.compile import Program
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import StepLimits
+
+# How long the functions of a step may run.
+
+_STEP_FACTOR = 4  # all functions of a step together may take this many times the limit of one run
+_AFTER_A_HANG = 0.25  # of the limit
+_LEAST = 1.0  # seconds that say something, on any machine
+
+
+class TimeBudget:
+    """Each function is asked once at least, whatever those before it took: a function that hangs silences nobody.
+    Who hung once may hang in all that follows, and gets less time from then on."""
+
+    def __init__(self, seconds: float, functions: int) -> None:
+        self._limit = seconds
+        self._short = min(seconds, max(_LEAST, _AFTER_A_HANG * seconds))
+        self._left = _STEP_FACTOR * seconds
+        self._to_come = functions
+        self._hung = False
+
+    def next_function(self) -> float:
+        """Seconds of its first run."""
+        self._to_come -= 1
+        return max(self._short, self.next_run())
+
+    def next_run(self) -> float:
+        """Seconds of one more run of the same function; 0 when there is no time left for it."""
+        free = self._left - self._to_come * self._short
+        most = min(free, self._short if self._hung else self._limit)
+        return most if most >= self._short else 0.0
+
+    def spend(self, seconds: float, *, hung: bool) -> None:
+        self._left -= seconds
+        self._hung = self._hung or hung
+
+
+Ask: TypeAlias = Callable[[bytes, float], Ran]  # the worker's stdin, and how many seconds it may take
+
+_MOST_RESTARTS = 3
+_MOST_CUTS = 30  # a long answer may be cut off at the limit of a sandbox; what came before counts
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What came back for one case: the words after `done <id>`, or why there are none. `asked` is false where the
+    worker never came to it, so that nobody knows what it would have said."""
+
+    line: str = ""
+    outcome: Ending = "ok"
+    note: str = ""
+    asked: bool = True
+
+
+@dataclass(frozen=True)
+class Replies:
+    """One for each case, and the seconds that the worker ran."""
+
+    replies: list[Reply]
+    seconds: float
+
+
+def _read(lines: Sequence[str], first: int, last: int) -> list[Reply]:
+    """The answers, in order. Lines that do not fit are no answers."""
+    answers: list[Reply] = []
+    announced = False
+    for line in lines:
+        due = first + len(answers)
+        if due > last:
+            break
+        if line == f"start {due}":
+            announced = True
+        elif announced and line.startswith(f"done {due} "):
+            answers.append(Reply(line.split(" ", 2)[2]))
+            announced = False
+    return answers
+
+
+def _hung(ran: Ran) -> bool:
+    return ran.outcome.timed_out or ran.stopped in ("wall", "cpu")
+
+
+def _trouble(ran: Ran, *, in_a_line: bool) -> Reply:
+    """Why the worker stopped in the middle."""
+    outcome = ran.outcome
+    if _hung(ran):
+        return Reply("", "timeout", f"stopped after {in_seconds(outcome.seconds)}")
+    if ran.stopped == "memory":
+        return Reply("", "crashed", "stopped for taking too much memory")
+    if outcome.code == 0 and in_a_line:
+        return Reply("", "wrong", "the answer is too long")
+    how = outcome.signal_name or f"exit code {outcome.code}"
+    return Reply("", "crashed", f"the program ended ({how})")
+
+
+def ask_once(ask: Ask, cases: Sequence[Case], first: int, seconds: float) -> tuple[Ran, list[Reply], Reply | None]:
+    """How it ran, the answers that came, and what became of the next case; None where nobody knows."""
+    stdin = "".join(f"{case.line(i)}\n" for i, case in enumerate(cases[first:], first))
+    ran = ask(stdin.encode(), seconds)
+    lines = ran.outcome.stdout.split("\n")
+    rest = lines.pop()
+    replies = _read(lines, first, len(cases) - 1)
+    # Cut off, perhaps at the end of a line: after the last case a worker says so. It may also have ended itself in
+    # the next case, and will do so again when that is the first one.
+    ended = f"end {len(cases) - first}" in lines[-1:]
+    was_cut = ran.outcome.code == 0 and not _hung(ran) and not ran.stopped and not ended
+    return ran, replies, None if was_cut and replies else _trouble(ran, in_a_line=bool(rest))
+
+
+def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
+    """Goes on behind a case that ended the worker, three times at most."""
+    replies: list[Reply] = []
+    used, restarts, cuts = 0.0, 0, 0
+    seconds = budget.next_function()
+    while len(replies) < len(cases):
+        if not seconds:
+            return _give_up(replies, cases, used, Reply("", "timeout", "there was no time left for it", asked=False))
+        ran, answers, trouble = ask_once(ask, cases, len(replies), seconds)
+        used += ran.outcome.seconds
+        budget.spend(ran.outcome.seconds, hung=_hung(ran))
+        seconds = budget.next_run()
+        replies += answers
+        if len(replies) == len(cases):
+            break
+        if trouble is None and cuts < _MOST_CUTS:
+            cuts += 1
+            continue
+        replies.append(trouble or Reply("", "wrong", "the answer is too long"))
+        restarts += 1
+        if restarts > _MOST_RESTARTS:
+            given_up = Reply("", replies[-1].outcome, "not asked any more after that", asked=False)
+            return _give_up(replies, cases, used, given_up)
+    return Replies(replies, used)
+
+
+def _give_up(replies: list[Reply], cases: Sequence[Case], seconds: float, rest: Reply) -> Replies:
+    return Replies(replies + [rest] * (len(cases) - len(replies)), seconds)
+
+
+def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Replies:
+    """One run, and the seconds of a processor that it took. The last reply may be the trouble that ended it, if the
+    function was called; the rest is not known."""
+    ran, replies, trouble = ask_once(ask, cases, 0, seconds)
+    if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
+        replies = [*replies, trouble]
+    return Replies(replies[: len(cases)], ran.outcome.seconds if _hung(ran) else ran.cpu_seconds)
+
+
+# One case with what came of it.
+
+
+@dataclass(frozen=True)
+class Judged:
+    """`outcome` is ok only where the answer is right."""
+
+    case: Case
+    verdict: Verdict
+    outcome: Ending
+    asked: bool = True
+
+    @property
+    def decided(self) -> bool:
+        """Whether it says anything about the function."""
+        return self.asked and self.verdict.decided
+
+
+def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> Judged:
+    """Compares with the reference's line."""
+    verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
+    if reply.outcome != "ok":
+        verdict = Verdict(reply.note, verdict.expected, f"no answer: {reply.note}")
+    outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"
+    return Judged(case, verdict, outcome, reply.asked)
+
+
+# Asks workers: a student's and the kit's own.
+
+ANSWERS_KB = 8192  # a tree of many boxes is a long answer
+_REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300, output_kb=ANSWERS_KB)
+
+
+def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Callable[[bytes, float], Ran]:
+    """The student's functions, asked in a process that knows no answer: cases, and how many seconds it may take."""
+
+    def ask(cases: bytes, seconds: float) -> Ran:
+        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
+
+    return ask
+
+
+def reference_unkept(kit: BuiltKit, cases: bytes) -> Ran:
+    """Its answers to questions that nobody asks twice."""
+    return OpenAir().run(Task((Input(kit.reference("worker"), "worker"),), _REFERENCE_LIMITS, stdin=cases))
+
+
+def reference_answers(kit: BuiltKit, cases: bytes) -> Ran:
+    """The reference's answers, kept: a class is asked the same questions."""
+    path = kit.answers / hashlib.sha256(cases).hexdigest()[:32]
+    if path.is_file():
+        return Ran(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
+    ran = reference_unkept(kit, cases)
+    if ran.outcome.code != 0 or ran.outcome.timed_out:
+        raise GraderFault(f"the reference did not answer the judge: {ran.outcome.stderr.strip()}")
+    write_bytes(path, ran.outcome.stdout.encode())
+    return ran

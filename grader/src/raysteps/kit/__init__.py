@@ -1,1 +1,0 @@
-"""The kit in the repository: steps, stubs, scenes, builds."""

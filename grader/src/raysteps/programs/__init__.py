@@ -1,1 +1,0 @@
-"""A student's programs: built, limited, run, and the pictures they make."""

@@ -1,0 +1,244 @@
+"""Where each step stands, told from its file and its last check: nothing is built."""
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Literal
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.common.files import write_json
+from raysteps.common.platform import own_command
+from raysteps.common.text import listed, number
+from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
+from raysteps.grading.scoring import most_points
+from raysteps.results.model import Results, StepResult
+from raysteps.submission.encoding import decode
+from raysteps.submission.entries import NotTaken
+
+# What the last check of each step said; `build/check` holds the last check only, perhaps of another step.
+
+_SCHEMA = "raysteps/progress/v1"
+
+
+@dataclass(frozen=True)
+class LastCheck:
+    """Of one step: what it was checked with, and what came out."""
+
+    code: str  # see code_mark
+    status: str
+    points: float
+    max: float
+    summary: str = ""
+
+
+def code_mark(source: bytes) -> str:
+    """Changes with the code; not with comments and white space."""
+    words = "\0".join(tokens(source.decode("utf-8", "replace")))
+    return hashlib.sha256(words.encode()).hexdigest()[:32]
+
+
+def _place(project: Project) -> Path:
+    return project.build / "progress.json"
+
+
+def _summary(result: StepResult) -> str:
+    """How many of each kind are right, in a few words."""
+    kinds = (("tests", result.tests), ("pictures", result.images), ("hidden", result.hidden))
+    return ", ".join(f"{name} {sum(item.passed for item in items)}/{len(items)}" for name, items in kinds if items)
+
+
+def recall(project: Project) -> dict[str, LastCheck]:
+    """By step id. A file that cannot be read is as good as none: the next check writes it anew."""
+    try:
+        table = json.loads(_place(project).read_text(encoding="utf-8"))
+        if table["schema"] != _SCHEMA:
+            return {}
+        return {str(step): LastCheck(**entry) for step, entry in table["steps"].items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return {}
+
+
+def remember(project: Project, results: Results, sources: Mapping[str, bytes]) -> None:
+    """Keeps what came of a check, beside what is known of the other steps."""
+    known = recall(project)
+    for result in results.steps:
+        if result.id in sources:
+            mark = code_mark(sources[result.id])
+            known[result.id] = LastCheck(mark, result.status, result.points, result.max, _summary(result))
+    write_json(_place(project), {"schema": _SCHEMA, "steps": {step: asdict(last) for step, last in known.items()}})
+
+
+Kind = Literal["missing", "unreadable", "not-started", "unchecked", "changed", "checked"]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """One step. `last` is what the last check said, of this code (`checked`) or of earlier code (`changed`)."""
+
+    step: Step
+    kind: Kind
+    last: LastCheck | None = None
+    unfinished: tuple[str, ...] = ()
+
+    @property
+    def is_done(self) -> bool:
+        return self.kind == "checked" and self.last is not None and self.last.status == "passed"
+
+    @property
+    def words(self) -> str:
+        """For people."""
+        match self.kind:
+            case "missing":
+                return "the file is missing"
+            case "unreadable":
+                return "the file cannot be read as text"
+            case "not-started":
+                return "not started"
+            case "unchecked":
+                return "not checked yet"
+        assert self.last is not None
+        status = self.last.status.replace("-", " ")
+        points = f"{number(self.last.points)} of {number(self.last.max)}"
+        if self.kind == "changed":
+            return f"changed since the last check ({status}, {points})"
+        return "passed" if self.is_done else ", ".join(filter(None, (status, points, self.last.summary)))
+
+
+def own_source(project: Project, step: Step) -> bytes | None:
+    """The student's file as it is graded, whatever encoding an editor gave it; none when it is not there."""
+    try:
+        return decode((project.steps / step.path).read_bytes()).source
+    except FileNotFoundError:
+        return None
+
+
+def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standing:
+    """Compares the file with the stub and with what was checked last."""
+    try:
+        source = own_source(project, step)
+    except (OSError, NotTaken):
+        return Standing(step, "unreadable")
+    if source is None:
+        return Standing(step, "missing")
+    text = source.decode("utf-8", "replace")
+    if same_code(text, pristine_stub(project, step)):
+        return Standing(step, "not-started", unfinished=step.functions)
+    left = tuple(unfinished_functions(text, step))
+    if last is None or last.status == "not-started":
+        return Standing(step, "unchecked", unfinished=left)
+    return Standing(step, "checked" if last.code == code_mark(source) else "changed", last, left)
+
+
+def standings(project: Project) -> list[Standing]:
+    """Of all steps, in order."""
+    known = recall(project)
+    return [standing_of(project, step, known.get(step.id)) for step in read_steps(project)]
+
+
+def next_of(found: Sequence[Standing], after: Step | None = None) -> Step | None:
+    """The first step that is not done; a bonus comes when the others are. `after`: the one beyond that step."""
+    waiting = [standing.step for standing in found if not standing.is_done and standing.step != after]
+    waiting.sort(key=lambda step: (after is not None and step.index < after.index, step.bonus, step.index))
+    return waiting[0] if waiting else None
+
+
+def chosen_or_next(project: Project, name: str | None) -> Step | None:
+    """The step with this name; without a name the next one to work on, none when all are done."""
+    if name is not None:
+        return choose(read_steps(project), [name])[0]
+    return next_of(standings(project))
+
+
+def shown(project: Project, step: Step, name: str) -> str:
+    """Where a file of the step is, as a person would type it."""
+    path = project.steps / step.id / name
+    try:
+        return str(path.relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+# The commands `list` and `next`.
+
+_ALL_DONE = "All steps are done. `./raysteps render` draws any scene in scenes/ with them."
+
+_OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your course gives the rest."
+
+
+def _points(project: Project, step: Step) -> str:
+    return number(most_points(step, judged=project.has_reference))
+
+
+def _color(standing: Standing) -> str:
+    if standing.is_done:
+        return "green"
+    if standing.kind == "not-started":
+        return "dim"
+    bad = standing.kind in ("missing", "unreadable") or (standing.kind == "checked" and not _has_points(standing))
+    return "red" if bad else "yellow"
+
+
+def _has_points(standing: Standing) -> bool:
+    return standing.last is not None and standing.last.points > 0
+
+
+def print_list(project: Project, console: Console, found: list[Standing], following: Step | None) -> None:
+    """One row for each step, with the points that `check` shows; an arrow stands at the next one."""
+    table = Table(box=None, pad_edge=False)
+    for heading in ("", "step", "", "points", "state"):
+        table.add_column(heading, justify="right" if heading == "points" else "left")
+    for standing in found:
+        step, color = standing.step, _color(standing)
+        title = f"{escape(step.title)}{' (bonus)' if step.bonus else ''}"
+        state = f"[{color}]{escape(standing.words)}[/{color}]"
+        table.add_row("→" if step == following else "", step.number, title, _points(project, step), state)
+    console.print(table)
+    if not project.has_reference:
+        console.print(_OF_THE_VISIBLE_PART, style="dim")
+
+
+def list_steps(project: Project, console: Console) -> int:
+    """Quick: nothing is built or run."""
+    found = standings(project)
+    following = next_of(found)
+    print_list(project, console, found, following)
+    told = f"next: {own_command()} watch {following.number}" if following is not None else _ALL_DONE
+    console.print(f"\n{told}", highlight=False)
+    return 0
+
+
+def _to_write(standing: Standing) -> str:
+    left = standing.unfinished
+    return f" ({listed(left)} {'is' if len(left) == 1 else 'are'} still to be written)" if left else ""
+
+
+def next_step(project: Project, console: Console) -> int:
+    """What to work on, what to open and what to type."""
+    found = standings(project)
+    step = next_of(found)
+    if step is None:
+        console.print(_ALL_DONE, highlight=False)
+        return 0
+    standing = next(each for each in found if each.step == step)
+    points = f"{_points(project, step)} points{', bonus' if step.bonus else ''}"
+    console.print(
+        f"[bold]{step.number} {escape(step.title)}[/bold] ({points}): {escape(standing.words)}", highlight=False
+    )
+    lines = [
+        ("read", shown(project, step, "README.md")),
+        ("write", shown(project, step, step.file) + _to_write(standing)),
+        ("type", f"{own_command()} watch {step.number}"),
+        ("stuck", f"{own_command()} hint {step.number}"),
+    ]
+    if standing.kind in ("missing", "unreadable"):
+        lines = [("file", shown(project, step, step.file)), ("type", f"{own_command()} reset {step.number}")]
+    for label, text in lines:
+        console.print(f"  {label:<6} {escape(text)}", highlight=False, soft_wrap=True)
+    return 0

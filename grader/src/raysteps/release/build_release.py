@@ -1,0 +1,200 @@
+"""Writes a release: to a temporary name first, and under its own when nothing leaks."""
+
+import glob
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from raysteps.common.errors import UsageError
+from raysteps.common.files import write_bytes
+from raysteps.common.text import listed
+from raysteps.course.manifest import Step, read_all_steps
+from raysteps.course.project import Project
+from raysteps.images.render import reference_picture, reference_work, write_given
+from raysteps.release.contents import kit_contents, refuse_untracked
+from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
+from raysteps.toolchain.build_kit import write_given_tests
+from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.updater.generated_files import FOLDERS, HISTORY, is_made_anew
+from raysteps.updater.release_list import PLACE, Listed, Owner, Release, encoded, mark, read_release
+
+# Puts a new release in the place of an older one, and loses nothing that is of neither.
+
+_NOT_OURS = (HISTORY, *FOLDERS)  # may lie in a release that somebody keeps under version control
+
+
+def _is_as_released(path: Path, listed: Listed) -> bool:
+    try:
+        return listed.is_at(path)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from error
+
+
+def usable(out: Path) -> None:
+    """Nothing but a release as it was written may be replaced."""
+    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+        return
+    if not out.is_dir():
+        raise UsageError(f"{out}: is a file; expected a new or empty folder, or an earlier release")
+    old = read_release(out)
+    if old is None:
+        raise UsageError(f"{out}: is not empty; expected a new or empty folder, or an earlier release")
+    known = old.by_path()
+    for path in sorted(out.rglob("*")):
+        name = path.relative_to(out).as_posix()
+        if name.split("/")[0] in _NOT_OURS or name == PLACE or (path.is_dir() and not path.is_symlink()):
+            continue
+        if name not in known and is_made_anew(name):
+            continue
+        if name not in known or not _is_as_released(path, known[name]):
+            what = "is not of the release" if name not in known else "is not as it was released"
+            raise UsageError(f"{path}: {what} and would be lost; take it away, or name another folder with --out")
+
+
+def refuse_left_overs(out: Path) -> None:
+    """Of a release that was interrupted while it took the place of an older one."""
+    found = sorted(out.parent.glob(f".{glob.escape(out.name)}-old-*"))
+    if found:
+        raise UsageError(
+            f"{found[0]}: holds what was in {out} before a release that was interrupted; move what you need (a history "
+            "in .git) back, and delete the rest"
+        )
+
+
+def _move_along(old: Path, new: Path) -> None:
+    for name in _NOT_OURS:
+        if (old / name).exists():
+            (old / name).rename(new / name)
+
+
+def swap(new: Path, out: Path) -> None:
+    """What is not of the release, such as its history, moves along."""
+    if not out.exists():
+        new.rename(out)
+        return
+    old = Path(tempfile.mkdtemp(prefix=f".{out.name}-old-", dir=out.parent)) / out.name
+    out.rename(old)
+    try:
+        new.rename(out)
+    except OSError:
+        old.rename(out)
+        old.parent.rmdir()
+        raise
+    _move_along(old, out)
+    try:
+        usable(old)
+    except UsageError as error:
+        raise UsageError(
+            f"{out}: was released, but the older one was changed meanwhile and is kept: {error}"
+        ) from error
+    shutil.rmtree(old.parent)
+
+
+# What the reference leaves behind for students: its pictures, and the names of its tests.
+
+
+def write_all_given(kit: BuiltKit, steps: list[Step], folder: Path) -> None:
+    """Writes folder/reference/."""
+    target = Project(folder)
+    for step in steps:
+        for case in step.images:
+            scene = kit.project.root / case.scene
+            pixels = reference_picture(kit, scene, case.args)
+            work = reference_work(kit, scene, case.args) if case.max_share is not None else None
+            write_given(target, step, case, scene, pixels, work)
+    tests = {step.id: {name: sorted(tags) for name, tags in kit.tests[step.id].items()} for step in steps}
+    write_given_tests(target, tests)
+
+
+_EXECUTABLE = {"raysteps"}
+_EDITORS = (".vscode/tasks.json", ".vscode/launch.json")
+
+Leaks = Callable[[Path, Path], bool]  # of a folder, and in the history of another
+
+
+def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Release:
+    own = {f"steps/{step.path.as_posix()}" for step in steps}
+    files = []
+    for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+        name = path.relative_to(folder).as_posix()
+        owner: Owner = "student" if name in own else "kit"
+        files.append(Listed(name, mark(path.read_bytes()), owner, name in _EXECUTABLE))
+    return Release(course, kit.fingerprint.split()[0], tuple(step.id for step in steps), tuple(files))
+
+
+def _refuse_gaps(steps: list[Step], absent: list[Step]) -> None:
+    """A later picture needs the step in between: the reference has it, and the students' stand-in draws nothing."""
+    gaps = [step.id for step in absent if step.index < steps[-1].index]
+    if gaps:
+        until = [step.index for step in steps if step.id < gaps[0]]
+        sooner = f"end before it with `--steps {steps[0].index}-{until[-1]}`, or " if until else ""
+        raise UsageError(
+            f"{listed(gaps)}: left out of the course, but the pictures of later steps need it, and a students' kit has "
+            f"no reference to stand in; {sooner}let it in, as a bonus or for few points"
+        )
+
+
+def written_files(project: Project, steps: list[Step], course: str) -> dict[str, bytes]:
+    """All but what the reference draws, so that nothing has to be built for it. What may not go out is refused."""
+    absent = [step for step in read_all_steps(project) if step not in steps]
+    _refuse_gaps(steps, absent)
+    files = kit_contents(project, steps, absent)
+    files["grader/pyproject.toml"] = pyproject((project.root / "grader" / "pyproject.toml").read_text("utf-8"))
+    files["README.md"] = readme(course, steps)
+    files |= {name: for_editor(files[name], steps) for name in _EDITORS if name in files}
+    word_for_students(files, steps)
+    add_pictures(files, project.root)
+    refuse_untracked(project.root, files)
+    unlink_missing(files)
+    return files
+
+
+def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
+    """All files into an empty folder."""
+    for name, data in written_files(kit.project, steps, course).items():
+        write_bytes(folder / name, data)
+    for name in _EXECUTABLE:
+        (folder / name).chmod(0o755)
+    write_all_given(kit, steps, folder)
+    write_bytes(folder / PLACE, encoded(_list(folder, course, kit, steps)))
+
+
+def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Leaks, say: Say) -> bool:
+    """Whether it was written; not where `leaks` finds something in it."""
+    refuse_left_overs(out)
+    usable(out)
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=f".{out.name}-new-", dir=out.parent) as name:
+            new = Path(name) / out.name
+            new.mkdir(mode=0o755)
+            say("writing the files")
+            write_release(kit, steps, course, new)
+            say("looking for leaks")
+            if leaks(new, out):
+                return False
+            usable(out)
+            swap(new, out)
+    except OSError as error:
+        raise UsageError(f"{out}: cannot be written: {error.strerror or error}") from error
+    return True
+
+
+def first_steps(text: str | None, steps: list[Step]) -> list[Step]:
+    """`1-4` or `4` for the first four, nothing for all of them."""
+    if text is None:
+        return steps
+    start = str(steps[0].index)
+    first, dash, last = text.partition("-")
+    if not dash:
+        first, last = start, first
+    if not (first.isdecimal() and last.isdecimal()) or int(first) != steps[0].index:
+        such = f"{start}-{steps[min(3, len(steps) - 1)].index}"
+        raise UsageError(
+            f"--steps {text}: expected the first and the last, such as {such}; "
+            "each step builds on those before it, so none can be left out among them"
+        )
+    if int(last) not in {step.index for step in steps}:
+        raise UsageError(f"--steps {text}: there is no step {last}; the steps are {', '.join(it.id for it in steps)}")
+    return [step for step in steps if step.index <= int(last)]

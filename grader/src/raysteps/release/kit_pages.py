@@ -1,0 +1,174 @@
+"""Text files that a students' kit has of its own: README.md, the package's pyproject.toml, what an editor offers."""
+
+import json
+import posixpath
+import re
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.markdown import targets, unlinked
+from raysteps.common.text import number
+from raysteps.course.manifest import Step
+from raysteps.grading.scoring import most_points
+
+_DATA = ["py.typed", "*/*.schema.json", "report/static/*", "report/templates/*"]
+
+
+def _picture(steps: list[Step]) -> str:
+    """What draws the first picture of the course; a first step may have none."""
+    index, scene = next(
+        ((step.index, case.scene) for step in steps for case in step.images),
+        (steps[0].index, "scenes/lessons/three-spheres.nff"),
+    )
+    return f"./raysteps render {scene} -o first.png --step {index}"
+
+
+def readme(course: str, steps: list[Step]) -> bytes:
+    """Short: the steps, and what to type first."""
+    rows = [
+        f"| [{step.number} {step.title}](steps/{step.id}/README.md){' (bonus)' if step.bonus else ''} "
+        f"| `steps/{step.path.as_posix()}` | {number(step.points)} |"
+        for step in steps
+    ]
+    template = files("raysteps.release").joinpath("templates/README.md").read_text(encoding="utf-8")
+    words = {
+        "COURSE": course,
+        "STEPS": "\n".join(rows),
+        "FIRST": steps[0].number,
+        "FIRST_FILE": steps[0].path.as_posix(),
+        "FIRST_ID": steps[0].id,
+        "PICTURE": _picture(steps),
+    }
+    for name, text in words.items():
+        template = template.replace(f"@{name}@", text)
+    return template.encode()
+
+
+def for_editor(text: bytes, steps: list[Step]) -> bytes:
+    """Tasks and programs to debug, for these steps only, and without the task that tests the whole kit."""
+    table = json.loads(text)
+    if "tasks" in table:
+        table["tasks"] = [task for task in table["tasks"] if task.get("args") != ["test"]]
+    for asked in (one for one in table.get("inputs", []) if one["id"] == "step"):
+        asked["options"], asked["default"] = [step.number for step in steps], steps[0].number
+    return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
+
+
+def pyproject(text: str) -> bytes:
+    """What the package needs to run, without what it takes to work on it."""
+    table = tomllib.loads(text)
+    project = table["project"]
+    lines = [
+        "[build-system]",
+        f"requires = {json.dumps(table['build-system']['requires'])}",
+        f"build-backend = {json.dumps(table['build-system']['build-backend'])}",
+        "",
+        "[project]",
+        *(f"{key} = {json.dumps(project[key])}" for key in ("name", "version", "requires-python", "license")),
+        'description = "Checks the steps of a ray tracing course"',
+        "dependencies = [",
+        *(f"    {json.dumps(name)}," for name in project["dependencies"]),
+        "]",
+        "",
+        "[tool.setuptools.packages.find]",
+        'where = ["src"]',
+        "",
+        "[tool.setuptools.package-data]",
+        f"raysteps = {json.dumps(_DATA)}",
+    ]
+    return ("\n".join(lines) + "\n").encode()
+
+
+# Links of the kit's pages: pictures that they show come along, and what is not there is not linked.
+
+_PICTURES = (".png", ".svg", ".jpg", ".gif")
+
+
+def _place(page: str, link: str) -> str | None:
+    """The path from the root that a link leads to; none for other sites and places in the same page."""
+    path = link.partition("#")[0]
+    if not path or re.match(r"[a-z]+:", path):
+        return None
+    return posixpath.normpath(posixpath.join(posixpath.dirname(page), path))
+
+
+def add_pictures(files: dict[str, bytes], root: Path) -> None:
+    """Those that a page shows, wherever the whole kit keeps them."""
+    for page in [name for name in files if name.endswith(".md")]:
+        for _, link in targets(files[page].decode()):
+            place = _place(page, link)
+            if place is None or place in files or not place.endswith(_PICTURES) or place.startswith(".."):
+                continue
+            if (root / place).is_file():
+                files[place] = (root / place).read_bytes()
+
+
+def unlink_missing(files: dict[str, bytes]) -> None:
+    """`[words](docs/elsewhere.md)` becomes `words` where students do not get that page."""
+    folders = {parent for name in files for parent in _parents(name)}
+    for page in [name for name in files if name.endswith(".md")]:
+
+        def is_known(link: str, page: str = page) -> bool:
+            place = _place(page, link)
+            return place is None or place in files or place.rstrip("/") in folders
+
+        files[page] = unlinked(files[page].decode(), is_known).encode()
+
+
+def _parents(name: str) -> list[str]:
+    parts = name.split("/")
+    return ["/".join(parts[:at]) for at in range(1, len(parts))]
+
+
+# Words of the pages that one kind of kit has and the other has not, marked by comments in the Markdown.
+
+# A mark on a line of its own goes with the line; marks within a line leave the rest of it as it is.
+_WHOLE = re.compile(
+    r"^<!-- whole kit -->\n.*?^<!-- end -->\n|<!-- whole kit -->.*?<!-- end -->", re.MULTILINE | re.DOTALL
+)
+_STUDENTS = re.compile(r"<!-- students' kit:\s*(.*?)\s*-->", re.DOTALL)
+_MARK = re.compile(r"<!-- *(?:whole kit|end|students' kit)\b")
+_FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+_GAP = re.compile(r"\n{3,}")
+
+
+def _without_gaps(text: str) -> str:
+    """What was taken out leaves one empty line between paragraphs, and code as it was."""
+    parts, end = [], 0
+    for fenced in _FENCED.finditer(text):
+        parts += [_GAP.sub("\n\n", text[end : fenced.start()]), fenced[0]]
+        end = fenced.end()
+    return "".join([*parts, _GAP.sub("\n\n", text[end:])])
+
+
+def for_students(page: str, text: str) -> str:
+    """The page as a students' kit has it."""
+    if not _MARK.search(text):
+        return text
+    chosen = _STUDENTS.sub(lambda found: found[1], _WHOLE.sub("", text))
+    left = _MARK.search(chosen)
+    if left is not None:
+        raise GraderFault(
+            f"{page}: the mark `{left[0]}` stands alone; expected `<!-- whole kit -->` before `<!-- end -->`, "
+            "and `<!-- students' kit: words -->`"
+        )
+    return _without_gaps(chosen)
+
+
+def as_printed(text: str, step: Step) -> str:
+    """What `check` prints of a right step there: the points of the visible part, and nothing hidden."""
+    whole, seen = number(most_points(step, judged=True)), number(most_points(step, judged=False))
+    text = text.replace(f": passed, {whole} of {whole}", f": passed, {seen} of {seen}")
+    return re.sub(r"^  hidden   all [0-9]+ passed\n", "", text, flags=re.MULTILINE)
+
+
+def word_for_students(files: dict[str, bytes], steps: list[Step]) -> None:
+    """All pages among the files."""
+    for page in [name for name in files if name.endswith(".md")]:
+        files[page] = for_students(page, files[page].decode()).encode()
+    for step in steps:
+        page = f"steps/{step.id}/README.md"
+        if page in files:
+            files[page] = as_printed(files[page].decode(), step).encode()

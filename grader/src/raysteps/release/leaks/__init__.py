@@ -1,1 +1,0 @@
-"""Looks for solutions where none may be."""

@@ -1,0 +1,1 @@
+"""Results for people, on pages and in the terminal."""

@@ -1,0 +1,170 @@
+"""What needs a person's eye in a class, apart from the table."""
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from raysteps.common.text import count, number, printable, shorten
+
+Document = Mapping[str, Any]
+Weight = Literal["bad", "warn", "note"]
+_LONGEST = 300
+
+
+@dataclass(frozen=True)
+class Item:
+    """A submission by its place in the list, or somebody who has none; and what there is to say."""
+
+    row: int | None
+    who: str
+    words: Sequence[str]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Submissions with the same thing to look at."""
+
+    mark: str  # in the table; empty where the table says nothing
+    weight: Weight
+    heading: str
+    why: str
+    items: Sequence[Item]
+
+
+def _first_line(text: str) -> str:
+    return shorten(printable(text).split("\n", 1)[0], _LONGEST)
+
+
+def _points(value: float | None) -> str:
+    return "no points" if value is None else number(value)
+
+
+class _Finder:
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._rows = {one["name"]: (row, one) for row, one in enumerate(document["submissions"])}
+
+    def _item(self, name: str, words: Sequence[str]) -> Item:
+        found = self._rows.get(name)
+        return Item(found[0] if found else None, name, words)
+
+    def _of(self, key: str) -> list[tuple[str, Document]]:
+        return [(name, self._rows[name][1]) for name in self._document[key] if name in self._rows]
+
+    def faults(self) -> list[Item]:
+        return [self._item(name, [_first_line(one["fault"])]) for name, one in self._of("faults")]
+
+    def inconsistent(self) -> list[Item]:
+        return [
+            self._item(
+                name, [f"{step[:2]}: {claim}" for step, claims in one["inconsistent"].items() for claim in claims]
+            )
+            for name, one in self._of("inconsistent")
+        ]
+
+    def late_by_file(self) -> list[Item]:
+        return [
+            self._item(name, [f"{one['submitted_at']}, {count(one['late']['days'], 'day')} begun"])
+            for name, (_, one) in self._rows.items()
+            if one["submitted_from"] == "files" and one["late"] is not None and one["late"]["days"]
+        ]
+
+    def strangers(self) -> list[Item]:
+        named = self._of("submissions_without_student")
+        return [self._item(name, [one["note"]] if one["note"] else []) for name, one in named]
+
+    def people(self, key: str) -> list[Item]:
+        found = []
+        for one in self._document[key]:
+            words = [word for word in (one["id"], one["name"], one["email"]) if word]
+            found.append(Item(None, " ".join(words), [one["note"]] if one["note"] else []))
+        return found
+
+    def changed(self) -> list[Item]:
+        return [
+            self._item(one["name"], [f"{_points(one['before'])} before, {_points(one['after'])} now"])
+            for one in self._document["changed"]
+        ]
+
+    def plain(self, key: str) -> list[Item]:
+        return [self._item(name, []) for name in self._document[key]]
+
+
+def groups(document: Document) -> list[Group]:
+    """Those with something in them, the most urgent first."""
+    find = _Finder(document)
+    inconsistent = "The program claims what the judge did not see. Look at its code before you trust the points."
+    found = [
+        Group("fault", "bad", "Faults of the grader", "No zero: --resume grades these again.", find.faults()),
+        Group("inconsistent", "bad", "Inconsistent", inconsistent, find.inconsistent()),
+        Group(
+            "unreadable",
+            "bad",
+            "Nothing could be taken from these",
+            "0 points, which count in no mean; the report of each says why.",
+            find.plain("unreadable"),
+        ),
+        Group("not graded", "warn", "Not graded yet", "--resume goes on with these.", find.plain("not_graded")),
+        Group(
+            "earlier result",
+            "warn",
+            "With an earlier result",
+            "The last run was interrupted before it came to these.",
+            find.plain("outdated"),
+        ),
+        Group(
+            "late by file time",
+            "warn",
+            "Late by the time of the file",
+            "The roster has no submitted_at for these; copying may have set that time.",
+            find.late_by_file(),
+        ),
+        Group("nobody's", "warn", "Without a student on the roster", "Nothing is lost.", find.strangers()),
+        Group("", "note", "On the roster, but without a submission", "", find.people("students_without_submission")),
+        Group("", "note", "With more than one submission", "", find.people("students_with_several")),
+        Group("", "note", "Changed since the last time", "", find.changed()),
+        Group("", "note", "Graded earlier, but no longer in the folder", "", find.plain("gone")),
+        Group("", "note", "Extensions for ids that nobody has", "", find.plain("unknown_extensions")),
+    ]
+    return [group for group in found if group.items]
+
+
+def marks(found: Sequence[Group]) -> dict[int, list[str]]:
+    """Row -> why it needs a look."""
+    named: dict[int, list[str]] = {}
+    for group in found:
+        for item in group.items:
+            if group.mark and item.row is not None:
+                named.setdefault(item.row, []).append(group.mark)
+    return named
+
+
+# Which known mistakes are common in a class, step by step, and who made them.
+
+
+@dataclass(frozen=True)
+class CommonMistake:
+    """A mistake, and the places in the list of submissions of those who made it. Files of an older kit do not tell
+    who, only how many."""
+
+    number: int  # its place among all mistakes of the class
+    step: str
+    title: str
+    submissions: int
+    rows: Sequence[int]
+
+
+def common_mistakes(document: Document) -> list[CommonMistake]:
+    """The most common first, in the order of class.json."""
+    rows: dict[tuple[str, str], list[int]] = defaultdict(list)
+    for index, one in enumerate(document["submissions"]):
+        for step, titles in one.get("mistakes", {}).items():
+            for title in titles:
+                rows[step, title].append(index)
+    return [
+        CommonMistake(
+            index, found["step"], found["title"], found["submissions"], rows.get((found["step"], found["title"]), ())
+        )
+        for index, found in enumerate(document["mistakes"])
+    ]

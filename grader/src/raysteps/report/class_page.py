@@ -1,0 +1,230 @@
+"""The page of a class: class.html beside class.json."""
+
+import hashlib
+import unicodedata
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from raysteps.common.files import write_bytes
+from raysteps.common.text import number, printable
+from raysteps.report.class_attention import CommonMistake, common_mistakes, groups, marks
+from raysteps.report.class_statistics import (
+    StepFigures,
+    divided,
+    graded,
+    histogram,
+    span,
+    step_figures,
+    times,
+    total_bars,
+)
+from raysteps.report.page import render_page
+from raysteps.report.wording import STATUS_WORDS
+
+# The table of a class: what each row shows, and what it is sorted and found by.
+
+Document = Mapping[str, Any]
+Link = Callable[[str], str | None]
+
+STATUSES = {str(status): words for status, (words, _, _) in STATUS_WORDS.items()}
+_NO_POINTS = {"fault": "fault", "not-graded": "not graded"}
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One step of one submission."""
+
+    status: str
+    words: str
+    points: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """One submission."""
+
+    alias: str  # what it is called while names are hidden
+    who: str
+    more: str
+    link: str | None
+    cells: Sequence[Cell | None]
+    total: str
+    days: int
+    final: str
+    seconds: str
+    marks: Sequence[str]
+    words: str  # it is found by
+    keys: Sequence[float | None]  # the numbers that its columns are sorted by, after the name
+
+
+def aliases(names: Sequence[str]) -> list[str]:
+    """A number for each name, the same at every look, in an order that tells nothing about the name."""
+    order = sorted(names, key=lambda name: (hashlib.sha256(name.encode("utf-8", "replace")).digest(), name))
+    numbers = {name: index for index, name in enumerate(order, start=1)}
+    return [f"student {numbers[name]}" for name in names]
+
+
+def _who(one: Document) -> tuple[str, str]:
+    """The name to show, and what else tells who it is."""
+    people = [student["name"] or student["id"] or student["email"] for student in one["students"]]
+    ids = [student["id"] for student in one["students"] if student["id"] and student["name"]]
+    if not people:
+        return printable(one["name"]), ""
+    return printable(", ".join(people)), printable(" · ".join([*ids, one["name"]]))
+
+
+def _found_by(one: Document) -> str:
+    """As the page makes what is searched for: lower case without folding, and one code for each letter."""
+    words = [one["name"], one["entry"]]
+    words += [student[key] for student in one["students"] for key in ("id", "name", "email")]
+    return unicodedata.normalize("NFC", " ".join(dict.fromkeys(word for word in words if word)).lower())
+
+
+def _cell(result: Document | None) -> Cell | None:
+    if result is None:
+        return None
+    words = STATUSES.get(result["status"], printable(result["status"]))
+    return Cell(result["status"], words, number(result["points"]))
+
+
+def _points(value: float | None, status: str) -> str:
+    return _NO_POINTS.get(status, "") if value is None else number(value)
+
+
+def table_rows(document: Document, marks: Mapping[int, Sequence[str]], link: Link) -> list[Row]:
+    """One for each submission, in the order of class.json."""
+    submissions = document["submissions"]
+    steps = [step["id"] for step in document["steps"]]
+    rows = []
+    for index, (one, alias) in enumerate(zip(submissions, aliases([one["name"] for one in submissions]), strict=True)):
+        results = [one["steps"].get(step) for step in steps]
+        days = one["late"]["days"] if one["late"] is not None else 0
+        seconds = one.get("seconds")
+        who, more = _who(one)
+        keys = [result["points"] if result is not None else None for result in results]
+        rows.append(
+            Row(
+                alias=alias,
+                who=who,
+                more=more,
+                link=link(one["name"]),
+                cells=[_cell(result) for result in results],
+                total=_points(one["points"], one["status"]),
+                days=days,
+                final="" if one["final"] is None else number(one["final"]),
+                seconds="" if seconds is None else f"{seconds:.1f}",
+                marks=marks.get(index, []),
+                words=_found_by(one),
+                keys=[*keys, one["points"], days, one["final"], seconds],
+            )
+        )
+    return rows
+
+
+FILE = "class.html"
+_PARTS = 240  # width of a step's bar
+_FILES = ("report.html", "results.json", "fault.txt")
+
+
+def _links(folder: Path) -> Callable[[str], str | None]:
+    """The best there is of a submission: its page, else its facts."""
+
+    def link(name: str) -> str | None:
+        place = f"submissions/{name}"
+        found = next((file for file in _FILES if (folder / place / file).is_file()), None)
+        return f"submissions/{quote(name, safe='')}/{found}" if found else None
+
+    return link
+
+
+def _step(figures: StepFigures, mistakes: list[CommonMistake]) -> dict[str, object]:
+    counts = [(status, figures.statuses.get(status, 0)) for status in STATUSES]
+    return {
+        "figures": figures,
+        "number": figures.id[:2],
+        "parts": divided(counts, _PARTS),
+        "counts": [(status, STATUSES[status], amount) for status, amount in counts if amount],
+        "drawing": histogram(figures.bars, _PARTS, 92),
+        "mistakes": [mistake for mistake in mistakes if mistake.step == figures.id],
+    }
+
+
+def _facts(document: Document) -> dict[str, object]:
+    """What stands over everything."""
+    figures = step_figures(document)
+    mistakes = common_mistakes(document)
+    regular = sum(step["points"] for step in document["steps"] if not step["bonus"])
+    bonus = sum(step["points"] for step in document["steps"] if step["bonus"])
+    finals = [one["final"] for one in graded(document)]
+    return {
+        "steps": [_step(one, mistakes) for one in figures],
+        "regular": regular,
+        "bonus": bonus,
+        "finals": finals,
+        "totals": histogram(total_bars(finals, regular + bonus), 640, 200),
+        "times": times(document),
+        "span": span,
+        "isolations": sorted({one["isolation"] for one in document["submissions"] if one["isolation"]}),
+    }
+
+
+def _data(document: Document, rows: list[Row]) -> dict[str, object]:
+    """What the scripts sort and filter by; rows are in the order of the table."""
+    by_row: dict[int, list[int]] = {}
+    for mistake in common_mistakes(document):
+        for row in mistake.rows:
+            by_row.setdefault(row, []).append(mistake.number)
+    return {
+        "rows": [
+            {
+                "who": row.who,
+                "alias": row.alias,
+                "words": row.words,
+                "keys": row.keys,
+                "statuses": [cell.status if cell is not None else "" for cell in row.cells],
+                "mistakes": by_row.get(index, []),
+                "look": bool(row.marks),
+                "late": row.days > 0,
+            }
+            for index, row in enumerate(rows)
+        ],
+        "mistakes": [{"step": mistake.step[:2], "title": mistake.title} for mistake in common_mistakes(document)],
+    }
+
+
+def class_page(document: Document, link: Callable[[str], str | None]) -> str:
+    """The page. `link` gives the address of what is known of a submission."""
+    apart = groups(document)
+    rows = table_rows(document, marks(apart), link)
+    late = any(row.days for row in rows)
+    context = {
+        "run": document["run"],
+        "policy": document["late_policy"],
+        "statistics": document["statistics"],
+        "apart": apart,
+        "rows": rows,
+        "late": late,
+        "statuses": STATUSES,
+        "look": sum(1 for row in rows if row.marks),
+        **_facts(document),
+    }
+    scripts = ("class-rows", "class-filter", "class-names", "class-page")
+    return render_page("class", "Class report", context, scripts, ("class", "class-table"), _data(document, rows))
+
+
+def write_class_report(document: Document, folder: Path) -> Path:
+    """FOLDER/class.html, of a class document and the files that lie beside it."""
+    path = folder / FILE
+    write_bytes(path, class_page(document, _links(folder)).encode("utf-8", "replace"))
+    return path
+
+
+def try_class_report(document: Document, folder: Path, say: Callable[[str], None]) -> None:
+    """As `write_class_report`; no page is worth the grades of a class."""
+    try:
+        write_class_report(document, folder)
+    except Exception as error:  # whatever it is, the tables are written
+        say(f"no {FILE}: {error!r}")

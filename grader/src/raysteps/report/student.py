@@ -1,0 +1,347 @@
+"""report.html: the results of one submission as a page."""
+
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.files import write_if_changed
+from raysteps.common.text import clean, count, mean, number, size
+from raysteps.course.manifest import Step
+from raysteps.images.compare import read_png
+from raysteps.report.page import (
+    COMPARE_SCRIPTS,
+    COMPARE_STYLES,
+    NotAPicture,
+    PictureData,
+    flip_map,
+    picture_data,
+    pixel_data,
+    render_page,
+)
+from raysteps.report.wording import HOW_SURE, STATUS_WORDS, check_command, inspect_command, percent, replay_command
+from raysteps.results.work_ratio import Work
+
+# The pictures of a submission, as far as there is room for them in one page.
+
+_MOST_PIXELS = 1 << 22
+
+Place = tuple[str, str]  # step and name of the picture
+Document = Mapping[str, Any]
+
+
+@dataclass
+class Shown:
+    """What there is to be compared."""
+
+    pictures: dict[str, PictureData | None] = field(default_factory=dict)
+    left_out: bool = False
+
+    @property
+    def any(self) -> bool:
+        return any(self.pictures.values())
+
+
+def _path(folder: Path, name: str | None) -> Path | None:
+    """Nothing outside of the folder is shown, whatever a document says."""
+    if not name:
+        return None
+    path = (folder / name).resolve()
+    return path if path.is_relative_to(folder.resolve()) else None
+
+
+def _read(path: Path | None) -> PictureData | None:
+    try:
+        return picture_data(path) if path is not None else None
+    except NotAPicture:
+        return None
+
+
+def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]) -> PictureData | None:
+    """Only where there is something to see: for equal pictures it would be black."""
+    reference, mine = sides["reference"], sides["mine"]
+    if reference is None or mine is None or reference.src == mine.src:
+        return None
+    if reference.width * reference.height > _MOST_PIXELS or mine.width * mine.height > _MOST_PIXELS:
+        return None
+    pixels = []
+    for role in ("reference", "mine"):
+        path = _path(folder, image[role])
+        assert path is not None
+        try:
+            pixels.append(read_png(path))
+        except (OSError, ValueError):
+            return None
+    gray = flip_map(pixels[0], pixels[1])
+    return pixel_data(gray) if gray is not None else None
+
+
+def _wrong_first(document: Document) -> Iterator[tuple[Place, Document]]:
+    images = [((step["id"], image["name"]), image) for step in document["steps"] for image in step["images"]]
+    return iter(sorted(images, key=lambda item: bool(item[1]["passed"])))
+
+
+def make_album(document: Document, folder: Path, room: int) -> dict[Place, Shown]:
+    """As many as fit into so many characters: the wrong ones first, then the right ones, and maps last."""
+    album: dict[Place, Shown] = {}
+    for place, image in _wrong_first(document):
+        sides = {role: _read(_path(folder, image[role])) for role in ("reference", "mine")}
+        size = sum(len(side.src) for side in sides.values() if side is not None)
+        album[place] = Shown(sides) if size <= room else Shown(left_out=True)
+        room -= size if size <= room else 0
+    for place, image in _wrong_first(document):
+        shown = album[place]
+        flip = _flip(folder, image, shown.pictures) if shown.any else None
+        if flip is not None and len(flip.src) <= room:
+            shown.pictures["flip"] = flip
+            room -= len(flip.src)
+    return album
+
+
+# How the points of a step come about.
+
+_NEAR = 0.011  # points: a step's are rounded once, its parts each by itself
+
+
+@dataclass(frozen=True)
+class Part:
+    """One of the four things that earn points."""
+
+    name: str
+    said: str  # how much of it was right
+    share: float
+    percent: float  # of the step's points that it is worth
+    most: float
+    earned: float
+
+
+def _right(items: Sequence[Mapping[str, Any]], noun: str) -> tuple[str, float]:
+    right = sum(bool(item["passed"]) for item in items)
+    return (f"{right} of {count(len(items), noun)}", right / len(items)) if items else ("not run", 0.0)
+
+
+def _hidden_part(items: Sequence[Mapping[str, Any]]) -> tuple[str, float]:
+    weight = sum(item["weight"] for item in items)
+    share = sum(item["share"] * item["weight"] for item in items) / weight if weight else 0.0
+    if not items:
+        return "not run", 0.0
+    return percent(share), share
+
+
+def parts_of(result: Mapping[str, Any], step: Step | None) -> list[Part]:
+    """Tests, pictures, hidden and together; without the hidden part where the kit cannot judge it. Nothing when the
+    step's weights are not known."""
+    if step is None:
+        return []
+    together = bool(result["cumulative"]["passed"])
+    found = [
+        ("tests", _right(result["tests"], "test"), step.weight_tests),
+        ("pictures", _right(result["images"], "picture"), step.weight_images),
+        ("hidden", _hidden_part(result["hidden"]), step.weight_hidden),
+        ("together", ("yes" if together else "no", float(together)), step.weight_together),
+    ]
+    if result["max"] < step.points - _NEAR:
+        found = [part for part in found if part[0] != "hidden"]
+    return [
+        Part(name, said, share, weight * 100, step.points * weight, step.points * weight * share)
+        for name, (said, share), weight in found
+        if weight > 0
+    ]
+
+
+def rest_of(result: Mapping[str, Any], parts: Sequence[Part]) -> float:
+    """Points that the parts do not account for, as when an older kit weighed them otherwise."""
+    rest = result["points"] - sum(part.earned for part in parts)
+    return round(float(rest), 2) if parts and abs(rest) > _NEAR else 0.0
+
+
+# One step of a results.json, made ready for a page. Whatever a student's program may have said is cleaned.
+
+_LOG = 20_000  # characters of what the compiler said
+_TEXT = 2_000  # of any other text
+_HINTS = ("a question", "an idea", "pseudocode")
+
+
+def diagnosis_view(diagnosis: Document) -> dict[str, Any]:
+    """The word before it says how sure one can be."""
+    finding = diagnosis["kind"] == "finding"
+    lines = (("You see", diagnosis["sees"]), ("Cause", diagnosis["cause"]), ("Hint", diagnosis["hint"]))
+    return {
+        "sure": HOW_SURE[diagnosis["kind"]].capitalize() + ("" if diagnosis["kind"] == "transformation" else ":"),
+        "title": clean(diagnosis["title"]),
+        "alike": [clean(other) for other in diagnosis["alike"]],
+        "seen_in": "" if finding else ", ".join(clean(name) for name in diagnosis["seen_in"]),
+        "lines": [(label, clean(text)) for label, text in lines if text],
+    }
+
+
+def _test(test: Document) -> dict[str, Any]:
+    texts = {key: clean(test[key], _TEXT) for key in ("name", "message", "expression", "expanded", "location")}
+    return {**texts, "passed": test["passed"], "outcome": test["outcome"]}
+
+
+def _hidden(item: Document) -> dict[str, Any]:
+    groups = [
+        {"name": clean(group["name"]), "right": group["right"], "cases": group["cases"]} for group in item["groups"]
+    ]
+    return {
+        "name": clean(item["name"]),
+        "passed": item["share"] >= 1,
+        "percent": percent(item["share"]),
+        "message": clean(item["message"]),
+        "case": [
+            (label, clean(text, _TEXT))
+            for label, text in (("Given", item["given"]), ("Expected", item["expected"]), ("Actual", item["actual"]))
+            if text
+        ],
+        "again": replay_command(clean(item["case"])) if item["case"] else "",
+        "groups": [group for group in groups if group["right"] < group["cases"]],
+    }
+
+
+def _work(image: Document) -> list[tuple[str, str, str]]:
+    """What the picture cost: what was counted, mine and the reference's."""
+    if not image.get("work") or not image.get("reference_work"):
+        return []
+    mine, reference = Work(**image["work"]), Work(**image["reference_work"])
+    return [
+        ("surfaces tested per ray", mean(mine.surfaces_per_ray), mean(reference.surfaces_per_ray)),
+        ("boxes tested per ray", mean(mine.boxes_per_ray), mean(reference.boxes_per_ray)),
+        ("boxes", str(mine.boxes), str(reference.boxes)),
+        ("entries in their lists", str(mine.references), str(reference.references)),
+        ("memory", size(mine.bytes), size(reference.bytes)),
+    ]
+
+
+def _image(image: Document, step: Step | None, shown: Shown) -> dict[str, Any]:
+    wrong, share = image["wrong_share"], image.get("share_tested")
+    facts = []
+    if wrong is not None:
+        facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image['max_wrong']:.2%} may be")
+    if share is not None and image["max_share"] is not None:
+        facts.append(f"a ray tests {share:.3g} of the objects; at most {image['max_share']:.3g} of them may be tested")
+    return {
+        "name": clean(image["name"]),
+        "scene": clean(image["scene"]),
+        "passed": image["passed"],
+        "message": clean(image["message"]),
+        "facts": facts,
+        "shown": shown,
+        "files": [clean(image[role]) for role in ("mine", "reference") if image[role]],
+        "inspect": inspect_command(image, step),
+        "work": _work(image),
+    }
+
+
+def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
+    """Level by level. What is set in columns keeps them; other lines are one paragraph."""
+    kinds = _HINTS if len(hints) == len(_HINTS) else [""] * len(hints)
+    return [
+        {"kind": kind, "text": text.strip("\n"), "form": "code" if re.search(r"\S {2,}\S", text) else "prose"}
+        for kind, text in zip(kinds, hints, strict=True)
+    ]
+
+
+def step_view(result: Document, step: Step | None, album: Mapping[Place, Shown]) -> dict[str, Any]:
+    """All that the page says of a step."""
+    words, tone, sign = STATUS_WORDS[result["status"]]
+    parts = parts_of(result, step)
+    images = [_image(image, step, album[(result["id"], image["name"])]) for image in result["images"]]
+    return {
+        "id": result["id"],
+        "number": result["id"][:2],
+        "title": step.title if step is not None else result["id"][3:].replace("-", " "),
+        "status": {"id": result["status"], "words": words, "tone": tone, "sign": sign},
+        "points": number(result["points"]),
+        "max": number(result["max"]),
+        "share": result["points"] / result["max"] if result["max"] else 0.0,
+        "bonus": result["bonus"],
+        "parts": parts,
+        "rest": rest_of(result, parts),
+        "messages": [clean(message) for message in result["messages"]],
+        "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.get("diagnoses", ())],
+        "tests": [_test(test) for test in result["tests"]],
+        "hidden": [_hidden(item) for item in result["hidden"]],
+        "images": images,
+        "inconsistent": [clean(claim) for claim in result["inconsistent"]],
+        "build_log": clean(result["build_log"], _LOG),
+        "together": {"passed": result["cumulative"]["passed"], "message": clean(result["cumulative"]["message"])},
+        "hints": hint_views(step.hints) if step is not None else [],
+        "check": check_command(result["id"]),
+    }
+
+
+REPORT = "report.html"
+_MOST = 4_900_000  # bytes: a page that can be sent by mail
+_ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
+_PARTS = ("tests", "pictures", "hidden", "together")
+
+
+def _next(steps: Sequence[Mapping[str, Any]]) -> Mapping[str, Any] | None:
+    """The first step that is not solved; a bonus only when nothing else is left."""
+    unsolved = [step for step in steps if step["status"]["id"] != "passed"]
+    return next((step for step in unsolved if not step["bonus"]), unsolved[0] if unsolved else None)
+
+
+def _total(document: Mapping[str, Any]) -> dict[str, Any]:
+    total, bonus = document["total"], document["total"]["bonus"]
+    return {
+        "points": number(total["points"]),
+        "max": number(total["max"]),
+        "share": min(1.0, total["points"] / total["max"]) if total["max"] else 0.0,
+        "bonus": number(bonus["points"]) if bonus["points"] else "",
+        "bonus_max": number(bonus["max"]) if bonus["max"] else "",
+    }
+
+
+def _sums(steps: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    parts: list[Part] = [part for step in steps for part in step["parts"]]
+    return {name: sum(part.earned for part in parts if part.name == name) for name in _PARTS}
+
+
+def student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> str:
+    """The page of a results.json whose pictures lie in the folder. It shows what the document holds, and no more."""
+    text = _page(document, make_album(document, folder, _ROOM), steps)
+    excess = len(text.encode()) - _MOST
+    return text if excess <= 0 else _page(document, make_album(document, folder, _ROOM - excess), steps)
+
+
+def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequence[Step]) -> str:
+    known = {step.id: step for step in steps}
+    views = [step_view(result, known.get(result["id"]), album) for result in document["steps"]]
+    name = clean(document["submission"], 200)
+    context = {
+        "name": name,
+        "steps": views,
+        "next": _next(views),
+        "total": _total(document),
+        "columns": _PARTS,
+        "sums": _sums(views),
+        "number": number,
+        "left_out": sum(shown.left_out for shown in album.values()),
+        "facts": {
+            "kit": clean(document["kit"], 200),
+            "isolation": clean(document["isolation"]["name"], 200),
+        },
+    }
+    styles, scripts = (*COMPARE_STYLES, "parts", "student"), (*COMPARE_SCRIPTS, "student")
+    return render_page("student", f"Raysteps: {name}", context, scripts, styles)
+
+
+def write_student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> Path:
+    """Writes FOLDER/report.html."""
+    path = folder / REPORT
+    write_if_changed(path, student_page(document, folder, steps).encode())
+    return path
+
+
+def try_student_page(folder: Path, steps: Sequence[Step], say: Callable[[str], None]) -> Path | None:
+    """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
+    try:
+        document = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+        return write_student_page(document, folder, steps)
+    except Exception as error:  # a page is not worth a grade
+        say(f"no {REPORT}: {error!r}")
+        return None

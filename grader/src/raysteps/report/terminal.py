@@ -1,0 +1,189 @@
+"""Prints results for people."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.status import Status
+from rich.table import Table
+
+from raysteps.common.text import mean, number, size
+from raysteps.course.manifest import Step
+from raysteps.report.wording import HOW_SURE, percent
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
+from raysteps.results.work_ratio import Work
+from raysteps.toolchain.kit_artifacts import Say
+
+Again = Callable[[str], str]  # the command for a case, by its place beside results.json
+
+_TOGETHER = "together: the step's first picture with your own steps before it, as far as they are right"
+_VISIBLE = "tests and pictures with your own steps before each; your course may test hidden inputs, too"
+_COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
+
+
+def _status(result: StepResult) -> str:
+    color = _COLORS.get(result.status, "red")
+    return f"[{color}]{result.status}[/{color}]"
+
+
+def _points(result: StepResult) -> str:
+    return f"{number(result.points)} of {number(result.max)}" + (" bonus" if result.bonus else "")
+
+
+def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
+    """The word before it says how sure one can be."""
+    word = HOW_SURE[diagnosis.kind]
+    seen = ", ".join(diagnosis.seen_in) if diagnosis.kind != "finding" else ""
+    where = f" (seen in {seen})" if seen else ""
+    console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
+    for other in diagnosis.alike:
+        console.print(f"             or  {escape(other)}")
+    for label, text in (("you see", diagnosis.sees), ("cause", diagnosis.cause), ("hint", diagnosis.hint)):
+        if text:
+            console.print(f"             {label:<9} {escape(text)}")
+
+
+def _print_test(console: Console, test: TestResult) -> None:
+    console.print(f"  [red]test[/red]     {escape(test.name)}")
+    if test.expression:
+        console.print(f"             expected  {escape(test.expression)}")
+        console.print(f"             actual    {escape(test.expanded)}")
+    if test.message:
+        for line in test.message.splitlines():
+            console.print(f"             {escape(line)}")
+    if test.location:
+        console.print(f"             [dim]{escape(test.location)}[/dim]")
+
+
+def _work_lines(mine: Work, reference: Work) -> list[str]:
+    """What a picture cost, beside the reference; clocks differ, counters do not."""
+
+    def per_ray(work: Work) -> tuple[str, str]:
+        return mean(work.surfaces_per_ray), mean(work.boxes_per_ray)
+
+    surfaces, boxes = per_ray(mine)
+    return [
+        f"per ray {surfaces} surfaces and {boxes} boxes tested; the reference: {' and '.join(per_ray(reference))}",
+        f"{mine.references} entries in {mine.boxes} boxes, {size(mine.bytes)}; the reference: "
+        f"{reference.references} in {reference.boxes}, {size(reference.bytes)}",
+    ]
+
+
+def _print_image(console: Console, image: ImageResult, out: Path) -> None:
+    color = "green" if image.passed else "red"
+    share = "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
+    console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
+    if not image.passed:
+        console.print(f"             {escape(image.message)}")
+        if image.difference or image.mine:
+            shown = out / (image.difference or image.mine or "")
+            console.print(f"             see {escape(short_path(shown))}")
+    if image.work is not None and image.reference_work is not None:
+        for line in _work_lines(image.work, image.reference_work):
+            console.print(f"             {line}", style="dim", highlight=False)
+
+
+def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
+    console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
+    if item.message:
+        console.print(f"             {escape(item.message)}")
+    for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
+        if text:
+            console.print(f"             {label:<9} {escape(text)}")
+    if item.case:
+        console.print(f"             {'again':<9} {escape(again(item.case))}", soft_wrap=True)
+
+
+def short_path(path: Path) -> str:
+    """Relative to where the person is, when that is shorter."""
+    try:
+        return str(path.relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def print_details(console: Console, results: Results, steps: list[Step], out: Path, again: Again) -> None:
+    """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
+    case once more."""
+    titles = {step.id: step.title for step in steps}
+    for result in results.steps:
+        console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
+        for message in result.messages:
+            for line in message.splitlines():
+                console.print(f"  {escape(line)}")
+        for diagnosis in result.diagnoses:
+            _print_diagnosis(console, diagnosis)
+        for test in result.tests:
+            if not test.passed:
+                _print_test(console, test)
+        if result.tests and all(test.passed for test in result.tests):
+            console.print(f"  [green]tests[/green]    all {len(result.tests)} passed")
+        for image in result.images:
+            _print_image(console, image, out)
+        for item in result.hidden:
+            if not item.passed:
+                _print_hidden(console, item, again)
+        if result.hidden and all(item.passed for item in result.hidden):
+            console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
+        if result.cumulative.message and result.tests:
+            console.print(f"  together  {escape(result.cumulative.message)}")
+
+
+def print_table(console: Console, results: Results, *, visible_only: bool = False) -> None:
+    """One row per step and the total. `visible_only`: there is no judge, as in a students' kit."""
+    table = Table(title=escape(results.submission), title_justify="left")
+    headings = ["step", "status", "visible points" if visible_only else "points", "tests", "pictures"]
+    for heading in headings if visible_only else [*headings, "hidden", "together"]:
+        table.add_column(heading)
+    for result in results.steps:
+        ran = bool(result.tests or result.images)
+        row = [
+            result.id,
+            _status(result),
+            _points(result),
+            f"{sum(test.passed for test in result.tests)}/{len(result.tests)}" if ran else "",
+            f"{sum(image.passed for image in result.images)}/{len(result.images)}" if ran else "",
+            f"{sum(item.passed for item in result.hidden)}/{len(result.hidden)}" if result.hidden else "",
+            "yes" if result.cumulative.passed else "no",
+        ]
+        table.add_row(*row[: len(table.columns)])
+    console.print(table)
+    console.print(_VISIBLE if visible_only else _TOGETHER, style="dim", soft_wrap=True)
+    total = results.to_json()["total"]
+    bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
+    kind = "points of the visible part, of" if visible_only else "points of"
+    console.print(f"{number(total['points'])} {kind} {number(total['max'])}{bonus}")
+
+
+def print_isolation(console: Console, results: Results) -> None:
+    """What kept the student's code apart, and whether it claimed more than the judge saw."""
+    console.print(
+        f"Isolation: {escape(results.isolation.name)}. {escape(results.isolation.description)}", highlight=False
+    )
+    for result in results.steps:
+        for line in result.inconsistent:
+            console.print(f"[red]inconsistent[/red]  {result.id}: {escape(line)}")
+
+
+def print_files(console: Console, path: Path, page: Path | None) -> None:
+    """Where the results are."""
+    if page is not None:
+        console.print(f"Report: {escape(short_path(page))}, for a browser", soft_wrap=True)
+    console.print(f"Results: {escape(short_path(path))}, pictures beside it", soft_wrap=True)
+
+
+# Tells what is being done.
+
+
+def progress(console: Console, status: Status) -> Say:
+    """Beside the spinner on a terminal, elsewhere as lines on stderr."""
+
+    def say(text: str) -> None:
+        if console.is_terminal:
+            status.update(text)
+        else:
+            print(f"raysteps: {text}", file=sys.stderr, flush=True)
+
+    return say

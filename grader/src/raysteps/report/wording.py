@@ -1,0 +1,67 @@
+"""Commands that a report gives its reader to copy."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from raysteps.common import platform as systems
+from raysteps.common.platform import own_command
+from raysteps.course.manifest import ImageCase, Step
+from raysteps.course.project import Project, here
+from raysteps.results.model import Status
+
+_OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
+
+
+def check_command(step_id: str) -> str:
+    """Checks one's own step."""
+    return f"{own_command()} check {step_id[:2]}"
+
+
+def beside_reference(project: Project) -> tuple[str, ...]:
+    """The words that show a pixel's record beside the reference's, where there is one."""
+    return ("--against", "reference") if project.has_reference else ()
+
+
+def replay_command(case: str) -> str:
+    """Asks a case again; its file lies beside the report."""
+    return f"{own_command()} replay {systems.typed([case])}"
+
+
+def typed(words: Sequence[str]) -> str:
+    """As a person types it."""
+    return f"{own_command()} {systems.typed(words)}"
+
+
+def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
+    """After `./raysteps`: looks into a pixel of a picture."""
+    pairs = zip(case.args[::2], case.args[1::2], strict=False)
+    options = [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
+    return ["inspect", case.scene, str(x), str(y), *options, *beside_reference(here())]
+
+
+def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
+    """Looks into a pixel of a picture, `{x}` and `{y}`; none where the kit does not know how the picture was made."""
+    case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None
+    if case is None or "{" in case.scene:
+        return None
+    start = systems.typed([case.scene])
+    return typed(inspect_words(case, 0, 0)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
+
+
+# Words that every view of a result shares, on pages and in the terminal.
+
+STATUS_WORDS: dict[Status, tuple[str, str, str]] = {  # in words, its tone, its sign
+    "passed": ("passed", "good", "✓"),
+    "partial": ("partly right", "warn", "◐"),
+    "failed": ("failed", "bad", "✗"),
+    "not-started": ("not started", "none", "○"),
+    "does-not-build": ("does not build", "bad", "✗"),
+    "crashed": ("crashed", "bad", "✗"),
+    "timeout": ("took too long", "bad", "✗"),
+}
+HOW_SURE = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}  # of a diagnosis
+
+
+def percent(share: float) -> str:
+    """100 % only where nothing is missing."""
+    return f"{min(share * 100, 100 if share >= 1 else 99.9):.3g} %"

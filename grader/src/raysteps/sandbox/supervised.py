@@ -1,0 +1,234 @@
+"""Runs tasks under the keeper: what the sandboxes without namespaces have in common."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, nullcontext, suppress
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome
+from raysteps.common.text import listed, printable, shorten
+from raysteps.sandbox.bubblewrap import readable
+from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
+from raysteps.sandbox.monitor import Seen, Usage, adopting_orphans, descendants, usage_of, watch
+from raysteps.sandbox.namespaces import compiler_command, hidden_folders, top_folders, visible_folders
+from raysteps.sandbox.rlimits import address_space, threads_of_user
+from raysteps.sandbox.task import Input, Isolation, Limits, Ran, Task
+from raysteps.sandbox.task_dir import Inside, Workplace, fresh_workplace, nameless_file
+from raysteps.sandbox.users import can_lend_users, lent_user
+
+_MEGABYTE = 1 << 20
+_KEEPER = Path(__file__).with_name("keeper.py")
+_PATIENCE_SECONDS = 1.0
+_LINUX = sys.platform == "linux"
+
+
+class _Family:
+    """The keeper and what it keeps."""
+
+    def __init__(self, process: "subprocess.Popen[bytes]") -> None:
+        self._process = process
+        self._known: set[int] = set()
+        self._asked_at: float | None = None
+
+    def usage(self) -> Usage:
+        if not _LINUX:
+            return Usage()
+        found = descendants(self._process.pid)
+        self._known |= found
+        return usage_of(found)
+
+    def kill(self) -> None:
+        """Asks the keeper to end everything; if it does not, as when it was killed itself, does so in its place."""
+        now = time.monotonic()
+        self._asked_at = self._asked_at or now
+        if self._process.returncode is None and now < self._asked_at + _PATIENCE_SECONDS:
+            self._process.terminate()
+            return
+        if _LINUX:
+            self._hunt()
+        if self._process.returncode is None:
+            self._process.kill()
+
+    def _hunt(self) -> None:
+        """Whatever was seen below the keeper; its orphans are this process's children now."""
+        for pid in self._known & descendants(os.getpid()) - {self._process.pid}:
+            with suppress(OSError):
+                os.kill(pid, signal.SIGKILL)
+                os.waitpid(pid, 0)
+
+
+class Kept:
+    """A sandbox whose tasks run under the keeper. What is in force is for its children to say."""
+
+    isolation = Isolation()
+    _lends_users = False
+
+    def _locate(self, place: Workplace, given: Input) -> Path:
+        """Makes an input readable for the task."""
+        raise NotImplementedError
+
+    def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:
+        """What the keeper closes before it starts the command."""
+        raise NotImplementedError
+
+    def _limits(self, limits: Limits) -> dict[str, int]:
+        others = 0 if self._lends_users or not _LINUX else threads_of_user(os.getuid())
+        seconds = math.ceil(limits.cpu_seconds) + 1
+        bounds = {"RLIMIT_CORE": 0, "RLIMIT_FSIZE": limits.file_mb * _MEGABYTE, "RLIMIT_CPU": seconds}
+        if _LINUX:
+            bounds |= {"RLIMIT_AS": address_space(limits), "RLIMIT_NPROC": others + limits.processes}
+        return bounds
+
+    def run(self, task: Task) -> Ran:
+        with ExitStack() as stack:
+            stack.enter_context(adopting_orphans() if _LINUX else nullcontext())
+            user = stack.enter_context(lent_user()) if self._lends_users else None
+            place = stack.enter_context(fresh_workplace(user))
+            inputs: list[Path] = []
+
+            def locate(_: int, given: Input) -> str:
+                inputs.append(self._locate(place, given))
+                return str(inputs[-1])
+
+            inside = Inside(task, locate)
+            scratch = place.writable("tmp")
+            folders = [scratch]
+            if task.tools or not _LINUX:
+                folders.append(place.writable("out"))
+                inside.write_to_folder(folders[-1], str(folders[-1]))
+            else:
+                inside.write_to_memory(stack)
+            command = inside.command()
+            settings: dict[str, Any] = {
+                "limits": self._limits(task.limits),
+                "user": user,
+                "folder": str(scratch),
+                "environment": _environment(task, command[0], scratch),
+                "fences": self._fences(task, inputs, folders),
+            }
+            return self._keep(task, inside, settings, command, stack)
+
+    def _keep(self, task: Task, inside: Inside, settings: dict[str, Any], command: list[str], stack: ExitStack) -> Ran:
+        status, status_end = os.pipe()
+        stack.callback(os.close, status)
+        stdin = nameless_file(task.stdin, stack)
+        start = time.monotonic()
+        keeper = [sys.executable, "-I", "-S", str(_KEEPER), json.dumps(settings | {"status": status_end})]
+        try:
+            process = stack.enter_context(
+                subprocess.Popen(
+                    [*keeper, *command],
+                    stdin=stdin,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                    pass_fds=(status_end, *inside.fds),
+                    cwd="/",
+                )
+            )
+        finally:
+            os.close(status_end)
+        stack.callback(process.kill)
+        seen = watch(process, start, task.limits, _Family(process))
+        said = os.read(status, 64) if readable(status, 0) else b""
+        return Ran(
+            _outcome(seen, said), inside.outputs(), max(seen.cpu_seconds, seen.watched_cpu_seconds), seen.stopped
+        )
+
+
+def _environment(task: Task, program: str, scratch: Path) -> dict[str, str]:
+    """Nothing of the grader's own."""
+    environment = {"LC_ALL": "C", "HOME": str(scratch), "TMPDIR": str(scratch)}
+    if task.tools:
+        environment["PATH"] = os.pathsep.join(dict.fromkeys((str(Path(program).parent), "/usr/bin", "/bin")))
+    return environment
+
+
+def _outcome(seen: Seen, said: bytes) -> Outcome:
+    err = seen.stderr.decode("utf-8", "replace")
+    if said.startswith(b"cannot start"):
+        raise GraderFault(f"A command could not be started: {shorten(printable(err))}")
+    if not said and not seen.stopped and seen.status != -signal.SIGKILL:
+        raise GraderFault(f"The keeper of a task failed: {shorten(printable(err))}")
+    return Outcome(
+        code=int(said) if said and not seen.stopped else -signal.SIGKILL,
+        timed_out=seen.stopped == "wall",
+        stdout=seen.stdout.decode("utf-8", "replace"),
+        stderr=err,
+        seconds=seen.seconds,
+    )
+
+
+# Where namespaces are refused, as in many containers: another user, Landlock and a filter of system calls, as far as
+# they are there.
+
+_DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
+_LOADER_CACHE = "/etc/ld.so.cache"
+
+
+def _without(folder: Path, hidden: list[Path]) -> Iterator[str]:
+    """The folder, or, because a permission cannot have an exception, all of its parts but the hidden ones."""
+    if folder in hidden:
+        return
+    if any(path.is_relative_to(folder) for path in hidden):
+        for entry in folder.iterdir():
+            yield from _without(entry, hidden)
+    else:
+        yield str(folder)
+
+
+class Fallback(Kept):
+    """Not strong: the task shares the machine's processes with the grader, and its limits count by process."""
+
+    def __init__(self, secrets: tuple[Path, ...] = ()) -> None:
+        self._secrets = list(secrets)
+        self._lends_users = can_lend_users()
+        self._version = landlock_version()
+        self._filter = syscall_filter()
+        if not self._lends_users and not self._version:
+            raise GraderFault("there is no Landlock in this kernel, and only root can run code as another user")
+        self.isolation = Isolation(
+            "other user" if self._lends_users else "landlock", strong=False, description=self._describe()
+        )
+
+    def _describe(self) -> str:
+        there: list[str] = []
+        lacking: list[str] = []
+        if self._lends_users:
+            there.append("as a user of its own")
+        if self._version:
+            there.append("with its files limited by Landlock")
+        else:
+            lacking.append("it could read every file that is open to all users")
+        if self._filter is not None:
+            there.append("without network")
+        elif self._version < 4:
+            lacking.append("it could use the network")
+        if not self._lends_users and not scopes_signals(self._version):
+            lacking.append("it could end processes of the grader's user")
+        lacking += ["it could see that other processes run", "memory was watched, not fenced off"]
+        return f"The code ran {listed(there)}. There were no namespaces: {listed(lacking)}."
+
+    def _locate(self, place: Workplace, given: Input) -> Path:
+        return place.copied(given.path, given.inner_name)
+
+    def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:
+        first = task.command[0]
+        compiler = compiler_command(first if isinstance(first, str) else "c++") if task.tools else None
+        files = None
+        if self._version:
+            seen = [*visible_folders(compiler), *top_folders(compiler)]
+            hidden = hidden_folders(seen, self._secrets)
+            readable = [part for folder in seen for part in _without(folder, hidden)]
+            readable += [_LOADER_CACHE, *(str(path) for path in inputs)]
+            # A student's program has its outputs as open files; it needs no folder to write to.
+            writable = [*_DEVICES, *(str(path) for path in folders if task.tools)]
+            files = {"readable": readable, "writable": writable}
+        return {"files": files, "system_calls": None if self._filter is None else self._filter.hex()}

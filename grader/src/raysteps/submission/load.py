@@ -1,0 +1,162 @@
+"""Takes a submission in: a folder or an archive, of which only the known source files count."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from raysteps.common.errors import UsageError
+from raysteps.common.text import listed, printable
+from raysteps.course.manifest import Step
+from raysteps.submission.archives import DAMAGED, archive_entries
+from raysteps.submission.encoding import decode
+from raysteps.submission.entries import Entry, NotTaken, shown
+from raysteps.submission.folders import FolderReader, PlainFolderReader
+from raysteps.submission.locate import Place, Places, unusual_places
+
+_MOST_COPIES = 3  # that are named
+_OPENS_BELOW = os.open in os.supports_dir_fd  # not on Windows
+
+ARCHIVE_ENDINGS = (".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar", ".zip")
+
+
+@dataclass(frozen=True)
+class Submission:
+    """The student's sources by step id, as plain UTF-8 with LF; a step without a file is missing here."""
+
+    name: str
+    sources: dict[str, bytes]
+    notes: dict[str, str]  # why a step has no source
+    remarks: dict[str, str] = field(default_factory=dict)  # what was unusual about a source that was taken
+
+
+@dataclass
+class _Found:
+    """What lay at the best place for one step so far."""
+
+    place: Place
+    path: str
+    data: bytes = b""
+    problem: str = ""
+
+
+class _Collector:
+    """Reads what counts while the entries pass by: a stream does not come back."""
+
+    def __init__(self, steps: list[Step]) -> None:
+        self._steps = {step.id: step for step in steps}
+        self._places = Places(steps)
+        self._found: dict[str, _Found] = {}
+        self._problems: dict[str, str] = {}  # why something at an accepted place was not taken
+        self._copies: dict[str, list[str]] = {}  # what was left out because the same lay at a more explicit place
+        self._near: dict[str, str] = {}  # what looks like a step's file but lies elsewhere or is called otherwise
+
+    def take(self, entries: Iterator[Entry]) -> None:
+        for entry in entries:
+            place = self._places.find(entry.parts)
+            if place is not None:
+                self._take_at(place, entry)
+                continue
+            near = self._places.near(entry.parts)
+            if near is not None:
+                expected = f"steps/{self._steps[near].path.as_posix()}"
+                self._near.setdefault(near, f"{shown(entry.parts)} was not taken: expected is {expected}.")
+
+    def _take_at(self, place: Place, entry: Entry) -> None:
+        best = self._found.get(place.step)
+        path = shown(entry.parts)
+        if best is not None and place.rank > best.place.rank:
+            self._leave_out(place.step, path)
+            return
+        if best is not None and place.rank == best.place.rank:
+            self._leave_out(place.step, path)  # should there be a better one yet
+            best.data, best.problem = b"", "is there more than once, so none of them was taken."
+            return
+        found = _Found(place, path)
+        try:
+            found.data = entry.read()
+        except NotTaken as problem:  # a file at a lesser place is better than none
+            self._problems.setdefault(place.step, f"{path} {problem}")
+            return
+        if best is not None:
+            self._leave_out(place.step, best.path)
+        self._found[place.step] = found
+
+    def _leave_out(self, step: str, path: str) -> None:
+        copies = self._copies.setdefault(step, [])
+        if path not in copies and len(copies) < _MOST_COPIES:
+            copies.append(path)
+
+    def cannot_look_into(self, folders: list[tuple[str, ...]]) -> None:
+        for folder in folders:
+            for step in self._places.below(folder):
+                self._problems.setdefault(step, f"The folder {shown(folder)} cannot be read.")
+
+    def submission(self, name: str) -> Submission:
+        result = Submission(name, {}, self._near | self._problems)
+        unusual = unusual_places({step: found.place for step, found in self._found.items()})
+        for step, found in self._found.items():
+            result.notes.pop(step, None)
+            problem = found.problem
+            try:
+                decoded = decode(found.data)
+            except NotTaken as reason:
+                problem = problem or str(reason)
+            if problem:
+                result.notes[step] = f"{found.path} {problem}"
+                continue
+            result.sources[step] = decoded.source
+            remarks = [self._problems.get(step, ""), decoded.remark(self._steps[step].file)]
+            remarks += self._of_place(step, found, unusual)
+            if any(remarks):
+                result.remarks[step] = " ".join(filter(None, remarks))
+        return result
+
+    def _of_place(self, step: str, found: _Found, unusual: set[str]) -> list[str]:
+        """Where a source lay, and what was left out beside it."""
+        remarks = []
+        expected = f"steps/{self._steps[step].path.as_posix()}"
+        if not found.place.exact:
+            remarks.append(f"{found.path} was taken for {expected}.")
+        elif step in unusual:
+            remarks.append(f"It was found at {found.path}; expected is {expected}.")
+        copies = sorted(self._copies.get(step, []))
+        if copies:
+            remarks.append(f"{listed(copies)} {'was' if len(copies) == 1 else 'were'} left out beside {found.path}.")
+        return remarks
+
+
+def submission_name(path: Path) -> str:
+    """The name of the folder, or of the archive without its ending."""
+    # A name that is not UTF-8 carries halves of surrogates, which neither JSON nor a terminal takes.
+    name = printable(path.resolve().name.encode("utf-8", "replace").decode("utf-8")).strip()
+    for ending in ARCHIVE_ENDINGS:
+        if name.lower().endswith(ending) and os.path.isfile(path):  # noqa: PTH113  # Path.is_file may raise
+            name = name[: -len(ending)]
+            break
+    return "submission" if name in ("", ".", "..") else name
+
+
+def _collect(path: Path, collector: _Collector) -> None:
+    if path.is_dir():
+        reader = FolderReader(path) if _OPENS_BELOW else PlainFolderReader(path)
+        collector.take(reader.entries())
+        collector.cannot_look_into(reader.closed)
+    elif not path.is_file():
+        raise UsageError(f"{path}: there is no such submission")
+    else:
+        collector.take(archive_entries(path))
+
+
+def take_in(path: Path, steps: list[Step]) -> Submission:
+    """Reads a submission into memory; nothing is ever unpacked to disk."""
+    collector = _Collector(steps)
+    try:
+        _collect(path, collector)
+    except DAMAGED as error:
+        why = "an archive may be damaged or cut off"
+        raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({error})") from error
+    submission = collector.submission(submission_name(path))
+    if not submission.sources and not submission.notes:
+        raise UsageError(f"{path}: holds no step; expected files like steps/{steps[0].path.as_posix()}")
+    return submission

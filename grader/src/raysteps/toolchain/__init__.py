@@ -1,0 +1,1 @@
+"""The C++ side: how the kit and a student's steps are compiled and linked."""

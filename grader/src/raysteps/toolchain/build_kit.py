@@ -1,0 +1,284 @@
+"""Builds the kit for grading, into a folder named by its fingerprint."""
+
+import hashlib
+import json
+import os
+import re
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_bytes, write_json
+from raysteps.common.platform import executable
+from raysteps.course.manifest import Step, read_all_steps, read_steps
+from raysteps.course.project import Project
+from raysteps.toolchain.catch2 import list_tests
+from raysteps.toolchain.cmake import release_tree, what_failed
+from raysteps.toolchain.description import Description, read_description
+from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.link import (
+    dynamic_list,
+    interpreter_of,
+    library_flags,
+    library_name,
+    link,
+    link_placeholder,
+    precompile,
+    version_script,
+)
+from raysteps.toolchain.symbols import readable_names, symbols_of
+
+# Tells one state of the kit from another.
+
+# Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps,
+# nor the packages that change no grade.
+_NO_GRADE = "bootstrap|cli|exports|gallery|inspector|progress|release|report|updater|watch"
+_SOURCES = {
+    "framework": r".*\.(hpp|cpp|cmake|txt)",
+    "cmake": r".*\.cmake",
+    "scenes": r".*\.(nff|py)",
+    "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml|py)",
+    "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
+    "grader/stubs": r".*\.cpp",
+    "reference": r".*\.(png|json)",
+    "grader/src": rf"raysteps/(?!({_NO_GRADE})/).*\.(py|json)",
+}
+
+
+def _files(project: Project) -> Iterator[Path]:
+    yield project.root / "CMakeLists.txt"
+    yield project.root / "CMakePresets.json"
+    for name, pattern in _SOURCES.items():
+        folder = project.root / name
+        for path in sorted(folder.rglob("*")):
+            counts = re.fullmatch(pattern, path.relative_to(folder).as_posix()) and not path.name.startswith(".")
+            if counts and path.is_file():
+                yield path
+
+
+def fingerprint(project: Project) -> str:
+    """Changes with everything that a grade depends on in the repository; not with a student's own steps."""
+    digest = hashlib.sha256()
+    for path in _files(project):
+        data = path.read_bytes()
+        digest.update(f"{path.relative_to(project.root).as_posix()}\0{len(data)}\0".encode())
+        digest.update(data)
+    return digest.hexdigest()[:16]
+
+
+# The names and tags of the visible tests, as the reference ran them: a students' kit cannot ask it again.
+
+Tests = dict[str, dict[str, list[str]]]  # by step and name: the tags
+
+
+def given_tests(project: Project) -> Path:
+    return project.given / "tests.json"
+
+
+def write_given_tests(project: Project, tests: Tests) -> None:
+    write_json(given_tests(project), tests)
+
+
+def read_given_tests(project: Project) -> Tests:
+    path = given_tests(project)
+    try:
+        tests: Tests = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise GraderFault(f"{path}: expected the list of the tests; take it from a fresh copy of the kit") from error
+    return tests
+
+
+# Puts one kit folder together from what CMake built.
+
+_NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
+_FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "rest", "steps")
+
+
+class Assembly:
+    """Makes bin/, include/, steps/ and facts.json."""
+
+    def __init__(
+        self, project: Project, steps: list[Step], course: list[Step], folder: Path, description: Description
+    ) -> None:
+        self._project = project
+        self._steps = steps
+        self._course = course  # those that students hand in; the reference stands for the others
+        self._folder = folder
+        self._description = description
+        self._objects: dict[str, Path] = {}
+        self._kept: dict[str, list[str]] = {}  # linker names of the functions of each step
+        self._core_names: set[str] = set()  # what every step may ask for
+        for part in _FOLDERS:
+            (folder / part).mkdir()
+        self._core = self._copy(description.libraries["core"])
+        self._others = [self._copy(description.libraries[name]) for name in ("testing", "render", "io")]
+        self._others += description.catch2
+        self._others += [self._copy(path) for path in description.absent]
+
+    def run(self) -> None:
+        """Everything, in order."""
+        self._copy_headers()
+        if self._description.compiler_version.startswith("GNU"):
+            for step in self._steps:
+                precompile(self._description, self._folder / "include", step.id)
+        if self._description.seal is not None:
+            defined = symbols_of(self._description.seal.nm, self._core).defined
+            self._core_names = {name for name in defined if _NOT_FOR_STEPS not in name}
+        for step in self._steps:
+            self._add_step(step)
+        self._write_known()
+        tests = self._add_programs() if self._project.has_reference else self._add_own_programs()
+        tools = self._description.seal
+        loader = None if tools is None else interpreter_of(tools.readelf, next((self._folder / "bin").iterdir()))
+        write_json(self._folder / "facts.json", {"interpreter": loader, "tests": tests})
+
+    def _add_programs(self) -> Tests:
+        """Around each step by itself, and around all up to one."""
+        raytrace = [self._copy(path) for path in self._description.raytrace]
+        worker = [self._copy(path) for path in self._description.worker]
+        more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
+        for kind, objects in (("raytrace", raytrace), ("worker", worker)):
+            self._link_reference(kind, [*objects, *more] if kind == "raytrace" else objects)
+            for step in self._course:
+                self._add_program(f"{kind}-isolated-{step.number}", objects, [step])
+        tests: Tests = {}
+        for at, step in enumerate(self._course, start=1):
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._course[:at])
+            objects = [self._copy(path) for path in self._description.tests[step.number]]
+            self._link_reference(f"test-{step.number}", objects)
+            self._add_program(f"test-isolated-{step.number}", objects, [step])
+            cases = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
+            tests[step.id] = {name: sorted(tags) for name, tags in cases.items()}
+        return tests
+
+    def _add_own_programs(self) -> Tests:
+        """In a students' kit: all steps up to one are the student's, and those after it are stubs."""
+        raytrace = [self._copy(path) for path in self._description.raytrace]
+        for at, step in enumerate(self._steps, start=1):
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
+            objects = [self._copy(path) for path in self._description.tests[step.number]]
+            self._add_program(f"test-cumulative-{step.number}", objects, self._steps[:at])
+        return read_given_tests(self._project)
+
+    def _write_known(self) -> None:
+        """Every name that the kit defines, to tell what is not for a step from what is nowhere."""
+        tools = self._description.seal
+        if tools is not None:
+            libraries = [path for path in (self._core, *self._others) if path.suffix == ".a"]
+            names = set().union(*(symbols_of(tools.nm, path).defined for path in libraries), *self._kept.values())
+            write_json(self._folder / "steps" / "known.json", sorted(names))
+
+    def _copy(self, path: Path) -> Path:
+        parts = self._folder / "parts"
+        target = parts / f"{len(list(parts.iterdir())):03d}-{path.name}"
+        shutil.copyfile(path, target)
+        return target
+
+    def _copy_headers(self) -> None:
+        include = self._folder / "include"
+        for header in self._project.root.glob("framework/core/*.hpp"):
+            write_bytes(include / "core" / header.name, header.read_bytes())
+        for step in self._steps:
+            for header in (self._project.steps / step.id).glob("*.hpp"):
+                write_bytes(include / "steps" / step.id / header.name, header.read_bytes())
+
+    def _add_step(self, step: Step) -> None:
+        built = self._description.steps[step.number]
+        copied = self._objects[step.number] = self._copy(built)
+        steps = self._folder / "steps"
+        tools = self._description.seal
+        if tools is None:
+            shutil.copyfile(built, steps / f"{step.number}.o")
+            return
+        kept = self._kept[step.number] = Path(f"{built}.keep").read_text("utf-8").split()
+        exports = steps / f"{step.number}.map"
+        write_bytes(exports, version_script(kept))
+        link(self._description, [*library_flags(step.number), exports, copied], steps / library_name(step.number))
+        names = readable_names(tools.nm, self._objects[step.number])
+        write_json(steps / f"{step.number}.names.json", {name: names[name] for name in kept})
+        earlier = [other.number for other in self._steps if other.index <= step.index]
+        allowed = self._core_names.union(*(self._kept[number] for number in earlier))
+        write_json(steps / f"{step.number}.allowed.json", sorted(allowed))
+        write_bytes(steps / f"{step.number}.dynamic", dynamic_list(sorted(allowed)))
+        link_placeholder(self._description, kept, self._folder / "placeholders" / library_name(step.number))
+
+    def _link_reference(self, name: str, objects: list[Path]) -> None:
+        parts = [*objects, *self._objects.values(), *self._others, self._core]
+        link(self._description, parts, executable(self._folder / "bin" / name))
+
+    def _add_program(self, name: str, objects: list[Path], mine: list[Step]) -> None:
+        """Linked with placeholders where steps are libraries, so that nothing is linked for a submission; else a list
+        of what to link."""
+        numbers = [step.number for step in mine]
+        parts = [*objects, *(path for number, path in self._objects.items() if number not in numbers)]
+        if self._description.seal is None:
+            others = [*parts, *self._others, self._core]
+            names = [path.relative_to(self._folder) if path.is_relative_to(self._folder) else path for path in others]
+            write_bytes(
+                self._folder / "rest" / f"{name}.txt", "".join(f"{path.as_posix()}\n" for path in names).encode()
+            )
+            return
+        libraries = [self._folder / "placeholders" / library_name(number) for number in numbers]
+        whole: list[str | Path] = ["-Wl,--whole-archive", self._core, "-Wl,--no-whole-archive"]
+        shown = f"-Wl,--dynamic-list={self._folder / 'steps' / f'{numbers[-1]}.dynamic'}"
+        words: list[str | Path] = [*parts, *whole, *self._others, "-Wl,--no-as-needed", *libraries, shown]
+        link(self._description, words, self._folder / "bin" / name)
+
+
+_KEPT = 3
+_IN_USE_SECONDS = 1800  # a class touches its kit for each submission
+
+
+def build_kit(project: Project, say: Say = lambda text: None) -> BuiltKit:
+    """The kit of the repository as it is now; built when there is none yet."""
+    steps = read_steps(project)
+    for _ in range(3):
+        mark = fingerprint(project)
+        folder = project.build / "kit" / mark
+        if not (folder / "kit.json").is_file():
+            say(f"building the framework{', the references' if project.has_reference else ''} and the tests")
+            _build(project, steps, folder)
+        if fingerprint(project) == mark:
+            os.utime(folder)
+            _forget_old(folder.parent)
+            return _load(project, steps, folder)
+    raise GraderFault("the kit's sources keep changing while it is built")
+
+
+def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
+    description = read_description(folder / "kit.json")
+    table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
+    tests = {step: {name: frozenset(tags) for name, tags in cases.items()} for step, cases in table["tests"].items()}
+    mark = f"{folder.name} {description.compiler_version}"
+    return BuiltKit(project, folder, mark, steps, description, tests, table["interpreter"])
+
+
+def _forget_old(kits: Path) -> None:
+    """Keeps the kits that were used last, and those that may be in use."""
+    built = sorted((kit for kit in kits.iterdir() if (kit / "kit.json").is_file()), key=lambda kit: kit.stat().st_mtime)
+    for kit in built[:-_KEPT]:
+        if time.time() - kit.stat().st_mtime > _IN_USE_SECONDS:
+            shutil.rmtree(kit, ignore_errors=True)
+
+
+def _build(project: Project, steps: list[Step], folder: Path) -> None:
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    tree = release_tree(project)
+    with tree.locked(), tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent) as name:
+        if (folder / "kit.json").is_file():
+            return  # somebody else was faster
+        outcome = tree.build(["kit"])
+        if outcome.code != 0:
+            raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
+        for left in folder.parent.glob(".new-*"):  # by builds that were killed: this one has the lock
+            if left != Path(name):
+                shutil.rmtree(left, ignore_errors=True)
+        new = Path(name) / "kit"
+        new.mkdir()
+        Assembly(project, read_all_steps(project), steps, new, read_description(tree.folder / "kit.json")).run()
+        shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
+        shutil.rmtree(folder, ignore_errors=True)
+        new.rename(folder)

@@ -1,0 +1,130 @@
+"""Compiles and links one step of a student, in the sandbox. The commands are the kit's; only the source is not."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.files import write_bytes
+from raysteps.common.platform import executable
+from raysteps.course.manifest import Step
+from raysteps.sandbox.task import Input, Output, Ran, Sandbox, Task, Word
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
+from raysteps.toolchain.limits import StepLimits
+from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
+from raysteps.toolchain.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
+
+_MOST_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """The step's library (where steps are none: its object), or why there is none."""
+
+    binary: Path | None
+    ran: Ran
+    forbidden: tuple[str, ...] = ()  # linker names that the step may not ask for
+    missing: tuple[str, ...] = ()  # functions that the step should define
+    undefined: tuple[str, ...] = ()  # functions that the step calls and nobody defines
+    unreadable: bool = False  # an object that no compiler makes of what a student writes
+
+
+@dataclass(frozen=True)
+class Program:
+    """How a program is started."""
+
+    words: tuple[Word, ...]
+
+
+class StudentBuild:
+    """Builds into a folder of its own."""
+
+    def __init__(self, kit: BuiltKit, sandbox: Sandbox, folder: Path) -> None:
+        self._kit = kit
+        self._sandbox = sandbox
+        self._folder = folder
+
+    def _run(self, limits: StepLimits, *command: Word) -> Ran:
+        return self._sandbox.run(Task(tuple(command), limits.of_tools(), tools=True))
+
+    def compile(self, step: Step, source: bytes, limits: StepLimits) -> Compiled:
+        """The binary shows only the functions of the step, whatever the source defines."""
+        path = self._folder / step.path
+        write_bytes(path, source)
+        description = self._kit.description
+        words: list[Word] = [description.compiler, *description.compile_flags]
+        words += include_words(description, Input(self._kit.include), [Input(it) for it in description.more_includes])
+        words += compile_words(description, Input(path, step.file), Output("object"))
+        ran = self._run(limits, *words)
+        data = ran.outputs.get("object")
+        if ran.outcome.code != 0 or ran.outcome.timed_out or not data:
+            return Compiled(None, ran)
+        raw = self._write(f"{step.number}.o", data)
+        return Compiled(raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
+
+    def _close(self, step: Step, raw: Path, compiled: Ran, limits: StepLimits) -> Compiled:
+        """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""
+        description = self._kit.description
+        assert description.seal is not None
+        listed = self._run(limits, description.seal.nm, *nm_arguments(), Input(raw, "step.o"))
+        text = listed.outcome.stdout
+        if listed.outcome.code != 0 or listed.outcome.timed_out or len(text) >= _MOST_SYMBOLS:
+            return Compiled(None, compiled, unreadable=True)
+        symbols = parse_symbols(text)
+        strange = sorted(name for name in symbols.wanted - self._kit.allowed(step) if of_somebody(name))
+        forbidden = tuple(name for name in strange if name in self._kit.known() or "5Catch" in name)
+        missing = tuple(shown for name, shown in self._kit.functions(step).items() if name not in symbols.defined)
+        undefined = self._shown(raw, [name for name in strange if name not in forbidden], limits)
+        if forbidden or missing or undefined:
+            return Compiled(None, compiled, forbidden, missing, undefined)
+        words: list[Word] = [description.compiler, *description.link_flags, *library_flags(step.number)]
+        words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o")]
+        ran = self._run(limits, *words, "-o", Output("library"))
+        data = ran.outputs.get("library")
+        if not data:
+            return Compiled(None, ran)
+        return Compiled(self._write(f"libraries/{library_name(step.number)}", data), compiled)
+
+    def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:
+        """Linker names of an object as C++ writes them."""
+        tools = self._kit.description.seal
+        if not names or tools is None:
+            return ()
+        words = (tools.nm, *nm_arguments(), "--undefined-only", "--no-sort")
+        plain = self._run(limits, *words, Input(raw, "step.o")).outcome.stdout
+        readable = self._run(limits, *words, "--demangle", Input(raw, "step.o")).outcome.stdout
+        shown = parse_readable(plain, readable)
+        return tuple(shown.get(name, name) for name in names)
+
+    def program(
+        self, kind: Kind, step: Step, binaries: list[Path], limits: StepLimits, *, together: bool = False
+    ) -> tuple[Program | None, Ran | None]:
+        """The kit's program with these binaries, one for each step that it lacks; none, and what the linker said, when
+        they do not fit."""
+        if self._kit.interpreter is not None:
+            program = self._kit.program(kind, step, together=together)
+            libraries = Input(self._in_one_folder(f"{kind}-{step.number}", binaries), "steps")
+            return Program((self._kit.interpreter, "--library-path", libraries, Input(program, kind))), None
+        parts = [*binaries, *self._kit.rest(kind, step, together=together)]
+        output = Output(executable(Path("program")).name)
+        target: Word = output
+        inputs: list[Word] = [Input(part, part.name) for part in parts]
+        ran = self._run(limits, *link_words(self._kit.description, inputs, target))
+        data = ran.outputs.get(output.name)
+        if not data:
+            return None, ran
+        name = f"{kind}-{step.number}{'-together' if together else ''}"
+        path = self._write(executable(Path(name)).name, data)
+        path.chmod(0o755)
+        return Program((Input(path, kind),)), None
+
+    def _in_one_folder(self, name: str, libraries: list[Path]) -> Path:
+        """Where the loader looks; a single library may stay where it is."""
+        if len(libraries) > 1:
+            for library in libraries:
+                write_bytes(self._folder / name / library.name, library.read_bytes())
+            return self._folder / name
+        return libraries[0].parent
+
+    def _write(self, name: str, data: bytes) -> Path:
+        path = self._folder / name
+        write_bytes(path, data)
+        return path

@@ -1,0 +1,86 @@
+"""The limits of a step: what its manifest says, and what a course changes."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.manifest import Step
+from raysteps.sandbox.task import Limits
+
+COMPILE_SECONDS = 60.0
+COMPILE_MEMORY_MB = 2048
+PROCESSES = 64
+FILE_MB = 64
+NAMES = ("seconds", "memory_mb", "compile_seconds", "compile_memory_mb", "processes", "file_mb")
+
+
+@dataclass(frozen=True)
+class StepLimits:
+    """`seconds` is time on the clock for one program; its processes together may use twice that of all processors."""
+
+    seconds: float
+    memory_mb: int
+    compile_seconds: float = COMPILE_SECONDS
+    compile_memory_mb: int = COMPILE_MEMORY_MB
+    processes: int = PROCESSES
+    file_mb: int = FILE_MB
+
+    def after_a_timeout(self) -> "StepLimits":
+        """A step that hung once may hang in all that follows, and others are waiting."""
+        return replace(self, seconds=min(self.seconds, max(1.0, self.seconds / 4)))
+
+    def of_tools(self) -> Limits:
+        """For the compiler, the assembler and the linker."""
+        return Limits(
+            wall_seconds=self.compile_seconds,
+            cpu_seconds=self.compile_seconds,
+            memory_mb=self.compile_memory_mb,
+            processes=self.processes,
+            file_mb=self.file_mb,
+        )
+
+    def of_program(self, seconds: float | None = None) -> Limits:
+        """For the student's programs."""
+        wall = self.seconds if seconds is None else seconds
+        return Limits(
+            wall_seconds=wall,
+            cpu_seconds=2 * wall,
+            memory_mb=self.memory_mb,
+            processes=self.processes,
+            file_mb=self.file_mb,
+        )
+
+
+def limits_of(step: Step, changes: Mapping[str, float]) -> StepLimits:
+    """The manifest's limits with the changes by name (see NAMES)."""
+    given = dict(step.more_limits)
+    unknown = sorted(given.keys() - set(NAMES))
+    if unknown:
+        raise GraderFault(f"{step.id}/step.toml: [limits] {unknown[0]}: expected one of {', '.join(NAMES)}")
+    given = {"seconds": step.seconds, "memory_mb": step.memory_mb, **given, **changes}
+    return StepLimits(
+        seconds=given["seconds"],
+        memory_mb=int(given["memory_mb"]),
+        compile_seconds=given.get("compile_seconds", COMPILE_SECONDS),
+        compile_memory_mb=int(given.get("compile_memory_mb", COMPILE_MEMORY_MB)),
+        processes=int(given.get("processes", PROCESSES)),
+        file_mb=int(given.get("file_mb", FILE_MB)),
+    )
+
+
+def parse_limits(words: Sequence[str]) -> dict[str, float]:
+    """`NAME=VALUE` words of a command line."""
+    changes: dict[str, float] = {}
+    for word in words:
+        name, _, value = word.partition("=")
+        whole = not name.endswith("seconds")
+        if (
+            name not in NAMES
+            or not re.fullmatch(r"[0-9]+" if whole else r"[0-9]+(\.[0-9]+)?", value)
+            or not float(value)
+        ):
+            kind = "a whole number" if whole else "a number"
+            raise UsageError(f"--limit {word}: expected one of {', '.join(NAMES)}, then = and {kind} above 0")
+        changes[name] = float(value)
+    return changes

@@ -1,0 +1,1 @@
+"""A students' kit takes in a newer release."""

@@ -1,0 +1,158 @@
+""".raysteps/release.json: which files of a students' repository are the kit's, and how they were."""
+
+import json
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import mark
+from raysteps.common.schemas import complaint, read_schema
+from raysteps.updater.generated_files import all_places
+
+# Which paths a list of files may hold: each leads to a place of its own, inside the folder, on every system.
+
+_PART = re.compile(r"[A-Za-z0-9._+-]*[A-Za-z0-9_+-]")  # Windows drops a dot at the end; `.` and `..` are no names
+_DEVICE = re.compile(r"(?:con|prn|aux|nul|com[0-9]|lpt[0-9])(?:\..*)?", re.IGNORECASE)
+_NOT_THE_KITS = (".venv", "build")
+_ALLOWED = "expected names of letters, digits and . _ + - only, with / between them"
+
+
+def _folders(path: str) -> Iterator[str]:
+    parts = path.split("/")[:-1]
+    return ("/".join(parts[: count + 1]) for count in range(len(parts)))
+
+
+def _complaint(path: str) -> str:
+    parts = path.split("/")
+    if not all(_PART.fullmatch(part) and not _DEVICE.fullmatch(part) for part in parts):
+        return f"which is no name that every system can have; {_ALLOWED}"
+    if ".git" in (part.lower() for part in parts) or parts[0].lower() in _NOT_THE_KITS:
+        return "which is never a file of the kit"
+    if parts[0].lower() == ".raysteps":
+        return "which is where the list itself is kept"
+    return ""
+
+
+def path_problem(paths: Iterable[str]) -> str:
+    """What is wrong with the first that may not be in a list; nothing when all may. On Windows and macOS names that
+    differ in case only are one file."""
+    seen: set[str] = set()
+    names = list(paths)
+    folders = {folder.lower() for path in names for folder in _folders(path)}
+    for path in names:
+        wrong = _complaint(path)
+        if path.lower() in seen:
+            wrong = "or a name that differs from it in case only, twice"
+        elif path.lower() in folders:
+            wrong = "which is a folder of another file of the list"
+        if wrong:
+            return f"lists {path}, {wrong}"
+        seen.add(path.lower())
+    return ""
+
+
+__all__ = ["PLACE", "Listed", "Owner", "Release", "encoded", "mark", "parse", "read_release"]
+
+PLACE = ".raysteps/release.json"
+_FORM = "raysteps/release/v1"
+_MOST_BYTES = 16 << 20
+
+Owner = Literal["kit", "student"]
+
+
+@dataclass(frozen=True)
+class Listed:
+    """One file. Those that the student writes are the student's from the first day on."""
+
+    path: str
+    mark: str
+    owner: Owner = "kit"
+    executable: bool = False
+
+    def is_at(self, path: Path) -> bool:
+        """Whether the file is there as it was released. Nobody looks behind a link; OSError where it cannot be read."""
+        return not path.is_symlink() and mark(path.read_bytes()) == self.mark
+
+
+@dataclass(frozen=True)
+class Release:
+    """What a course has given out."""
+
+    course: str
+    kit: str  # fingerprint of the kit that it was made from
+    steps: tuple[str, ...]
+    files: tuple[Listed, ...]
+
+    def by_path(self) -> dict[str, Listed]:
+        return {file.path: file for file in self.files}
+
+
+def encoded(release: Release) -> bytes:
+    """The document; one that breaks its schema is the kit's fault, a file that no repository may have the course's."""
+    document = {"schema": _FORM, **asdict(release)}
+    document["steps"], document["files"] = list(release.steps), [asdict(file) for file in release.files]
+    problem = complaint(document, read_schema("raysteps.updater", "release.schema.json"))
+    if problem:
+        raise GraderFault(f"release.json would break its schema: {problem}")
+    wrong = path_problem(file.path for file in release.files)
+    if wrong:
+        raise UsageError(f"the release {wrong}. Give the file another name")
+    return (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode()
+
+
+def _listed(file: dict[str, Any]) -> Listed:
+    return Listed(file["path"], file["mark"], file["owner"], file["executable"])
+
+
+def parse(data: bytes, where: str) -> Release:
+    """What somebody says is a release. Keys that nobody knows are of a later kit, and may stand there."""
+    try:
+        document: Any = json.loads(data[:_MOST_BYTES])
+    except (ValueError, RecursionError) as error:
+        raise UsageError(f"{where}: is not JSON; expected the list of a release's files") from error
+    form = document.get("schema") if isinstance(document, dict) else None
+    if isinstance(form, str) and form.startswith("raysteps/release/") and form != _FORM:
+        raise UsageError(
+            f"{where}: is a list of the form {form}, and this kit reads {_FORM}. Let the newer kit do the update: "
+            "unpack it, and in its own folder type\n  python raysteps update --into YOUR-REPOSITORY"
+        )
+    problem = complaint(document, read_schema("raysteps.updater", "release.schema.json"))
+    if problem:
+        raise UsageError(f"{where}: is not the list of a release's files: {problem}")
+    files = tuple(_listed(file) for file in document["files"])
+    wrong = path_problem(file.path for file in files)
+    if wrong:
+        raise UsageError(f"{where}: {wrong}")
+    return Release(document["course"], document["kit"], tuple(document["steps"]), files)
+
+
+def read_release(folder: Path) -> Release | None:
+    """None where the folder is no release."""
+    path = folder / PLACE
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return None
+    return parse(data, str(path))
+
+
+# Which files of a repository are the student's, by what they hold.
+
+
+def _is_as_released(path: Path, file: Listed | None) -> bool:
+    """What cannot be read is the student's own."""
+    try:
+        return file is not None and file.is_at(path)
+    except OSError:
+        return False
+
+
+def own_files(root: Path, kit: Release) -> list[str]:
+    """All that is not as in this kit, steps first."""
+    listed = kit.by_path()
+    files = [place for place in all_places(root) if place.path.is_symlink() or not place.path.is_dir()]
+    found = [it.name for it in files if it.name != PLACE and not _is_as_released(it.path, listed.get(it.name))]
+    return sorted(found, key=lambda name: (not name.startswith("steps/"), name))

@@ -1,1 +1,0 @@
-"""What the makers of the kit type."""

@@ -1,1 +1,0 @@
-"""The figures of the handouts: diagrams, pictures and plots, all made again by `./raysteps figures`."""

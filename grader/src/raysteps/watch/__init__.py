@@ -1,0 +1,1 @@
+"""A step is built, tested and drawn again with every save."""

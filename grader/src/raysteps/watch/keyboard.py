@@ -1,0 +1,63 @@
+"""Single keys from the terminal: what counts as one, and where they are to be had."""
+
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Protocol
+
+from raysteps.watch.events import Post
+
+_SEQUENCE = re.compile(r"\x1b(?:\[[0-9;?]*[ -/]*[@-~]|O.|.)?", re.DOTALL)  # arrows, function keys, Alt with a letter
+_LONGEST = 4  # letters that come at once; more were pasted, and by mistake
+
+
+class Keyboard(Protocol):
+    """Gives letters; gives the terminal back for as long as somebody else needs it."""
+
+    def start(self) -> None: ...
+
+    def close(self) -> None: ...
+
+    def lent(self) -> AbstractContextManager[None]: ...
+
+
+def letters(text: str) -> list[str]:
+    """What was typed: no arrows and function keys, which come as sequences, and nothing pasted."""
+    text = _SEQUENCE.sub("", text)
+    if len(text) > _LONGEST:
+        return []
+    return [" " if letter in "\r\n" else letter for letter in text if letter.isprintable() or letter in "\r\n"]
+
+
+class NoKeyboard:
+    """Where stdin is no terminal."""
+
+    def start(self) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+    @contextmanager
+    def lent(self) -> Iterator[None]:
+        yield
+
+
+def find_keyboard(post: Post) -> Keyboard:
+    """The terminal's, when stdin is one. A job in the background must not touch it: it would be stopped."""
+    if sys.stdin is None or not sys.stdin.isatty():
+        return NoKeyboard()
+    try:
+        from raysteps.watch.terminal_keys import UnixKeyboard, in_front
+    except ImportError:
+        return _on_windows(post)
+    return UnixKeyboard(post) if in_front() else NoKeyboard()
+
+
+def _on_windows(post: Post) -> Keyboard:
+    try:
+        from raysteps.watch.windows_keys import WindowsKeyboard
+    except ImportError:
+        return NoKeyboard()
+    return WindowsKeyboard(post)

@@ -1,0 +1,204 @@
+"""The page of `watch`: its state, and its HTML."""
+
+import json
+import re
+import threading
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from PIL import Image
+
+from raysteps.common.text import number
+from raysteps.course.manifest import Step
+from raysteps.report.page import (
+    COMPARE_SCRIPTS,
+    COMPARE_STYLES,
+    NotAPicture,
+    data_uri,
+    flip_map,
+    pixel_data,
+    render_page,
+)
+from raysteps.report.wording import HOW_SURE, inspect_command, replay_command
+from raysteps.watch.step_view import Result, View, is_right, passed_of, verdict
+
+# What the page shows, as JSON; whoever serves a page waits here for the next state.
+
+State = dict[str, Any]
+
+
+class News(NamedTuple):
+    """One state, and whether it is the last."""
+
+    version: int
+    text: str
+    is_last: bool
+
+
+class Board:
+    """Holds the newest state only: a page that was slow misses what was before."""
+
+    def __init__(self, state: State) -> None:
+        self._changed = threading.Condition()
+        self._version = 1
+        self._text = _as_line(state)
+        self._state = state
+        self._closed = False
+
+    def show(self, state: State) -> None:
+        with self._changed:
+            self._put(state)
+
+    def _put(self, state: State) -> None:
+        self._state = state
+        self._text = _as_line(state)
+        self._version += 1
+        self._changed.notify_all()
+
+    def now(self) -> News:
+        """The state, in one line of text."""
+        with self._changed:
+            return News(self._version, self._text, self._closed)
+
+    def wait(self, seen: int, seconds: float) -> News | None:
+        """What is newer than the version that was seen; None when there is nothing after that time."""
+        with self._changed:
+            if self._changed.wait_for(lambda: self._version != seen, seconds):
+                return News(self._version, self._text, self._closed)
+            return None
+
+    def close(self) -> None:
+        """The last state: nobody watches any more."""
+        with self._changed:
+            if not self._closed:
+                self._closed = True
+                self._put(self._state | {"over": True})
+
+
+def _as_line(state: State) -> str:
+    return json.dumps(state, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+
+
+_NUMBERS = re.compile(r"\d+ of \d+ [a-z ]+ (failed|did not pass|lost points)\.")
+_MOST_LOG = 20_000
+_PHASES = {"looking": "building and testing", "checking": "checking all of it", "idle": "watching"}
+
+
+def _uri(folder: Path | None, name: str | None) -> str | None:
+    if folder is None or not name:
+        return None
+    try:
+        return data_uri(folder / name)
+    except NotAPicture:
+        return None  # such as one that the next run has just removed
+
+
+@lru_cache(maxsize=16)
+def _flip(reference: bytes, mine: bytes, shape: tuple[int, ...]) -> str | None:
+    one, other = (np.frombuffer(data, dtype=np.uint8).reshape(shape) for data in (reference, mine))
+    found = flip_map(one, other)
+    return None if found is None else pixel_data(found).src
+
+
+def _flip_of(folder: Path, image: dict[str, Any]) -> str | None:
+    """Of pictures that are wrong: where all is right there is nothing to see."""
+    if image["passed"] or not image["mine"]:
+        return None
+    try:
+        pair = [np.asarray(Image.open(folder / image[role]).convert("RGB")) for role in ("reference", "mine")]
+    except OSError:
+        return None
+    if pair[0].shape != pair[1].shape:
+        return None
+    return _flip(pair[0].tobytes(), pair[1].tobytes(), pair[0].shape)
+
+
+def _picture(view: View, image: dict[str, Any]) -> State:
+    return {
+        "name": image["name"],
+        "scene": image["scene"],
+        "passed": image["passed"],
+        "message": image["message"],
+        "reference": _uri(view.out, image["reference"]),
+        "mine": _uri(view.out, image["mine"]),
+        "flip": _flip_of(view.out, image) if view.out is not None and view.complete else None,
+        "inspect": inspect_command(image, view.step),
+    }
+
+
+def _tests(items: list[dict[str, Any]]) -> State:
+    passed, all_ = passed_of(items)
+    failed = [
+        {
+            "name": test["name"],
+            "message": test["message"],
+            "expected": test["expression"],
+            "actual": test["expanded"],
+            "place": test["location"],
+        }
+        for test in items
+        if not test["passed"]
+    ]
+    return {"passed": passed, "all": all_, "failed": failed}
+
+
+def _hidden(items: list[dict[str, Any]]) -> State:
+    passed, all_ = passed_of(items)
+    keys = ("name", "message", "given", "expected", "actual")
+    failed = [
+        {key: item[key] for key in keys} | {"again": replay_command(item["case"]) if item["case"] else ""}
+        for item in items
+        if not is_right(item)
+    ]
+    return {"passed": passed, "all": all_, "failed": failed}
+
+
+def _diagnosis(found: dict[str, Any]) -> State:
+    return {"word": HOW_SURE[found["kind"]].capitalize()} | {
+        key: found[key] for key in ("title", "sees", "cause", "hint", "alike")
+    }
+
+
+def _messages(result: Result) -> list[str]:
+    """Those that say more than the numbers which the page shows anyway."""
+    return [message for message in result["messages"] if not _NUMBERS.fullmatch(message)]
+
+
+def _step(step: Step) -> State:
+    return {"number": step.number, "id": step.id, "title": step.title, "points": number(step.points)}
+
+
+def state_of(view: View) -> State:
+    """All that the page shows; it makes itself anew from it."""
+    tone, text = verdict(view)
+    result = view.result
+    return {
+        "step": _step(view.step),
+        "file": f"steps/{view.step.path.as_posix()}",
+        "phase": view.phase,
+        "doing": view.said if view.said and view.phase != "idle" else _PHASES[view.phase],
+        "saved": view.saved,
+        "seconds": view.seconds,
+        "known": result is not None,
+        "complete": view.complete or view.gone or bool(view.problem),
+        "full": view.full,
+        "verdict": {"tone": tone, "text": text},
+        "messages": _messages(result) if result else [],
+        "log": result["build_log"][:_MOST_LOG] if result else "",
+        "diagnoses": [_diagnosis(found) for found in result["diagnoses"]] if result else [],
+        "tests": _tests(result["tests"] if result else []),
+        "pictures": [_picture(view, image) for image in result["images"]] if result else [],
+        "hidden": _hidden(result["hidden"] if result else []),
+        "hints": [{"level": hint.level, "of": hint.of, "text": hint.text} for hint in view.hints],
+        "over": False,
+    }
+
+
+def page_of(text: str) -> str:
+    """The HTML; it holds the state as it is now and goes on by itself."""
+    state = json.loads(text)
+    title = f"{state['step']['number']} {state['step']['title']}"
+    scripts = (*COMPARE_SCRIPTS, "watch-parts", "watch")
+    return render_page("watch", title, {}, scripts, (*COMPARE_STYLES, "watch"), data=state, connect=True)

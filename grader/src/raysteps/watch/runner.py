@@ -1,0 +1,154 @@
+"""Runs one job at a time in a process of its own; a new job stops the one before it."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Literal
+
+from raysteps.common.text import printable, shorten
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.watch.events import Ended, Post, Told
+
+Kind = Literal["look", "check"]
+
+WORKER = (sys.executable, "-P", "-m", "raysteps.watch.worker")
+_PATIENCE_SECONDS = 2.0
+_MOST_ERRORS = 2000
+
+
+@dataclass
+class _Process:
+    """A worker that waits for its job, or does it; all that it makes lies in its folder."""
+
+    popen: "subprocess.Popen[str]"
+    folder: Path
+    errors: IO[str]
+
+    def signal(self, number: int) -> None:
+        """Its whole group: the keepers of its sandbox end what they started."""
+        with suppress(OSError):
+            if hasattr(os, "killpg"):
+                os.killpg(self.popen.pid, number)
+            else:
+                self.popen.terminate()
+
+    def end(self) -> None:
+        """Also the folder: a worker that was stopped could not clear it."""
+        if self.popen.poll() is None:
+            self.signal(signal.SIGTERM)
+            with suppress(subprocess.TimeoutExpired):
+                self.popen.wait(_PATIENCE_SECONDS)
+        if self.popen.poll() is None:
+            self.signal(getattr(signal, "SIGKILL", signal.SIGTERM))
+            self.popen.wait()
+        for stream in (self.popen.stdin, self.errors):
+            with suppress(OSError):
+                if stream is not None:
+                    stream.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Runner:
+    """Posts what its jobs say. One worker is started ahead of time, so a save waits for no imports."""
+
+    def __init__(self, project: Project, post: Post, words: Sequence[str] = WORKER) -> None:
+        self._root = str(project.root)
+        self._post = post
+        self._words = list(words)
+        self._folder = Path(tempfile.mkdtemp(prefix="raysteps-watch-"))
+        self._ready: _Process | None = None
+        self._current: _Process | None = None
+        self._number = 0
+
+    @property
+    def run(self) -> int:
+        """The number of the job that was started last."""
+        return self._number
+
+    def _spawn(self) -> _Process:
+        folder = Path(tempfile.mkdtemp(prefix="run-", dir=self._folder))
+        errors = (folder / "errors").open("w+", encoding="utf-8", errors="replace")
+        popen = subprocess.Popen(
+            self._words,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
+            start_new_session=True,
+        )
+        return _Process(popen, folder, errors)
+
+    def prepare(self) -> None:
+        """Starts a worker that waits."""
+        if self._ready is None or self._ready.popen.poll() is not None:
+            self._forget_ready()
+            self._ready = self._spawn()
+
+    def start(self, kind: Kind, step: Step) -> int:
+        """Stops what runs, and returns the number of the new run."""
+        self.stop()
+        self.prepare()
+        process, self._ready = self._ready, None
+        assert process is not None
+        assert process.popen.stdin is not None
+        self._current = process
+        self._number += 1
+        with suppress(OSError):  # it died while it waited; what it said comes with its end
+            process.popen.stdin.write(json.dumps({"kind": kind, "root": self._root, "step": step.id}) + "\n")
+            process.popen.stdin.flush()
+        threading.Thread(target=self._listen, args=(process, self._number), daemon=True).start()
+        if kind == "check":
+            self.prepare()  # a save is likely to come before it ends
+        return self._number
+
+    def _listen(self, process: _Process, run: int) -> None:
+        assert process.popen.stdout is not None
+        for line in process.popen.stdout:
+            with suppress(ValueError):
+                words = json.loads(line)
+                if isinstance(words, dict):
+                    self._post(Told(run, words))
+        code = process.popen.wait()
+        said = ""
+        with suppress(OSError, ValueError):
+            process.errors.seek(0)
+            said = printable(process.errors.read()).strip()
+        self._post(Ended(run, code, shorten(said[-_MOST_ERRORS:], _MOST_ERRORS)))
+
+    def stop(self) -> None:
+        """Ends what runs now, and all that it started. What it still says carries an old number."""
+        if self._current is not None:
+            self._number += 1
+            self._current.end()
+            self._current = None
+
+    def finished(self) -> None:
+        """After Ended: makes room, and the next worker ready."""
+        if self._current is not None:
+            self._current.end()
+            self._current = None
+        self.prepare()
+
+    def _forget_ready(self) -> None:
+        if self._ready is not None:
+            self._ready.end()
+            self._ready = None
+
+    def close(self) -> None:
+        """Leaves nothing behind."""
+        self.stop()
+        self._forget_ready()
+        shutil.rmtree(self._folder, ignore_errors=True)

@@ -1,0 +1,291 @@
+"""The loop: saves and keys come in, runs are started and stopped, and what they say is shown."""
+
+import queue
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from raysteps.common.errors import RaystepsError
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.images.compare import gaps, read_png, widest
+from raysteps.progress.hints import Hints, no_other
+from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
+from raysteps.progress.standing import next_of, print_list, shown, standings
+from raysteps.report.wording import inspect_words, typed
+from raysteps.watch.events import Ended, Event, Key, Noticed, Saved, Told, Vanished
+from raysteps.watch.file_watcher import Saves
+from raysteps.watch.keyboard import Keyboard, NoKeyboard
+from raysteps.watch.page_state import Board, state_of
+from raysteps.watch.runner import Runner
+from raysteps.watch.step_view import View
+from raysteps.watch.terminal_view import Showing
+
+# The pixel that is most wrong, and the command that looks into it.
+
+
+def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
+    """The column and the row; none where the pictures cannot be compared or are the same."""
+    try:
+        one, other = read_png(mine), read_png(reference)
+    except OSError:
+        return None
+    if one.shape != other.shape:
+        return None
+    gap = gaps(one, other)
+    return widest(gap) if gap.any() else None
+
+
+def command_of_worst(view: View) -> list[str] | None:
+    """Of the first picture that is wrong."""
+    if view.result is None or view.out is None:
+        return None
+    cases = {case.name: case for case in view.step.images}
+    for image in view.result["images"]:
+        if image["passed"] or not image["mine"] or not image["reference"] or image["name"] not in cases:
+            continue
+        worst = worst_pixel(view.out / image["mine"], view.out / image["reference"])
+        if worst is not None:
+            return inspect_words(cases[image["name"]], *worst)
+    return None
+
+
+def run_inspect(project: Project, words: Sequence[str]) -> None:
+    """On this terminal; Ctrl-C ends it and nothing else."""
+    try:
+        subprocess.run([sys.executable, "-P", "-m", "raysteps", *words], cwd=project.root, check=False)
+    except KeyboardInterrupt:
+        print()
+
+
+# What the keys do.
+
+if TYPE_CHECKING:
+    pass
+
+
+class Actions:
+    """One method for each key. A question turns the next key into its answer."""
+
+    def __init__(self, session: "Session") -> None:
+        self._session = session
+        self._question: Callable[[], None] | None = None
+        self._keys: dict[str, Callable[[], None]] = {
+            "h": self._hint,
+            "n": self._next,
+            "l": self._list,
+            "i": self._inspect,
+            "c": self._check,
+            "r": self._reset,
+            " ": lambda: session.look("once more"),
+            "?": session.showing.help,
+            "q": self._quit,
+        }
+
+    def press(self, letter: str) -> None:
+        """A key that means nothing does nothing. What goes wrong is told, and the loop goes on."""
+        question, self._question = self._question, None
+        try:
+            if question is not None:
+                if letter.lower() == "y":
+                    question()
+                else:
+                    self._session.showing.line("Nothing was changed.")
+            elif letter in self._keys:
+                self._keys[letter]()
+        except (RaystepsError, OSError) as error:
+            self._session.showing.line(str(error), "red")
+
+    def remind(self) -> None:
+        """Of the keys, where there are any."""
+        if not isinstance(self._session.keyboard, NoKeyboard):
+            self._session.showing.keys()
+
+    def _quit(self) -> None:
+        self._session.over = True
+
+    def _hint(self) -> None:
+        session, step = self._session, self._session.view.step
+        hint = Hints(session.project).following(step)
+        if hint is None:
+            for line in no_other(step).splitlines():
+                session.showing.line(line)
+            return
+        session.showing.line(f"hint {hint.level} of {hint.of}", "bold")
+        for line in hint.text.splitlines():
+            session.showing.line(f"  {line}")
+        session.showing.dim(hint.left)
+        session.view.hints = [other for other in session.view.hints if other.level != hint.level] + [hint]
+        session.show()
+
+    def _next(self) -> None:
+        session = self._session
+        step = next_of(standings(session.project), after=session.view.step)
+        if step is None:
+            session.showing.line("There is no other step that is not done.")
+        else:
+            session.go_to(step)
+
+    def _list(self) -> None:
+        project = self._session.project
+        print_list(project, self._session.showing.console, standings(project), self._session.view.step)
+
+    def _check(self) -> None:
+        session = self._session
+        if session.view.phase == "checking":
+            session.showing.dim("it is being checked already")
+        elif session.view.phase == "looking":
+            session.showing.dim("it will be checked as soon as it is built")
+            session.check_after_look = True
+        else:
+            session.check()
+
+    def _inspect(self) -> None:
+        session = self._session
+        words = command_of_worst(session.view)
+        if words is None:
+            session.showing.line("No picture is wrong (or there is none yet): nothing to look into.")
+        else:
+            session.showing.command(typed(words), "bold")
+            with session.keyboard.lent():
+                run_inspect(session.project, words)
+
+    def _reset(self) -> None:
+        session, step = self._session, self._session.view.step
+        name = shown(session.project, step, step.file)
+        lost = loss(session.project, step)
+        if lost is None and own_file(session.project, step).is_file():
+            session.showing.line(f"{name} is the stub already.")
+            return
+
+        def put() -> None:
+            print_done(session.showing.console, name, put_back(session.project, step))
+
+        if lost is None:
+            put()
+            return
+        print_loss(session.showing.console, lost, name)
+        session.showing.line("Put the stub back? Press y; any other key leaves it as it is.", "bold")
+        self._question = put
+
+
+_IDLE_SECONDS = 2.0  # after a look, until the full check begins by itself
+_TICK_SECONDS = 0.2
+
+
+class Session:
+    """Everything happens in the thread that calls `run`; the others only post events."""
+
+    def __init__(
+        self, project: Project, step: Step, events: "queue.Queue[Event]", runner: Runner, saves: Saves,
+        keyboard: Keyboard, board: Board, showing: Showing, *, checks: bool,
+    ) -> None:  # fmt: skip
+        self.project = project
+        self.view = View(step)
+        self.showing = showing
+        self.keyboard = keyboard
+        self.saves = saves
+        self._events = events
+        self._runner = runner
+        self._board = board
+        self._checks = checks
+        self._check_at: float | None = None
+        self.check_after_look = False
+        self._began = 0.0
+        self._actions = Actions(self)
+        self.over = False
+
+    def run(self) -> None:
+        """Until somebody quits."""
+        self.look("watching")
+        while not self.over:
+            with suppress(queue.Empty):
+                self._handle(self._events.get(timeout=_TICK_SECONDS))
+                continue
+            if self._check_at is not None and time.monotonic() >= self._check_at:
+                self.check()
+
+    def show(self) -> None:
+        """Brings the page up to date."""
+        self._board.show(state_of(self.view))
+
+    def look(self, why: str) -> None:
+        """Builds, tests and draws. Whatever ran is stopped: it was about code that is no more."""
+        self._check_at = None
+        self._began = time.monotonic()
+        self.view = View(self.view.step, saved=f"{datetime.now():%H:%M:%S}", hints=self.view.hints)
+        self.showing.begin(self.view, why)
+        self._runner.start("look", self.view.step)
+        self.show()
+
+    def check(self) -> None:
+        """All of the step: when nothing was saved for a while, or when somebody asks for it."""
+        self._check_at = None
+        self.view.phase, self.view.said = "checking", ""
+        hidden = ", hidden cases too" if self.project.has_reference else ""
+        self.showing.dim(f"checking all of it{hidden}; a save stops it")
+        self._runner.start("check", self.view.step)
+        self.show()
+
+    def go_to(self, step: Step) -> None:
+        self._runner.stop()
+        self.saves.look_at(step)
+        self.view = View(step)
+        self.look("watching")
+
+    def _handle(self, event: Event) -> None:
+        match event:
+            case Saved(name, own):
+                self.look(f"{name} saved" if own else f"{name} changed, the kit is built again")
+            case Vanished():
+                self._vanished()
+            case Noticed(text):
+                self.showing.dim(text)
+            case Key(letter):
+                self._actions.press(letter)
+            case Told(run, words) if run == self._runner.run:
+                self._told(words)
+            case Ended(run, code, errors) if run == self._runner.run:
+                self._ended(code, errors)
+
+    def _vanished(self) -> None:
+        self._runner.stop()
+        self._check_at = None
+        self.view = View(self.view.step, "idle", saved=self.view.saved, gone=True, hints=self.view.hints)
+        self.showing.result(self.view)
+        self.show()
+
+    def _told(self, words: dict[str, Any]) -> None:
+        view = self.view
+        if "say" in words:
+            view.said = str(words["say"])
+            self.showing.dim(f"{view.said} …")
+        if "error" in words:
+            view.problem = str(words["error"])
+        if "result" in words:
+            view.result, view.out = words["result"], Path(words["out"])
+            view.complete, view.full = bool(words["complete"]), view.phase == "checking"
+            if view.complete and not view.full:
+                view.seconds = round(time.monotonic() - self._began, 1)
+        self.show()
+
+    def _ended(self, code: int, errors: str) -> None:
+        self._runner.finished()
+        view = self.view
+        was_check = view.phase == "checking"
+        if not view.problem and (not view.complete or view.full != was_check):
+            last = errors.rpartition("\n")[2]
+            view.problem = f"This run ended before it was done (exit code {code}){': ' + last if last else '.'}"
+        view.phase, view.said = "idle", ""
+        self.showing.result(view)
+        self.show()
+        asked, self.check_after_look = self.check_after_look, False
+        if not was_check and view.can_be_checked and (self._checks or asked):
+            self._check_at = time.monotonic() + (0 if asked else _IDLE_SECONDS)
+        else:
+            self._actions.remind()

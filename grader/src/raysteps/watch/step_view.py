@@ -1,0 +1,90 @@
+"""What is known of the step that is watched, and what it comes to in one line."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from raysteps.common.text import count, number
+from raysteps.course.manifest import Step
+from raysteps.progress.hints import Hint
+
+Phase = Literal["looking", "checking", "idle"]
+Tone = Literal["good", "bad", "warn", "plain"]
+Result = dict[str, Any]  # a StepResult, as the worker's JSON has it
+
+_BUILDS = {"passed", "partial", "failed", "crashed", "timeout"}
+
+
+@dataclass
+class View:
+    """`full` tells the result of a check from that of a look; a look is `complete` when its last picture is there."""
+
+    step: Step
+    phase: Phase = "looking"
+    said: str = ""
+    saved: str = ""  # the time of the save, for people
+    seconds: float | None = None  # from the save to the complete look
+    result: Result | None = None
+    out: Path | None = None
+    complete: bool = False
+    full: bool = False
+    gone: bool = False
+    problem: str = ""
+    hints: list[Hint] = field(default_factory=list)
+
+    @property
+    def status(self) -> str:
+        return str(self.result["status"]) if self.result else ""
+
+    @property
+    def can_be_checked(self) -> bool:
+        """Whether a check can say more than the look did."""
+        return self.complete and not self.problem and not self.gone and self.status in _BUILDS
+
+    @property
+    def is_done(self) -> bool:
+        return self.full and self.complete and self.status == "passed"
+
+
+def passed_of(items: list[dict[str, Any]]) -> tuple[int, int]:
+    """How many passed, and of how many."""
+    return sum(is_right(item) for item in items), len(items)
+
+
+def is_right(item: dict[str, Any]) -> bool:
+    """A test or a picture by its verdict, a hidden item when it earned all of its points."""
+    return bool(item["passed"]) if "passed" in item else item["share"] >= 1
+
+
+def _of(kind: str, items: list[dict[str, Any]]) -> str:
+    right, all_ = passed_of(items)
+    return f"{count(all_, kind)} right" if right == all_ else f"{right} of {count(all_, kind)} right"
+
+
+def tally(result: Result) -> str:
+    """`9 of 11 tests right, 2 pictures right`."""
+    kinds = (("test", result["tests"]), ("picture", result["images"]), ("hidden item", result["hidden"]))
+    return ", ".join(_of(kind, items) for kind, items in kinds if items)
+
+
+def verdict(view: View) -> tuple[Tone, str]:
+    """The one line that matters."""
+    result = view.result
+    if view.gone:
+        return "warn", f"{view.step.file} is gone. Waiting for it to come back."
+    if view.problem:
+        return "bad", view.problem
+    if result is None:
+        return "plain", "Building"
+    if view.status == "not-started":
+        return "plain", f"Not started: {view.step.file} is still the stub."
+    if view.status == "does-not-build":
+        return "bad", "It does not build."
+    if not view.complete:
+        return "plain", tally(result) or "It builds"
+    if view.is_done:
+        return "good", f"Passed: {number(result['points'])} of {number(result['max'])} points."
+    if view.full:
+        tone: Tone = "warn" if result["points"] else "bad"
+        return tone, f"{number(result['points'])} of {number(result['max'])} points: {tally(result)}."
+    return ("good" if view.status == "passed" else "bad"), f"{tally(result)}."

@@ -1,0 +1,139 @@
+"""Compact lines for the terminal: the page has the rest."""
+
+import textwrap
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.text import count, shorten
+from raysteps.report.wording import HOW_SURE, replay_command
+from raysteps.watch.step_view import Result, Tone, View, is_right, verdict
+
+_COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
+_SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
+_LONGEST = 600
+_MOST_FAILED = 2
+
+KEYS = (
+    ("h", "hint"),
+    ("n", "next step"),
+    ("l", "list"),
+    ("i", "inspect"),
+    ("c", "check all"),
+    ("r", "reset"),
+    ("space", "again"),
+    ("?", "help"),
+    ("q", "quit"),
+)
+HELP = """h      the next hint of this step
+n      go on to the next step that is not done
+l      the steps, and where you stand
+i      look into the pixel that is most wrong
+c      check all of this step now, and count the points
+r      put the stub back (asks first; your file is kept)
+space  build, test and draw once more
+q      quit"""
+
+
+class Showing:
+    """Prints; knows nothing of what happens next."""
+
+    def __init__(self, console: Console) -> None:
+        self.console = console
+
+    def command(self, text: str, style: str = "") -> None:
+        """What somebody may want to copy: not broken into lines. Nothing in it is markup."""
+        self.console.print(escape(text), style=style, highlight=False, soft_wrap=True)
+
+    def line(self, text: str, style: str = "") -> None:
+        """Shortened, and in a terminal broken between words, so that the rest stands below the first word."""
+        text = shorten(text, _LONGEST)
+        if not self.console.is_terminal:
+            self.command(text, style)
+            return
+        indent = " " * (len(text) - len(text.lstrip()))
+        parts = textwrap.wrap(
+            text.strip(),
+            max(self.console.width - 1, 20),
+            initial_indent=indent,
+            subsequent_indent=indent + "  ",
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        for part in parts or [""]:
+            self.command(part, style)
+
+    def dim(self, text: str) -> None:
+        self.line(text, "dim")
+
+    def begin(self, view: View, why: str) -> None:
+        title = f"{view.saved}  {view.step.number} {view.step.title}: {why}"
+        if self.console.is_terminal:
+            self.console.rule(f"[dim]{escape(title)}[/dim]", align="left", style="dim")
+        else:
+            self.line(title)
+
+    def result(self, view: View) -> None:
+        """What came of a look or of a check."""
+        tone, text = verdict(view)
+        took = f"  ({view.seconds:.1f} s)" if view.seconds is not None and not view.full and tone != "plain" else ""
+        self.line(f"{_SIGNS[tone]} {text}{took}", _COLORS[tone])
+        if view.result is None or view.problem or view.gone:
+            return
+        if view.status in ("does-not-build", "not-started"):
+            for message in view.result["messages"]:
+                for line in message.splitlines():
+                    self.line(f"  {line}")
+            return
+        if not view.full:
+            self._tests(view.result)
+            self._pictures(view.result)
+        self._diagnoses(view.result)
+        self._hidden(view.result)
+        if view.full and not view.is_done and not view.result["cumulative"]["passed"]:
+            self.line(f"  together: {view.result['cumulative']['message']}")
+
+    def _diagnoses(self, result: Result) -> None:
+        for found in result["diagnoses"][:1]:
+            self.line(f"  {HOW_SURE[found['kind']]}: {found['title']}", "yellow")
+            for label in ("sees", "cause", "hint"):
+                if found[label]:
+                    self.line(f"    {found[label]}")
+
+    def _tests(self, result: Result) -> None:
+        failed = [test for test in result["tests"] if not test["passed"]]
+        for test in failed[:_MOST_FAILED]:
+            self.line(f"  test  {test['name']}", "red")
+            if test["expression"]:
+                self.line(f"    expected  {test['expression']}")
+                self.line(f"    actual    {test['expanded']}")
+            for line in test["message"].splitlines()[:3]:
+                self.line(f"    {line}")
+        self._more(len(failed), "test")
+
+    def _pictures(self, result: Result) -> None:
+        for image in result["images"]:
+            if not image["passed"]:
+                self.line(f"  picture  {image['name']}: {image['message']}", "red")
+
+    def _hidden(self, result: Result) -> None:
+        missed = [item for item in result["hidden"] if not is_right(item)]
+        for item in missed[:_MOST_FAILED]:
+            self.line(f"  hidden  {item['name']}: {item['message']}", "red")
+            for label in ("given", "expected", "actual"):
+                if item[label]:
+                    self.line(f"    {label:<9} {item[label]}")
+            if item["case"]:
+                self.command(f"    again     {replay_command(item['case'])}")
+        self._more(len(missed), "hidden item")
+
+    def _more(self, amount: int, noun: str) -> None:
+        if amount > _MOST_FAILED:
+            self.dim(f"  … and {count(amount - _MOST_FAILED, f'more {noun}')}: see the page")
+
+    def keys(self) -> None:
+        """The reminder below each result."""
+        self.console.print("  ".join(f"[bold]{key}[/bold] {does}" for key, does in KEYS), style="dim", highlight=False)
+
+    def help(self) -> None:
+        self.console.print(HELP, highlight=False)

@@ -1,0 +1,80 @@
+"""Does one job and ends: a process of its own can be stopped at any time, and its faults stop nobody else.
+
+It waits for the job as a line of JSON on stdin, so that it can be started ahead of time, and tells what it sees as
+lines of JSON on stdout. A job is {"kind": "look" or "check", "root": FOLDER, "step": ID}; a line holds `say`, or
+`result` with `out`, the folder of its pictures, and `complete`; or `error`.
+"""
+
+import contextlib
+import json
+import os
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import RaystepsError
+from raysteps.course.manifest import choose, read_steps
+from raysteps.course.project import Project
+from raysteps.grading.quick_look import QuickLook
+from raysteps.progress.check import check_steps
+from raysteps.progress.standing import own_source
+from raysteps.results.model import StepResult
+from raysteps.sandbox.limits_only import OpenAir
+from raysteps.submission.entries import NotTaken
+from raysteps.toolchain.build_kit import build_kit
+
+_UNHURRIED = 5  # of `nice`: a check goes on while its student types
+
+
+def _tell(**words: Any) -> None:
+    print(json.dumps(words), flush=True)
+
+
+def _say(text: str) -> None:
+    _tell(say=text)
+
+
+def look(project: Project, name: str) -> None:
+    """The visible part, told bit by bit."""
+    kit = build_kit(project, _say)
+    (step,) = choose(kit.steps, [name])
+    out = project.build / "watch"
+
+    def tell(result: StepResult, *, complete: bool = False) -> None:
+        _tell(result=asdict(result), out=str(out), complete=complete)
+
+    try:
+        source = own_source(project, step)
+    except (OSError, NotTaken) as error:
+        _tell(error=f"{step.file}: {error}")
+        return
+    if source is None:
+        _tell(error=f"{step.file} is not there")
+        return
+    tell(QuickLook(kit, step, OpenAir(), out, tell).look(source.decode("utf-8", "replace")), complete=True)
+
+
+def check(project: Project, name: str) -> None:
+    """All of it, as `./raysteps check` does."""
+    with contextlib.suppress(AttributeError, OSError):
+        os.nice(_UNHURRIED)
+    chosen = choose(read_steps(project), [name])
+    (result,) = check_steps(project, chosen, _say).results.steps
+    _tell(result=asdict(result), out=str(project.build / "check"), complete=True)
+
+
+def main() -> int:
+    line = sys.stdin.readline()
+    if not line:
+        return 0  # whoever wanted it has gone
+    job = json.loads(line)
+    try:
+        {"look": look, "check": check}[job["kind"]](Project(Path(job["root"])), job["step"])
+    except RaystepsError as error:
+        _tell(error=str(error))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,125 @@
+"""The command `bench grading`: what a submission costs in a class, against the plain way, measured in turns."""
+
+import os
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.platform import refuse_on_windows
+from raysteps.common.process import run
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project
+from raysteps.toolchain.build_kit import build_kit
+from tools.bench.programs import children_seconds
+from tools.bench.records import keep
+
+_SECONDS = 3600
+_CLASS_SIZE = 8
+_PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "framework", "scenes", "solutions", "steps")
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of one submission, on average over one run."""
+
+    way: str
+    run: int
+    submissions: int
+    seconds: float
+    cpu_seconds: float
+
+
+def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
+    start, used = time.monotonic(), children_seconds()
+    work()
+    seconds, processor = time.monotonic() - start, children_seconds() - used
+    return Cost(way, number, submissions, round(seconds / submissions, 2), round(processor / submissions, 2))
+
+
+def _must(words: list[str | Path], cwd: Path) -> None:
+    outcome = run(words, seconds=_SECONDS, cwd=cwd)
+    if outcome.code != 0 or outcome.timed_out:
+        raise GraderFault(f"{words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+
+
+def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
+    """What one does without a grader: a fresh copy of the kit with the student's files in it, configured, built,
+    tested and rendered."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-plain-") as name:
+        root = Path(name)
+        for part in _PARTS:
+            source = project.root / part
+            (shutil.copytree if source.is_dir() else shutil.copyfile)(source, root / part)
+        for step in steps:
+            shutil.copyfile(submission / "steps" / step.path, root / "steps" / step.path)
+        build = root / "build"
+        generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+        _must(["cmake", "-S", root, "-B", build, *generator], root)
+        tests = [f"test-isolated-{step.number}" for step in steps]
+        _must(["cmake", "--build", build, "--parallel", "--target", "raytrace-mine", *tests], root)
+        _must(["ctest", "--test-dir", build, "--output-on-failure", "-R", "test-isolated"], root)
+        for step in steps:
+            for case in step.images:
+                picture = root / f"{step.id}-{case.name}.ppm"
+                _must([build / "bin" / "raytrace-mine", root / case.scene, *case.args, "-o", picture, "--quiet"], root)
+
+
+def _class_of(project: Project, folder: Path, size: int) -> Path:
+    for number in range(size):
+        shutil.copytree(project.samples / "complete", folder / f"student-{number:03d}")
+    return folder
+
+
+def _class_way(project: Project, submissions: Path, out: Path) -> None:
+    jobs = str(os.cpu_count() or 1)
+    words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade-class", submissions, "--out", out]
+    _must([*words, "--jobs", jobs], project.root)
+
+
+def _table(costs: list[Cost]) -> Table:
+    table = Table(title="one complete submission, all nine steps", title_justify="left")
+    for heading in ("way", "runs", "seconds", "CPU seconds", "CPU against plain"):
+        table.add_column(heading, justify="left" if heading == "way" else "right")
+    plain = _mean([cost.cpu_seconds for cost in costs if cost.way == "plain"])
+    for way in ("plain", "class"):
+        rows = [cost for cost in costs if cost.way == way]
+        processor = _mean([cost.cpu_seconds for cost in rows])
+        seconds = _mean([cost.seconds for cost in rows])
+        label = f"{way}, {rows[0].submissions} at a time" if way == "class" else way
+        table.add_row(label, str(len(rows)), f"{seconds:.2f}", f"{processor:.2f}", f"1/{plain / processor:.1f}")
+    return table
+
+
+def _mean(values: list[float]) -> float:
+    return sum(values) / len(values)
+
+
+def grading(project: Project, rounds: int, console: Console) -> int:
+    """Measures both ways in turns, prints one table and writes build/bench/grading.json."""
+    refuse_on_windows("bench grading")
+    steps = read_steps(project)
+    with console.status("building the kit, which both runs of a class share"):
+        build_kit(project)
+    costs: list[Cost] = []
+    with tempfile.TemporaryDirectory(prefix="raysteps-bench-") as name:
+        submissions = _class_of(project, Path(name) / "class", _CLASS_SIZE)
+        for number in range(rounds):
+            with console.status(f"round {number + 1} of {rounds}"):
+                plain = partial(plain_way, project, steps, project.samples / "complete")
+                costs.append(_measure("plain", number, 1, plain))
+                together = partial(_class_way, project, submissions, Path(name) / f"out-{number}")
+                costs.append(_measure("class", number, _CLASS_SIZE, together))
+    console.print(_table(costs))
+    keep(
+        project, "grading", {"schema": "raysteps/bench-grading/v1", "costs": [asdict(cost) for cost in costs]}, console
+    )
+    return 0

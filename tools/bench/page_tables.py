@@ -1,0 +1,174 @@
+"""The tables of docs/benchmarks.md, as Markdown."""
+
+from collections.abc import Iterable, Sequence
+from textwrap import fill
+from typing import Any
+
+from tools.bench.render import COMPARED, against_embree, against_povray, faster, median_of, names_of
+
+_PEER = "embree"
+
+
+_WORDS = ("scene", "structure", "program", "step", "way")  # columns that stand left; numbers stand right
+
+
+def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """One table."""
+    marks = ["|---" if heading.split(" ")[0] in _WORDS else "|---:" for heading in headings]
+    lines = ["| " + " | ".join(headings) + " |", "".join(marks) + "|"]
+    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+    return "\n".join(lines)
+
+
+def machine_line(machine: dict[str, Any]) -> str:
+    """What was measured on."""
+    pinned = "pinned to one processor where one thread is measured" if machine["pinned"] else "not pinned"
+    cores = f"{machine['cores']} core{'s' if machine['cores'] > 1 else ''}"
+    return f"{machine['processor']}, {cores}, {machine['system']}; {machine['compiler']} {machine['flags']}; {pinned}."
+
+
+def _spread(spread: dict[str, Any] | None, digits: int) -> str:
+    if not spread:
+        return ""
+    return f"{spread['median']:.{digits}f} ({spread['q1']:.{digits}f} to {spread['q3']:.{digits}f})"
+
+
+def _sides(scene: dict[str, Any]) -> Iterable[list[str]]:
+    peer = median_of(scene, _PEER)
+    for side in scene["structures"]:
+        time = side["ns_per_ray"]["median"]
+        yield [
+            f"{scene['scene']} ({scene['surfaces']})",
+            side["name"],
+            _spread(side["ns_per_ray"], 0),
+            f"{time / peer:.2f}" if peer else "",
+            _spread(side["picture_seconds"], 3),
+            f"{side['build_seconds']['median'] * 1e3:.1f}",
+            f"{side['bytes'] / 1e6:.2f}" if side["bytes"] else "",
+            f"{side['surface_tests_per_ray']:.1f}" if side["surface_tests_per_ray"] else "",
+            f"{side['box_tests_per_ray']:.1f}" if side["box_tests_per_ray"] else "",
+        ]
+
+
+def _one_build(build: dict[str, Any]) -> str:
+    scenes = build["scenes"]
+    headings = ("scene (surfaces)", "structure", "ns/ray (quartiles)", "to Embree", "picture, s", "build, ms",
+                "memory, MB", "surfaces/ray", "boxes/ray")  # fmt: skip
+    table = markdown(headings, [row for scene in scenes for row in _sides(scene)])
+    means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
+    mean_rows = [(name, f"{mean:.2f}") for name, mean in means if mean and name != _PEER]
+    means_table = markdown(("structure", "time of a ray against Embree's, geometric mean"), mean_rows)
+    machine = fill(f"**The {build['build']} build.** {machine_line(build['machine'])}", 120, break_on_hyphens=False)
+    lines = [machine, table]
+    return "\n\n".join([*lines, means_table] if mean_rows else lines)
+
+
+def _povray(rows: list[dict[str, Any]]) -> Iterable[list[str]]:
+    for row in rows:
+        if row["skipped"]:
+            yield [row["scene"], row["skipped"], "", "", "", "", ""]
+            continue
+        theirs = row["programs"][0]
+        for number, side in enumerate(row["programs"]):
+            ratios = [f"{faster(theirs, side, what):.2f}" if number else "" for what in COMPARED]
+            tracing = [_spread(side[what], 3) for what in COMPARED]
+            process = f"{side['process_seconds']['median']:.2f}"
+            yield [row["scene"], side["program"], *tracing, process, *ratios]
+
+
+def render_tables(document: dict[str, Any]) -> str:
+    """Rays beside Embree's, then pictures beside POV-Ray's."""
+    parts = [_one_build(build) for build in document["builds"]]
+    if document["povray"]:
+        headings = ("scene", "program", "tracing, s", "tracing, processor, s", "process, s", "times faster",
+                    "times faster, processor")  # fmt: skip
+        parts.append(markdown(headings, _povray(document["povray"])))
+        clock, processor = (dict(against_povray(document["povray"], what)) for what in COMPARED)
+        means = [(name, f"{clock[name]:.2f}", f"{processor[name]:.2f}") for name in clock if name in processor]
+        heads = ("program", "tracing: times faster than POV-Ray, geometric mean", "of the processor")
+        parts.append(markdown(heads, means))
+    return "\n\n".join(parts)
+
+
+def scale_tables(document: dict[str, Any]) -> str:
+    """Every measurement, and the slopes."""
+    headings = ("scene", "structure", "surfaces", "build, ms", "memory, MB", "peak, MB", "surfaces/ray", "boxes/ray",
+                "ns/ray")  # fmt: skip
+    rows = [
+        (
+            row["scene"],
+            row["structure"],
+            str(row["surfaces"]),
+            f"{row['build_seconds']['median'] * 1e3:.1f}",
+            f"{row['bytes'] / 1e6:.2f}" if row["bytes"] else "",
+            f"{row['peak_bytes'] / 1e6:.0f}" if row["peak_bytes"] else "",
+            f"{row['surface_tests_per_ray']:.1f}",
+            f"{row['box_tests_per_ray']:.1f}",
+            f"{row['ns_per_ray']['median']:.0f}",
+        )
+        for row in document["rows"]
+    ]
+    slopes = [
+        (
+            line["scene"],
+            line["structure"],
+            f"{line['from']} to {line['to']}",
+            f"{line['tests_exponent']:.3f}",
+            f"{line['tests_per_doubling']:.2f}",
+            f"{line['time_exponent']:.3f}",
+        )
+        for line in document["growth"]
+    ]
+    heads = ("scene", "structure", "surfaces", "tests ~ N^", "tests more per doubling", "time ~ N^")
+    return "\n\n".join([machine_line(document["machine"]), markdown(heads, slopes), markdown(headings, rows)])
+
+
+def threads_tables(document: dict[str, Any]) -> str:
+    """One line for each scene, structure and number of threads."""
+    rows = [
+        (row["scene"], row["accel"], str(row["threads"]), _spread(row["render_seconds"], 3), f"{row['speed_up']:.2f}")
+        for row in document["rows"]
+    ]
+    table = markdown(("scene", "structure", "threads", "picture, s", "speed-up"), rows)
+    return f"{machine_line(document['machine'])}\n\n{table}"
+
+
+def parse_tables(document: dict[str, Any]) -> str:
+    """One line for each scene."""
+    rows = [
+        (row["scene"], f"{row['bytes'] / 1e6:.1f}", str(row["surfaces"]), _spread(row["megabytes_per_second"], 1))
+        for row in document["rows"]
+    ]
+    return f"{machine_line(document['machine'])}\n\n{markdown(('scene', 'MB', 'surfaces', 'MB/s'), rows)}"
+
+
+def loop_tables(document: dict[str, Any]) -> str:
+    """One line for each step."""
+    rows = [(row["step"], _spread(row["seconds"], 2)) for row in document["rows"]]
+    return f"{machine_line(document['machine'])}\n\n{markdown(('step', 'seconds'), rows)}"
+
+
+def boxes_tables(document: dict[str, Any]) -> str:
+    """What boxes save."""
+    rows = [
+        (
+            f"{row['scene']} ({row['objects']})",
+            row["accel"],
+            f"{row['share_tested']:.3%}",
+            f"{row['tests_per_ray']:.1f}",
+            f"{row['time_saved']:.1%}",
+            f"{row['speed_up']:.1f}",
+        )
+        for row in document["rows"]
+    ]
+    headings = ("scene (objects)", "structure", "objects tested", "tests per ray", "time saved", "speed-up")
+    return markdown(headings, rows)
+
+
+def grading_tables(document: dict[str, Any]) -> str:
+    """One line for each run."""
+    rows = [
+        (cost["way"], str(cost["run"] + 1), str(cost["submissions"]), str(cost["seconds"]), str(cost["cpu_seconds"]))
+        for cost in document["costs"]
+    ]
+    return markdown(("way", "run", "submissions", "seconds each", "CPU seconds each"), rows)

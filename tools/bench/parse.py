@@ -1,0 +1,46 @@
+"""The command `bench parse`: how fast scenes are read."""
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.course.project import Project, generated
+from tools.bench.programs import ask_pinned, checked, portable
+from tools.bench.records import keep
+
+_LARGE = (("tetrahedra", 9), ("rings", 30), ("mountain", 9))
+
+
+def bench_parse(project: Project, scenes: list[Path], rounds: int, console: Console) -> int:
+    """Measures, prints a table and writes build/bench/parse.json."""
+    named = checked(scenes)
+    with console.status("building the benchmarks"):
+        programs = portable(project)
+    with console.status("making large scenes"):
+        large = named or [generated(project, kind, size) for kind, size in _LARGE]
+    rows: list[dict[str, Any]] = []
+    for scene in large:
+        with console.status(f"reading {escape(scene.name)}"):
+            row = ask_pinned(programs.bench, "parse", scene, "--rounds", str(rounds))
+        del row["schema"]
+        rows.append({"scene": scene.stem, **row})
+    table = Table(title="reading scenes, one thread, the text already in memory", title_justify="left")
+    for heading in ("scene", "size", "surfaces", "speed", "quartiles"):
+        table.add_column(heading, justify="left" if heading == "scene" else "right")
+    for row in rows:
+        speed = row["megabytes_per_second"]
+        table.add_row(
+            escape(row["scene"]),
+            f"{row['bytes'] / 1e6:.1f} MB",
+            str(row["surfaces"]),
+            f"{speed['median']:.1f} MB/s",
+            f"{speed['q1']:.1f} to {speed['q3']:.1f}",
+        )
+    console.print(table)
+    document = {"schema": "raysteps/bench-parse/v1", "machine": asdict(programs.machine), "rows": rows}
+    keep(project, "parse", document, console)
+    return 0

@@ -1,0 +1,201 @@
+"""The programs that are measured, and what is missing."""
+
+import json
+import os
+import platform
+import shutil
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.process import Outcome, run
+from raysteps.course.project import Project, generated
+from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
+from raysteps.toolchain.description import read_description
+from tools.selftest.programs import accelerations_of
+
+# Holds the programs that are started here on one processor, so that they do not wander while they are measured.
+
+
+def can_pin() -> bool:
+    """Whether this system lets a program choose its processor."""
+    return hasattr(os, "sched_setaffinity")
+
+
+@contextmanager
+def pinned() -> Iterator[bool]:
+    """Programs started inside inherit one processor, the last that this one may use. Tells whether that worked."""
+    if not can_pin():
+        yield False
+        return
+    allowed = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(allowed)})
+    try:
+        yield True
+    finally:
+        os.sched_setaffinity(0, allowed)
+
+
+# What the numbers were measured on, without the name of the machine.
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Processor, compiler and system."""
+
+    processor: str
+    cores: int
+    system: str
+    compiler: str
+    flags: str
+    pinned: bool
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def machine(tree: BuildTree) -> Machine:
+    """This machine, and how the tree's programs are compiled."""
+    description = read_description(tree.folder / "kit.json")
+    optimization = [flag for flag in description.compile_flags if flag.startswith(("-O", "-m", "/O"))]
+    system = f"{platform.system()} {platform.machine()}"
+    flags = " ".join(optimization)
+    return Machine(_processor(), os.cpu_count() or 1, system, description.compiler_version, flags, can_pin())
+
+
+_NATIVE = "-march=native"
+_CONFIGURE_SECONDS = 600
+
+
+@dataclass(frozen=True)
+class Programs:
+    """The benchmark program and the reference renderer of one build."""
+
+    build: str
+    bench: Path
+    raytrace: Path
+    machine: Machine
+
+
+def _look_again(tree: BuildTree) -> None:
+    """CMake would not notice by itself that Embree or Highway has been installed since."""
+    if any(tree.cached(name).endswith("NOTFOUND") for name in ("embree_DIR", "hwy_DIR")):
+        run(["cmake", tree.folder], seconds=_CONFIGURE_SECONDS)
+
+
+def _built(tree: BuildTree, name: str) -> Programs:
+    with tree.locked():
+        _look_again(tree)
+        outcome = tree.build(["raysteps-bench", "raytrace-reference"])
+    if outcome.code != 0:
+        raise GraderFault("the benchmarks do not build:\n" + what_failed(outcome))
+    return Programs(name, tree.program("raysteps-bench"), tree.program("raytrace-reference"), machine(tree))
+
+
+def portable(project: Project) -> Programs:
+    """As the kit is built everywhere: for any processor of this kind."""
+    return _built(release_tree(project), "portable")
+
+
+def native(project: Project) -> Programs:
+    """Compiled for this very processor."""
+    options = (f"-DCMAKE_CXX_FLAGS={_NATIVE}",)
+    tree = BuildTree(project, "release", project.build / "native", project.steps, options)
+    return _built(tree, f"native ({_NATIVE})")
+
+
+def accelerations(programs: Programs) -> list[str]:
+    """The trees that raytrace can use; not those that test most surfaces."""
+    return [name for name in accelerations_of(programs.raytrace) if name not in ("none", "boxes")]
+
+
+def what_is_missing(listed: dict[str, Any]) -> list[str]:
+    """In words: who else could be measured, and how; `listed` is what `raysteps-bench list` says."""
+    lines = []
+    if "wide" not in [side["name"] for side in listed["structures"]]:
+        lines.append("Highway is not installed, so there are no wide trees to measure: apt-get install libhwy-dev")
+    if not listed["embree_version"]:
+        lines.append(
+            "Embree 3 is not installed, so there is nothing to compare rays with: apt-get install libembree-dev"
+        )
+    if shutil.which("povray") is None:
+        lines.append("POV-Ray is not installed, so there is nothing to compare pictures with: apt-get install povray")
+    return lines
+
+
+# Asks raysteps-bench, which answers with JSON.
+
+_SECONDS = 4 * 3600
+_MOST_TEXT = 1 << 30
+
+
+def _checked(outcome: Outcome) -> str:
+    if outcome.timed_out:
+        raise GraderFault(f"raysteps-bench took more than {_SECONDS} seconds")
+    if outcome.code == 2:
+        raise UsageError(outcome.stderr.split("\nUsage:")[0].strip().removeprefix("raysteps-bench: "))
+    if outcome.code != 0:
+        raise GraderFault(outcome.stderr.strip() or f"raysteps-bench ended with {outcome.signal_name or outcome.code}")
+    return outcome.stdout
+
+
+def ask(program: Path, *words: str | Path) -> Any:
+    """With all processors."""
+    return json.loads(_checked(run([program, *words], seconds=_SECONDS)))
+
+
+def ask_pinned(program: Path, *words: str | Path) -> Any:
+    """On one processor, where the system allows that."""
+    with pinned():
+        return ask(program, *words)
+
+
+def flat_nff(program: Path, scene: Path) -> str:
+    """The scene as the kit reads it: nothing but spheres, cones and triangles."""
+    return _checked(run([program, "nff", scene], seconds=_SECONDS, cap=_MOST_TEXT))
+
+
+# The scenes that are measured.
+
+# At about the sizes of the Standard Procedural Databases.
+_DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("rings", 11), ("gears", 4), ("mountain", 6))
+
+
+def default_scenes(project: Project) -> list[Path]:
+    """The kit's own, made when they are needed."""
+    return [generated(project, kind, size) for kind, size in _DEFAULTS]
+
+
+def checked(scenes: list[Path]) -> list[Path]:
+    """Scenes that somebody named. Two of one name could not be told apart in a table."""
+    for scene in scenes:
+        if not scene.is_file():
+            raise UsageError(f"{scene}: there is no such scene")
+    names = [scene.stem for scene in scenes]
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise UsageError(f"{twice[0]}: two scenes have this name; expected different names")
+    return scenes
+
+
+# Processor time of programs that were started and waited for.
+
+if sys.platform != "win32":
+    import resource
+
+
+def children_seconds() -> float:
+    if sys.platform == "win32":
+        raise UsageError("this measurement needs Linux or macOS: Windows does not tell what ended programs used")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime

@@ -1,0 +1,200 @@
+"""The command `bench render`: nanoseconds a ray, beside Embree and POV-Ray."""
+
+import shutil
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.course.project import Project
+from tools.bench.povray import Race, race_povray
+from tools.bench.programs import (
+    Programs,
+    accelerations,
+    ask,
+    ask_pinned,
+    checked,
+    default_scenes,
+    native,
+    portable,
+    what_is_missing,
+)
+from tools.bench.records import geometric_mean, keep
+
+# Tables of `bench render`.
+
+_PEER = "embree"
+_TIMES = ("trace_seconds", "trace_processor_seconds", "process_seconds", "processor_seconds")
+COMPARED = ("trace_seconds", "trace_processor_seconds")
+
+
+def median_of(scene: dict[str, Any], name: str, what: str = "ns_per_ray") -> float | None:
+    """Of one structure on one scene, if it was measured."""
+    found = [side[what] for side in scene["structures"] if side["name"] == name and side[what]]
+    return float(found[0]["median"]) if found else None
+
+
+def names_of(scenes: list[dict[str, Any]]) -> list[str]:
+    """All structures, in the order of the program."""
+    return list(dict.fromkeys(side["name"] for scene in scenes for side in scene["structures"]))
+
+
+def against_embree(scenes: list[dict[str, Any]], name: str, what: str = "ns_per_ray") -> float | None:
+    """The geometric mean over the scenes of a structure's time as a multiple of Embree's."""
+    pairs = [(median_of(scene, name, what), median_of(scene, _PEER, what)) for scene in scenes]
+    ratios = [ours / theirs for ours, theirs in pairs if ours and theirs]
+    return geometric_mean(ratios) if ratios and len(ratios) == len(scenes) else None
+
+
+def faster(theirs: dict[str, Any], ours: dict[str, Any], what: str) -> float:
+    """How many times less we take than POV-Ray; 0 where a picture is too small to be measured."""
+    mine, other = float(ours[what]["median"]), float(theirs[what]["median"])
+    return other / mine if mine > 0.0 else 0.0
+
+
+def against_povray(rows: list[dict[str, Any]], what: str) -> list[tuple[str, float]]:
+    """For each of our programs: how many times faster, as the geometric mean of the scenes."""
+    found: dict[str, list[float]] = {}
+    for row in rows:
+        for side in row["programs"][1:]:
+            found.setdefault(side["program"], []).append(faster(row["programs"][0], side, what))
+    return [(name, geometric_mean(ratios)) for name, ratios in found.items() if min(ratios) > 0.0]
+
+
+def _times(value: float | None, other: float | None) -> str:
+    return f"{value / other:.2f} x" if value and other else ""
+
+
+def _megabytes(value: int) -> str:
+    return f"{value / 1e6:.2f} MB" if value else ""
+
+
+def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> None:
+    """One line for each structure on each scene, and their means."""
+    table = Table(title=f"{build} build, one thread: every ray of the picture again", title_justify="left")
+    for heading in (
+        "scene", "structure", "rays", "ns/ray", "quartiles", "to Embree", "picture", "build", "memory", "surfaces/ray",
+        "boxes/ray", "seen differently",
+    ):  # fmt: skip
+        table.add_column(heading, justify="left" if heading in ("scene", "structure") else "right")
+    for scene in scenes:
+        for number, side in enumerate(scene["structures"]):
+            spread, picture = side["ns_per_ray"], side["picture_seconds"]
+            table.add_row(
+                f"{escape(scene['scene'])} ({scene['surfaces']})" if number == 0 else "",
+                side["name"],
+                str(side["rays"]),
+                f"{spread['median']:.1f}",
+                f"{spread['q1']:.1f} to {spread['q3']:.1f}",
+                _times(spread["median"], median_of(scene, _PEER)),
+                f"{picture['median']:.3f} s" if picture else "",
+                f"{side['build_seconds']['median'] * 1e3:.2f} ms",
+                _megabytes(side["bytes"]),
+                _counted(side["surface_tests_per_ray"]),
+                _counted(side["box_tests_per_ray"]),
+                str(side["differing"]),
+                end_section=side is scene["structures"][-1],
+            )
+    console.print(table)
+    means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
+    told = [f"{name} {ratio:.2f} x" for name, ratio in means if ratio and name != _PEER]
+    if told:
+        mean = f"geometric mean of {len(scenes)} scene(s), below 1 is faster"
+        console.print(f"Time of a ray against Embree's, {mean}: {', '.join(told)}")
+
+
+def _counted(tests: float) -> str:
+    """Nobody can count what Embree tests by itself."""
+    return f"{tests:.2f}" if tests else ""
+
+
+def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
+    """Whole pictures beside POV-Ray's."""
+    table = Table(title="whole pictures beside POV-Ray, one thread each", title_justify="left")
+    for heading in (
+        "scene", "program", "tracing", "tracing, processor", "process", "process, processor",
+        "POV-Ray / ours: tracing", "and of the processor", "difference of brightness",
+    ):  # fmt: skip
+        table.add_column(heading, justify="left" if heading in ("scene", "program") else "right")
+    for row in rows:
+        if row["skipped"]:
+            table.add_row(escape(row["scene"]), escape(row["skipped"]), end_section=True)
+            continue
+        theirs = row["programs"][0]
+        for number, side in enumerate(row["programs"]):
+            table.add_row(
+                escape(row["scene"]) if number == 0 else "",
+                side["program"],
+                *[f"{side[what]['median']:.3f} s" for what in _TIMES],
+                *["" if number == 0 else f"{faster(theirs, side, what):.2f} x" for what in COMPARED],
+                f"{row['brightness_difference']:.4f}" if number == 0 else "",
+                end_section=side is row["programs"][-1],
+            )
+    console.print(table)
+    for what, words in zip(COMPARED, ("on the clock", "of the processor"), strict=True):
+        told = [f"{name} {mean:.2f} x" for name, mean in against_povray(rows, what)]
+        if told:
+            console.print(f"Tracing, seconds {words}, faster than POV-Ray, geometric mean: {', '.join(told)}")
+
+
+@dataclass(frozen=True)
+class RenderWish:
+    """What `bench render` was asked for."""
+
+    scenes: list[Path]
+    size: int = 512
+    depth: int = 5
+    rounds: int = 5
+    every: int = 64
+    structures: str = ""
+    native: bool = False
+    povray: bool = True
+
+
+def _rays(programs: Programs, scene: Path, wish: RenderWish) -> Any:
+    words = ["--size", wish.size, "--depth", wish.depth, "--rounds", wish.rounds, "--every", wish.every]
+    words += ["--structures", wish.structures] if wish.structures else []
+    return ask_pinned(programs.bench, "render", scene, *[str(word) for word in words])
+
+
+def _measure(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> dict[str, Any]:
+    rows = []
+    for scene in scenes:
+        with console.status(f"{programs.build} build: the rays of {escape(scene.name)}"):
+            rows.append(_rays(programs, scene, wish))
+    print_rays(rows, programs.build, console)
+    return {"build": programs.build, "machine": asdict(programs.machine), "scenes": rows}
+
+
+def _race(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> list[dict[str, Any]]:
+    if shutil.which("povray") is None or not wish.povray:
+        return []
+    rows = []
+    trees = [name for name in accelerations(programs) if not wish.structures or name in wish.structures.split(",")]
+    if not trees:
+        return []
+    for scene in scenes:
+        with console.status(f"POV-Ray and raytrace in turns: {escape(scene.name)}"):
+            rows.append(race_povray(programs, scene, Race(wish.size, wish.depth, wish.rounds, trees)))
+    print_pictures(rows, console)
+    return rows
+
+
+def bench_render(project: Project, wish: RenderWish, console: Console) -> int:
+    """Measures, prints tables and writes build/bench/render.json."""
+    scenes = checked(wish.scenes) or default_scenes(project)
+    with console.status("building the benchmarks"):
+        programs = portable(project)
+    for line in what_is_missing(ask(programs.bench, "list")):
+        console.print(line, soft_wrap=True)
+    builds = [_measure(programs, scenes, wish, console)]
+    if wish.native:
+        with console.status("building for this very processor"):
+            tuned = native(project)
+        builds.append(_measure(tuned, scenes, wish, console))
+    pictures = _race(programs, scenes, wish, console)
+    keep(project, "render", {"schema": "raysteps/bench-render/v1", "builds": builds, "povray": pictures}, console)
+    return 0

@@ -1,0 +1,125 @@
+"""The command `bench scale`: how building, memory and tests grow with the number of surfaces."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from raysteps.common.errors import UsageError
+from raysteps.course.project import Project
+from tools.bench.programs import Programs, ask, ask_pinned, portable
+from tools.bench.records import growth, keep
+
+KINDS = ("cloud", "clusters", "terrain", "dust")
+_FIT_FROM = 1000  # surfaces; below, all is in a few boxes
+_ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class ScaleWish:
+    """What `bench scale` was asked for."""
+
+    most: int = 1_000_000
+    structures: str = ""
+    rounds: int = _ROUNDS
+
+
+def sizes(most: int) -> list[int]:
+    """100, 1000 and so on."""
+    found = [100]
+    while found[-1] * 10 <= most:
+        found.append(found[-1] * 10)
+    return found
+
+
+def _measured(programs: Programs, kind: str, size: int, structure: str, rounds: int) -> dict[str, Any]:
+    """Building on all processors; then the rays, alone on one."""
+    words = ("scale", kind, str(size), structure)
+    built = ask(programs.bench, *words, "--rounds", str(rounds), "--size", "16")
+    asked = ask_pinned(programs.bench, *words, "--rounds", str(rounds))
+    row = {"structure": structure, **asked, "build_seconds": built["build_seconds"], "peak_bytes": built["peak_bytes"]}
+    del row["schema"]
+    return row
+
+
+def tests_of(row: dict[str, Any]) -> float:
+    """Surfaces and boxes together."""
+    return float(row["surface_tests_per_ray"] + row["box_tests_per_ray"])
+
+
+def growth_of(rows: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    """For each structure on each kind of scene, from a thousand surfaces on."""
+    for structure, scene in dict.fromkeys((row["structure"], row["scene"]) for row in rows):
+        line = [row for row in rows if (row["structure"], row["scene"]) == (structure, scene)]
+        line = [row for row in line if row["surfaces"] >= 0.9 * _FIT_FROM and tests_of(row) > 0]
+        if len(line) >= 2:
+            tests = growth([(row["surfaces"], tests_of(row)) for row in line])
+            time = growth([(row["surfaces"], row["ns_per_ray"]["median"]) for row in line])
+            yield {
+                "structure": structure,
+                "scene": scene,
+                "from": line[0]["surfaces"],
+                "to": line[-1]["surfaces"],
+                "tests_exponent": tests.exponent,
+                "tests_per_doubling": tests.per_doubling,
+                "time_exponent": time.exponent,
+            }
+
+
+def _print(rows: list[dict[str, Any]], console: Console) -> None:
+    table = Table(title="how the structures grow", title_justify="left")
+    for heading in ("scene", "structure", "surfaces", "build", "structure's memory", "peak memory", "surfaces/ray",
+                    "boxes/ray", "ns/ray"):  # fmt: skip
+        table.add_column(heading, justify="left" if heading in ("scene", "structure") else "right")
+    for row in rows:
+        table.add_row(
+            row["scene"],
+            row["structure"],
+            str(row["surfaces"]),
+            f"{row['build_seconds']['median'] * 1e3:.2f} ms",
+            f"{row['bytes'] / 1e6:.2f} MB" if row["bytes"] else "",
+            f"{row['peak_bytes'] / 1e6:.0f} MB" if row["peak_bytes"] else "",
+            f"{row['surface_tests_per_ray']:.2f}",
+            f"{row['box_tests_per_ray']:.2f}",
+            f"{row['ns_per_ray']['median']:.0f}",
+        )
+    console.print(table)
+
+
+def _print_growth(lines: list[dict[str, Any]], console: Console) -> None:
+    for line in lines:
+        console.print(
+            f"{line['scene']}, {line['structure']}, {line['from']} to {line['to']} surfaces: tests grow as "
+            f"N^{line['tests_exponent']:.3f}, by {line['tests_per_doubling']:.2f} with each doubling; "
+            f"time as N^{line['time_exponent']:.3f}"
+        )
+
+
+def _chosen(programs: Programs, wish: ScaleWish) -> list[str]:
+    listed = ask(programs.bench, "list")["structures"]
+    trees = [side["name"] for side in listed if not side["slow"] and not side["foreign"]]
+    asked = wish.structures.split(",") if wish.structures else trees
+    for name in asked:
+        if name not in [side["name"] for side in listed]:
+            raise UsageError(f"--structures: expected names among {', '.join(trees)}, found '{name}'")
+    return asked
+
+
+def bench_scale(project: Project, wish: ScaleWish, console: Console) -> int:
+    """Measures, prints a table and the slopes, and writes build/bench/scale.json."""
+    with console.status("building the benchmarks"):
+        programs = portable(project)
+    rows: list[dict[str, Any]] = []
+    for kind in KINDS:
+        for structure in _chosen(programs, wish):
+            for size in sizes(wish.most):
+                with console.status(f"{kind} of {size} surfaces, {structure}"):
+                    rows.append(_measured(programs, kind, size, structure, wish.rounds))
+    lines = list(growth_of(rows))
+    _print(rows, console)
+    _print_growth(lines, console)
+    document = {"schema": "raysteps/bench-scale/v1", "machine": asdict(programs.machine), "rows": rows, "growth": lines}
+    keep(project, "scale", document, console)
+    return 0

@@ -1,0 +1,107 @@
+"""The command `bench threads`: what more processors bring to one picture."""
+
+import json
+import os
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import run
+from raysteps.course.project import Project
+from tools.bench.programs import Programs, accelerations, checked, default_scenes, portable
+from tools.bench.records import keep, spread_of
+
+_SECONDS = 3600
+
+
+@dataclass(frozen=True)
+class ThreadsWish:
+    """What `bench threads` was asked for."""
+
+    scenes: list[Path]
+    size: int = 512
+    rounds: int = 5
+
+
+def thread_counts(cores: int) -> list[int]:
+    """1, 2, 4 and so on, and all."""
+    counts = [1]
+    while counts[-1] * 2 < cores:
+        counts.append(counts[-1] * 2)
+    return counts if cores == 1 else [*counts, cores]
+
+
+def _render(programs: Programs, scene: Path, accel: str, threads: int, size: int) -> tuple[float, float]:
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        stats = Path(folder) / "stats.json"
+        words: list[str | Path] = [programs.raytrace, scene, "-o", Path(folder) / "picture.ppm", "--stats", stats]
+        options = ["--accel", accel, "--size", f"{size}x{size}", "--threads", str(threads), "--quiet"]
+        outcome = run([*words, *options], seconds=_SECONDS)
+        if outcome.code != 0 or outcome.timed_out:
+            raise GraderFault(f"raytrace failed: {outcome.stderr.strip()[-2000:]}")
+        document = json.loads(stats.read_text(encoding="utf-8"))
+        return document["render_seconds"], document["build_seconds"]
+
+
+def _measured(programs: Programs, scene: Path, accel: str, wish: ThreadsWish) -> list[dict[str, Any]]:
+    """All counts in turns; the first round warms up."""
+    counts = thread_counts(os.cpu_count() or 1)
+    times: dict[int, list[tuple[float, float]]] = {count: [] for count in counts}
+    for number in range(wish.rounds + 1):
+        for count in counts:
+            taken = _render(programs, scene, accel, count, wish.size)
+            if number > 0:
+                times[count].append(taken)
+    rows = []
+    alone = spread_of([seconds for seconds, _ in times[1]])["median"]
+    for count in counts:
+        seconds = spread_of([taken for taken, _ in times[count]])
+        rows.append(
+            {
+                "scene": scene.stem,
+                "accel": accel,
+                "threads": count,
+                "render_seconds": seconds,
+                "build_seconds": spread_of([building for _, building in times[count]]),
+                "speed_up": alone / seconds["median"],
+            }
+        )
+    return rows
+
+
+def _print(rows: list[dict[str, Any]], console: Console) -> None:
+    table = Table(title="one picture on several threads", title_justify="left")
+    for heading in ("scene", "accel", "threads", "picture", "building", "speed-up"):
+        table.add_column(heading, justify="left" if heading in ("scene", "accel") else "right")
+    for row in rows:
+        table.add_row(
+            escape(row["scene"]),
+            row["accel"],
+            str(row["threads"]),
+            f"{row['render_seconds']['median']:.3f} s",
+            f"{row['build_seconds']['median'] * 1e3:.2f} ms",
+            f"{row['speed_up']:.2f} x",
+        )
+    console.print(table)
+
+
+def bench_threads(project: Project, wish: ThreadsWish, console: Console) -> int:
+    """Measures, prints a table and writes build/bench/threads.json."""
+    scenes = checked(wish.scenes) or default_scenes(project)
+    with console.status("building the benchmarks"):
+        programs = portable(project)
+    rows: list[dict[str, Any]] = []
+    for scene in scenes:
+        for accel in accelerations(programs):
+            with console.status(f"{escape(scene.name)} with {accel}"):
+                rows += _measured(programs, scene, accel, wish)
+    _print(rows, console)
+    document = {"schema": "raysteps/bench-threads/v1", "machine": asdict(programs.machine), "rows": rows}
+    keep(project, "threads", document, console)
+    return 0

@@ -1,0 +1,126 @@
+"""The commands `dev ...`, for those who maintain the kit."""
+
+import argparse
+import shutil
+from pathlib import Path
+
+from rich.console import Console
+
+from raysteps.course.manifest import read_all_steps, read_steps
+from raysteps.course.mutants import read_mutants
+from raysteps.course.project import Project
+from raysteps.course.stubs import outdated_stubs, write_stubs
+from raysteps.diagnosis.mutant_fingerprints import known_mistakes
+from raysteps.judge.plan import read_plan
+from raysteps.report.terminal import progress
+from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.kit_artifacts import Say
+from tools import mistake_pages as handbook
+from tools.calibration.calibrate import calibrate
+from tools.grade_audit import check_truth
+from tools.new_step import new_step
+from tools.test_submissions import outdated_samples, write_samples
+
+# The commands `dev stubs`, `dev samples` and `dev mistakes`, for those who maintain the kit.
+
+
+def stubs(project: Project, *, check: bool) -> int:
+    """Makes the stubs, or tells which are out of date."""
+    changed = (outdated_stubs if check else write_stubs)(project, read_steps(project))
+    return _tell(project, changed, [], "dev stubs", check=check)
+
+
+def samples(project: Project, *, check: bool) -> int:
+    """Makes the samples, or tells which are out of date."""
+    changed = (outdated_samples if check else write_samples)(project, read_steps(project))
+    strays = _strays(project, [project.samples / name / "steps" for name in ("complete", "partial")], check=check)
+    return _tell(project, changed, strays, "dev samples", check=check)
+
+
+def mistakes(project: Project, say: Say, *, check: bool) -> int:
+    """Makes the pages of docs/mistakes/, or tells which are out of date."""
+    changed = (handbook.out_of_date if check else handbook.write)(project, say)
+    return _tell(project, [project.root / name for name in changed], [], "dev mistakes", check=check)
+
+
+def learn(project: Project, say: Say) -> int:
+    """Keeps what the known mistakes of all steps answer and draw."""
+    kit = build_kit(project, say)
+    for step in kit.steps:
+        known_mistakes(kit, step, read_plan(project, step), read_mutants(project, step), say)
+    return 0
+
+
+def _strays(project: Project, rooms: list[Path], *, check: bool) -> list[Path]:
+    """What was made for steps that are gone; removed, unless it is only to be told."""
+    known = {step.id for step in read_all_steps(project)}
+    found = [path for room in rooms for path in sorted(room.glob("[0-9][0-9]-*")) if path.name not in known]
+    for path in [] if check else found:
+        shutil.rmtree(path)
+    return found
+
+
+def _tell(project: Project, changed: list[Path], strays: list[Path], command: str, *, check: bool) -> int:
+    for path in changed:
+        name = path.relative_to(project.root).as_posix()
+        if check:
+            print(f"{name} differs from what the solutions generate; ./raysteps {command} makes it anew")
+        else:
+            print(f"{name} written")
+    for path in strays:
+        name = path.relative_to(project.root).as_posix()
+        print(f"{name} belongs to no step; ./raysteps {command} removes it" if check else f"{name} removed")
+    return 1 if check and (changed or strays) else 0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds one command below `dev` for each thing to do."""
+    commands = parser.add_subparsers(dest="what", required=True, metavar="WHAT")
+    new_step.add_arguments(commands)
+    for name, made in (
+        ("stubs", "the stubs in steps/"),
+        ("samples", "the samples in grader/samples/"),
+    ):
+        add = commands.add_parser(name, help=f"make {made} from the solutions")
+        add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    commands.add_parser(
+        "learn", help="learn the known mistakes of all steps now, and not with the first wrong submission"
+    )
+    add = commands.add_parser("mistakes", help="make docs/mistakes/ from the catalogue of mistakes")
+    add.add_argument("--check", action="store_true", help="only tell what is out of date")
+    add = commands.add_parser("calibrate", help="measure how many pixels of each picture may be wrong (15 minutes)")
+    add.add_argument("--check", action="store_true", help="only tell which limits are out of date")
+    add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
+    add.add_argument("--marks", action="store_true", help="grade every correct solution in every setting instead")
+    add = commands.add_parser(
+        "check", help="grade stubs, references, known mistakes and alternatives, and judge the grades"
+    )
+    add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
+    add.add_argument("--pairs", type=int, default=0, metavar="N", help="also random pairs of mistakes in two steps")
+    add.add_argument("--seed", type=int, default=1, metavar="N", help="of the hidden cases and of the pairs (1)")
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Runs one of them."""
+    match arguments.what:
+        case "new":
+            return new_step.run(project, arguments)
+        case "stubs":
+            return stubs(project, check=arguments.check)
+        case "samples":
+            return samples(project, check=arguments.check)
+        case "learn":
+            with console.status("starting") as status:
+                return learn(project, progress(console, status))
+        case "mistakes":
+            with console.status("starting") as status:
+                return mistakes(project, progress(console, status), check=arguments.check)
+        case "calibrate":
+            with console.status("starting") as status:
+                say = progress(console, status)
+                return calibrate(project, arguments.only, console, say, check=arguments.check, grades=arguments.marks)
+        case _:
+            with console.status("starting") as status:
+                say = progress(console, status)
+                only, pairs, seed = arguments.only, arguments.pairs, arguments.seed
+                return check_truth(project, console, say, only=only, pairs=pairs, seed=seed)

@@ -1,0 +1,136 @@
+"""What the plots show: counted, never timed, and kept beside the built kit."""
+
+import hashlib
+import json
+import tempfile
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import one_at_a_time, write_json
+from raysteps.common.process import run
+from raysteps.course.project import generated
+from raysteps.images.compare import Pixels, gaps
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.figures import variants
+from tools.figures.variants import Variant, with_knobs
+
+Measured = dict[str, Any]
+
+_SIZE = ("--size", "48x36")
+_SECONDS = 120
+_GROWING = {"sphereflake": (1, 2, 3, 4), "mountain": (2, 3, 4, 5, 6)}
+_SEARCHES = ("none", "boxes", "octree", "bvh")
+_DEPTHS = range(8)
+_THRESHOLDS = (1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1.0)
+_ACNE_SCENES = ("three-spheres", "acne-corner")
+_BOUNCES = range(1, 11)
+_DEPTH_KNOB = {
+    "constexpr int k_max_depth = 12;": "const int k_max_depth = static_cast<int>(knob(0));",
+    "constexpr std::size_t k_max_growth = 4; ": "constexpr std::size_t k_max_growth = 1000000; ",
+    "constexpr std::uint64_t k_most_references = 24;": "constexpr std::uint64_t k_most_references = 1000000;",
+    "    // Separating axes": "    if (knob(1) > 0.0F) {\n        return true;\n    }\n    // Separating axes",
+}
+_THRESHOLD_KNOB = {"k_shadow_threshold * hit.normal": "knob(0) * hit.normal"}
+
+
+def _stats(kit: BuiltKit, scene: Path, *options: str) -> Measured:
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        picture, stats = Path(folder) / "picture.ppm", Path(folder) / "stats.json"
+        words: list[str | Path] = [kit.reference("raytrace"), scene, *_SIZE, *options, "--quiet", "-o", picture]
+        outcome = run([*words, "--stats", stats], seconds=_SECONDS)
+        if outcome.code != 0:
+            raise GraderFault(f"figures: {scene.name} cannot be rendered: {outcome.stderr.strip()}")
+        told: Measured = json.loads(stats.read_text(encoding="utf-8"))
+        return told
+
+
+def _rays(stats: Measured) -> int:
+    return sum(int(count) for kind, count in stats["rays"].items() if kind != "eye_hit")
+
+
+def _per_ray(stats: Measured) -> float:
+    """Tests of surfaces and boxes together."""
+    return float(stats["surface_tests"] + stats["box_tests"]) / _rays(stats)
+
+
+def growth(kit: BuiltKit) -> Measured:
+    """Tests per ray for each kind of scene and way to search: [surfaces, tests] pairs."""
+    result: Measured = {}
+    for kind, sizes in _GROWING.items():
+        scenes = [generated(kit.project, kind, size) for size in sizes]
+        result[kind] = {
+            name: [
+                [stats["surfaces"], _per_ray(stats)]
+                for stats in (_stats(kit, scene, "--step", "6", "--accel", name) for scene in scenes)
+            ]
+            for name in _SEARCHES
+        }
+    return result
+
+
+def depths(kit: BuiltKit) -> Measured:
+    """Tests per ray and entries per surface of an octree that ends at each depth, without any other limit."""
+    variant = Variant(kit, kit.steps[5], with_knobs(kit, kit.steps[5], _DEPTH_KNOB))
+    args = ("--step", "6", "--accel", "octree")
+    gears = "scenes/generated/gears.nff"
+    result: Measured = {"surfaces": [], "boxes": [], "precise": [], "bounds": []}
+    for depth in _DEPTHS:
+        stats = variant.draw(gears, (*args, *_SIZE), (depth, 0)).stats
+        result["surfaces"].append([depth, stats["surface_tests"] / _rays(stats)])
+        result["boxes"].append([depth, stats["box_tests"] / _rays(stats)])
+        result["precise"].append([depth, stats["structure"]["references"] / stats["surfaces"]])
+        stats = variant.draw(gears, (*args, "--size", "1x1"), (depth, 1)).stats
+        result["bounds"].append([depth, stats["structure"]["references"] / stats["surfaces"]])
+    return result
+
+
+def _share(pixels: Pixels, right: Pixels) -> float:
+    return float((gaps(pixels, right) > 8).mean())
+
+
+def thresholds(kit: BuiltKit) -> Measured:
+    """The share of wrong pixels for each threshold of the shadow ray."""
+    variant = Variant(kit, kit.steps[3], with_knobs(kit, kit.steps[3], _THRESHOLD_KNOB))
+    args = ("--step", "4", "--size", "96x72")
+    result: Measured = {}
+    for name in _ACNE_SCENES:
+        scene = f"scenes/lessons/{name}.nff"
+        right = variant.draw(scene, args, (1e-3,)).pixels
+        result[name] = [[at, _share(variant.draw(scene, args, (at,)).pixels, right)] for at in _THRESHOLDS]
+    return result
+
+
+def bounces(kit: BuiltKit) -> Measured:
+    """Rays per pixel for each ray depth."""
+    scene = kit.project.scenes / "lessons" / "facing-mirrors.nff"
+    rows = [(depth, _stats(kit, scene, "--step", "5", "--depth", str(depth))) for depth in _BOUNCES]
+    pixels = rows[0][1]["rays"]["eye"]
+    return {
+        "all rays": [[depth, _rays(stats) / pixels] for depth, stats in rows],
+        "reflected": [[depth, stats["rays"]["reflect"] / pixels] for depth, stats in rows],
+    }
+
+
+_WHAT = {"growth": growth, "depths": depths, "thresholds": thresholds, "bounces": bounces}
+
+
+def _key(kit: BuiltKit, names: Sequence[str]) -> str:
+    sources = [Path(__file__), Path(variants.__file__), *sorted(kit.project.scenes.rglob("*.nff"))]
+    sources += sorted(kit.project.scenes.rglob("*.py"))
+    data = b"\0".join(path.read_bytes() for path in sources)
+    return hashlib.sha256(" ".join(names).encode() + data).hexdigest()[:24]
+
+
+def measured(kit: BuiltKit) -> Measured:
+    """All of it, measured by whoever needs it first."""
+    path = kit.folder / "figures" / f"{_key(kit, list(_WHAT))}.json"
+    with one_at_a_time(path.with_suffix(".lock")):
+        if not path.is_file():
+            with ThreadPoolExecutor(2) as pool:
+                results = list(pool.map(lambda measure: measure(kit), _WHAT.values()))
+            write_json(path, dict(zip(_WHAT, results, strict=True)))
+        told: Measured = json.loads(path.read_text(encoding="utf-8"))
+        return told

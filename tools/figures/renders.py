@@ -1,0 +1,118 @@
+"""Pictures: before and after each step, all steps on one sheet, and the one at the top of the README."""
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from raysteps.common.files import write_bytes
+from raysteps.course.project import generated
+from raysteps.course.stubs import stub_for
+from raysteps.images.compare import Pixels, apart, read_png
+from raysteps.images.render import reference_picture
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from tools.figures.variants import Variant
+
+_MOST_APART = 2.0  # of 255, on average: another compiler moves a few pixels
+_SMALL = ("--size", "240x180")
+_TILE, _GAP, _LETTERS = 236, 6, 18
+_PAPER, _INK = (26, 27, 30), (235, 235, 235)
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A scene, as raytrace is asked for it."""
+
+    scene: str
+    args: tuple[str, ...]
+
+    def pixels(self, kit: BuiltKit) -> Pixels:
+        return reference_picture(kit, kit.project.scenes / f"{self.scene}.nff", (*self.args, *_SMALL))
+
+
+def _lesson(name: str, *args: str) -> Shot:
+    return Shot(f"lessons/{name}", args)
+
+
+SHOTS = {
+    "01-after": _lesson("three-spheres", "--step", "1"),
+    "02-color": _lesson("three-spheres", "--step", "2"),
+    "02-after": _lesson("three-spheres", "--step", "2", "--view", "normals"),
+    "03-after": _lesson("three-spheres", "--step", "3"),
+    "04-after": _lesson("three-spheres", "--step", "4"),
+    "05-after": _lesson("three-spheres", "--step", "5"),
+    "05-mirrors-1": _lesson("facing-mirrors", "--step", "5", "--depth", "1"),
+    "05-mirrors-2": _lesson("facing-mirrors", "--step", "5", "--depth", "2"),
+    "05-mirrors-8": _lesson("facing-mirrors", "--step", "5", "--depth", "8"),
+    "06-after": _lesson("many-spheres", "--step", "6", "--accel", "octree"),
+    "07-before": _lesson("overexposed", "--step", "5"),
+    "07-after": _lesson("overexposed", "--step", "7"),
+    "08-before": _lesson("glass", "--step", "7"),
+    "08-after": _lesson("glass", "--step", "8"),
+    "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
+}
+
+
+def untouched(kit: BuiltKit) -> Pixels:
+    """What the stub of step 01 shows."""
+    step = kit.steps[0]
+    shot = SHOTS["01-after"]
+    return (
+        Variant(kit, step, stub_for(kit.project, step)).draw(f"scenes/{shot.scene}.nff", (*shot.args, *_SMALL)).pixels
+    )
+
+
+def contact_sheet(kit: BuiltKit) -> Pixels:
+    """The same scene after each step that changes a picture; glass has a scene of its own."""
+    flake = generated(kit.project, "sphereflake", 3)
+    glass = kit.project.scenes / "lessons" / "glass.nff"
+    size = ("--size", f"{_TILE}x{_TILE}")
+    steps = [step for step in kit.steps if step.index <= 8]
+    sheet = Image.new("RGB", (4 * (_TILE + _GAP) + _GAP, 2 * (_TILE + _GAP + _LETTERS) + _GAP), _PAPER)
+    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(size=15)
+    for place, step in enumerate(steps):
+        view = ("--view", "normals") if step.index == 2 else ()
+        args = ("--step", str(step.index), "--accel", "bvh", *size, *view)
+        x = _GAP + (place % 4) * (_TILE + _GAP)
+        y = _GAP + (place // 4) * (_TILE + _GAP + _LETTERS)
+        picture = reference_picture(kit, glass if step.index == 8 else flake, args)
+        sheet.paste(Image.fromarray(picture), (x, y))
+        pen.text((x + 4, y + _TILE + 2), f"{step.number} {step.title}", _INK, font)
+    return np.asarray(sheet)
+
+
+def work_maps(kit: BuiltKit) -> Pixels:
+    """What each pixel costs: every surface, the octree on its own scale, and on the scale of every surface."""
+    scene = kit.project.scenes / "lessons" / "many-spheres.nff"
+    size = ("--map", "tests", "--size", "320x320")
+    ways = (("--accel", "none"), (), ("--map-scale", "2000"))
+    maps = [reference_picture(kit, scene, (*size, *way)) for way in ways]
+    gap = np.full((maps[0].shape[0], 8, 3), 255, np.uint8)
+    return np.concatenate([maps[0], gap, maps[1], gap, maps[2]], axis=1)
+
+
+def sphereflake(kit: BuiltKit) -> Pixels:
+    """The picture at the top of the README."""
+    args = ("--step", "8", "--size", "512x512", "--accel", "bvh")
+    return reference_picture(kit, generated(kit.project, "sphereflake", 4), args)
+
+
+def _png(pixels: Pixels) -> bytes:
+    data = io.BytesIO()
+    Image.fromarray(pixels).save(data, format="PNG", optimize=True)
+    return data.getvalue()
+
+
+def is_current(path: Path, pixels: Pixels) -> bool:
+    """Whether the file shows this picture, up to what another compiler or library of letters moves."""
+    try:
+        kept = read_png(path)
+    except (OSError, ValueError):
+        return False
+    return kept.shape == pixels.shape and float(apart(kept, pixels).mean()) <= _MOST_APART
+
+
+def write(path: Path, pixels: Pixels) -> None:
+    write_bytes(path, _png(pixels))

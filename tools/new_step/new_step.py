@@ -1,0 +1,152 @@
+"""The command `dev new`."""
+
+import argparse
+import json
+import math
+import re
+import shutil
+from importlib.resources import files
+from typing import Any
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import write_bytes
+from raysteps.course.manifest import read_all_steps, read_step, read_steps
+from raysteps.course.project import Project
+from raysteps.course.stubs import write_stubs
+from tools.test_submissions import write_samples
+
+# What a new step may be called.
+
+_NAME = re.compile(r"([0-9]{2})-([a-z]+(?:-[a-z]+)*)")
+_LONGEST = 40
+_NO_FILES_ON_WINDOWS = {"con", "prn", "aux", "nul"}
+
+
+def check_name(project: Project, name: str) -> None:
+    """Whether a step can be called so; else what to write instead."""
+    found = _NAME.fullmatch(name)
+    if found is None or len(name) > _LONGEST:
+        raise UsageError(
+            f"'{name}' is no name of a step; expected two digits and words of small letters, parted by '-', at most "
+            f"{_LONGEST} characters, such as 10-fog"
+        )
+    number, words = found.groups()
+    if words in _NO_FILES_ON_WINDOWS:
+        raise UsageError(f"'{name}': Windows has no files called {words}; choose another name")
+    steps = read_all_steps(project)
+    following = f"{steps[-1].index + 1:02d}"
+    taken = next((step.id for step in steps if step.number == number), None)
+    if taken is not None:
+        raise UsageError(f"'{name}': {taken} has this number already; the next one is {following}-{words}")
+    if number != following:
+        raise UsageError(f"'{name}': steps are counted without gaps; expected {following}-{words}")
+    same = next((step.id for step in steps if step.id[3:] == words), None)
+    if same is not None:
+        raise UsageError(f"'{name}': {same} has this name already; its files would be mixed up with yours")
+    for room in (project.steps, project.solutions):
+        if (room / name).exists():
+            raise UsageError(f"{room / name} is there already, without a step.toml; move it away first")
+
+
+# Makes the files of a new step from the templates.
+
+# Template and file, first of steps/NN-name/, then of solutions/NN-name/.
+_FOR_STUDENTS = {
+    "step.toml": "step.toml",
+    "README.md": "README.md",
+    "contract.hpp": "@FILE@.hpp",
+    "test.cpp": "@FILE@_test.cpp",
+}
+_FOR_THE_GRADER = {
+    "solution.cpp": "@FILE@.cpp",
+    "mutants.toml": "mutants.toml",
+    "cases.toml": "cases.toml",
+    "judge.py.txt": "judge.py",
+    "worker.cpp": "worker.cpp",
+    "alternative.cpp": "alternatives/in-doubles.cpp",
+}
+
+
+def _filled(text: str, words: dict[str, str]) -> str:
+    for mark, word in words.items():
+        text = text.replace(f"@{mark}@", word)
+    return text
+
+
+def _words(name: str, title: str, points: float, *, bonus: bool) -> dict[str, str]:
+    number, rest = name[:2], name[3:]
+    return {
+        "ID": name,
+        "NUMBER": number,
+        "INDEX": str(int(number)),
+        "FILE": rest.replace("-", "_"),
+        "PICTURE": rest,
+        "TITLE": title,
+        "QUOTED": json.dumps(title, ensure_ascii=False),
+        "POINTS": f"{points:g}",
+        "BONUS": "true" if bonus else "false",
+        "KIND": " (bonus)" if bonus else "",
+    }
+
+
+def make_step(project: Project, name: str, title: str, points: float, *, bonus: bool) -> list[str]:
+    """Writes everything that belongs to the step; returns the paths in the kit."""
+    check_name(project, name)
+    words = _words(name, title, points, bonus=bonus)
+    made = []
+    try:
+        for room, templates in ((project.solutions, _FOR_THE_GRADER), (project.steps, _FOR_STUDENTS)):
+            for template, file in templates.items():
+                text = files("tools.new_step").joinpath("templates", template).read_text(encoding="utf-8")
+                path = room / name / _filled(file, words)
+                write_bytes(path, _filled(text, words).encode())
+                made.append(path)
+        made += write_stubs(project, [read_step(project.steps / name / "step.toml")])
+        made += write_samples(project, read_steps(project))
+    except (OSError, GraderFault) as error:
+        for room in (project.steps, project.solutions):
+            shutil.rmtree(room / name, ignore_errors=True)
+        raise GraderFault(f"{name}: the step cannot be written, and nothing of it is left: {error}") from error
+    return sorted(path.relative_to(project.root).as_posix() for path in made)
+
+
+_MOST_POINTS = 1000
+
+
+def _points(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not (math.isfinite(value) and 0 < value <= _MOST_POINTS):
+        raise argparse.ArgumentTypeError(f"'{text}' are no points; expected a number above 0, such as 10")
+    return value
+
+
+def _title(text: str) -> str:
+    if not text.strip() or not text.isprintable() or len(text) > 60:
+        raise argparse.ArgumentTypeError("expected a title of one line and at most 60 characters, such as 'Fog'")
+    return text.strip()
+
+
+def add_arguments(commands: "argparse._SubParsersAction[Any]") -> None:
+    """`dev new NN-name`."""
+    add = commands.add_parser("new", help="begin a step of your own: a small one that works, to be filled")
+    add.add_argument("name", metavar="NN-name", help="the next number and a name, such as 10-fog")
+    add.add_argument("--title", type=_title, help="as students read it (from the name)")
+    add.add_argument("--points", type=_points, default=10.0, metavar="P", help="what it is worth (10)")
+    add.add_argument("--bonus", action="store_true", help="its points are not needed for full marks")
+
+
+def run(project: Project, arguments: argparse.Namespace) -> int:
+    """Writes the step and says how to go on."""
+    name = arguments.name
+    title = arguments.title or name[3:].replace("-", " ").capitalize()
+    for path in make_step(project, name, title, arguments.points, bonus=arguments.bonus):
+        print(f"{path} written")
+    print(
+        f"{name} works as it is. Fill it: docs/instructors.md tells what each file is for. Then:\n"
+        f"  ./raysteps dev stubs && ./raysteps dev samples\n"
+        f"  ./raysteps dev check --only {name[:2]}"
+    )
+    return 0

@@ -1,0 +1,1 @@
+"""The command `test`: everything that shows the kit works."""

@@ -1,0 +1,225 @@
+"""Runs Sphinx on what was staged."""
+
+import io
+import json
+import os
+import shutil
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.errors import UsageError
+from raysteps.common.files import write_json
+from raysteps.common.markdown import Block, with_tags, with_targets
+from raysteps.course.project import Project, here
+from tools.site.documents import COMMANDS_PAGE, below, documents, front_page, sections
+from tools.site.links import is_elsewhere, is_shell, split
+
+# What the theme leaves out for people who use a keyboard or a screen reader.
+
+_CHANGES = (
+    ('<p class="caption" role="heading">', '<p class="caption" role="heading" aria-level="2">'),
+    ('<aside class="sidebar-drawer">', '<aside class="sidebar-drawer" aria-label="Menu">'),
+    ('<aside class="toc-drawer">', '<aside class="toc-drawer" aria-label="On this page">'),
+    ('<aside class="toc-drawer no-toc">', '<aside class="toc-drawer no-toc" aria-label="On this page">'),
+    ('<div class="highlight"><pre>', '<div class="highlight"><pre tabindex="0">'),
+    ('<div class="table-wrapper', '<div tabindex="0" class="table-wrapper'),
+)
+
+
+def make_accessible(site: Path) -> None:
+    """Changes every page: names for landmarks, levels for headings, the keyboard for what can be scrolled."""
+    for page in site.rglob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        for old, new in _CHANGES:
+            text = text.replace(old, new)
+        page.write_text(text, encoding="utf-8")
+
+
+_LIGHT = dict.fromkeys(("color-brand-primary", "color-brand-content", "color-brand-visited"), "#9a4408")
+_DARK = dict.fromkeys(_LIGHT, "#f5a65b")
+SETTINGS: dict[str, Any] = {
+    "extensions": ["myst_parser", "tools.site.formulas"],
+    "project": "Raysteps",
+    "html_title": "Raysteps",
+    "html_theme": "furo",
+    "html_static_path": ["_static"],
+    "html_css_files": ["site.css"],
+    "html_copy_source": False,
+    "html_show_sourcelink": False,
+    "html_show_copyright": False,
+    "html_use_index": False,
+    "html_domain_indices": False,
+    "html_show_search_summary": False,  # would read other pages as files, which browsers forbid
+    "html_permalinks_icon": "#",
+    "html_theme_options": {
+        "navigation_with_keys": False,
+        "light_css_variables": {**_LIGHT, "color-code-background": "#f1efea"},
+        "dark_css_variables": {**_DARK, "color-code-background": "#26292e"},
+    },
+    "highlight_language": "text",
+    "pygments_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+    "myst_enable_extensions": ["dollarmath"],
+    "myst_dmath_double_inline": True,
+    "myst_heading_anchors": 6,
+    "myst_url_schemes": ["http", "https", "mailto"],
+    "smartquotes": False,
+    "language": "en",
+}
+# The theme's own settings are known only to settings that come from a file.
+_CONF = "from tools.site.build import SETTINGS\n\nglobals().update(SETTINGS)\n"
+
+
+def check_tools() -> None:
+    """Says what to install where Sphinx and its parts are not there, as in a students' kit."""
+    for name in ("sphinx", "myst_parser", "furo"):
+        if find_spec(name) is None:
+            raise UsageError(
+                f"the site is built with Sphinx, and the Python package {name} is not installed; install it with:\n"
+                f'  "{sys.executable}" -m pip install -e "{here().root / "grader"}[docs]"'
+            )
+
+
+def build_site(stage: Path, out: Path, work: Path) -> list[str]:
+    """Writes the pages to `out` and returns what Sphinx complained about."""
+    from sphinx.application import Sphinx  # only here: the other commands need not wait for it
+    from sphinx.util.docutils import docutils_namespace
+
+    (stage / "conf.py").write_text(_CONF, encoding="utf-8")
+    said = io.StringIO()
+    with docutils_namespace():
+        sphinx = Sphinx(
+            srcdir=stage,
+            confdir=stage,
+            outdir=out,
+            doctreedir=work / "doctrees",
+            buildername="html",
+            status=None,
+            warning=said,
+            freshenv=True,
+        )
+        sphinx.build(force_all=True)
+    make_accessible(out)
+    (out / ".nojekyll").touch()
+    (out / ".buildinfo").unlink(missing_ok=True)
+    return [line.replace(f"{stage}{os.sep}", "") for line in said.getvalue().splitlines() if line.strip()]
+
+
+# Copies what the site shows to a folder of its own, with the few changes that the site needs and a forge does not.
+
+GALLERY = Path("gallery/index.html")
+_OPEN_GALLERY = '\n\n## Open it\n\n<p><a href="../gallery/index.html">The gallery of this site</a></p>\n'
+
+
+def _tag(block: Block) -> str:
+    """What an untagged block is, for colours."""
+    return "sh" if is_shell(block) else block.tag or "text"
+
+
+def _tree(options: str, pages: tuple[Path, ...]) -> str:
+    lines = "\n".join(f"/{page.with_suffix('').as_posix()}" for page in pages)
+    return f"\n\n```{{toctree}}\n:hidden:\n{options}\n{lines}\n```\n"
+
+
+def _menu(project: Project, document: Path) -> str:
+    """What Sphinx learns the menu from."""
+    if document == front_page():
+        return "".join(_tree(f":caption: {part.title}\n", part.pages) for part in sections(project))
+    children = below(project, document)
+    return _tree("", children) if children else ""
+
+
+class _Stage:
+    def __init__(self, project: Project, folder: Path) -> None:
+        self._root = project.root.resolve()
+        self._folder = folder
+        self._pages = {front_page(): Path("index.md")} | {page: page for page in documents(project)[1:]}
+
+    def _target(self, document: Path, target: str) -> str:
+        """Where a link leads on the site. Files beside the documents come along; folders have no page."""
+        if is_elsewhere(target) or target.startswith("#"):
+            return target
+        path, anchor = split(self._root / document, target)
+        name = path.relative_to(self._root)
+        if path.is_dir():
+            return "#"
+        if name not in self._pages and path.is_file():
+            self._bring(name)
+        there = os.path.relpath(self._pages.get(name, name), self._pages[document].parent)
+        return Path(there).as_posix() + (f"#{anchor}" if anchor else "")
+
+    def _bring(self, name: Path) -> None:
+        copy = self._folder / name
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(self._root / name, copy)
+
+    def put(self, document: Path, more: str = "") -> None:
+        text = (self._root / document).read_text(encoding="utf-8") + more
+        text = with_tags(with_targets(text, lambda target: self._target(document, target)), _tag)
+        self.write(self._pages[document], text)
+
+    def write(self, name: Path, text: str) -> None:
+        path = self._folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def stage(project: Project, folder: Path, commands: str, *, gallery: bool) -> None:
+    """Fills the folder. `commands` is the text of the page of commands; `gallery` is whether the site has its page."""
+    made = _Stage(project, folder)
+    for document in documents(project):
+        is_gallery = gallery and document == Path("docs/gallery.md")
+        made.put(document, _OPEN_GALLERY if is_gallery else _menu(project, document))
+    made.write(COMMANDS_PAGE, commands)
+    static = folder / "_static"
+    static.mkdir()
+    shutil.copyfile(Path(__file__).parent / "static" / "site.css", static / "site.css")
+
+
+# Puts a new site in the place of an older one. What else lies there, such as a history, stays.
+
+_LIST = ".raysteps-site.json"
+_SCHEMA = "raysteps/site/v1"
+
+
+def _files(folder: Path) -> list[str]:
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+
+
+def _listed(out: Path) -> list[str] | None:
+    """The files that an older site wrote; none where there is no older site."""
+    try:
+        document = json.loads((out / _LIST).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+    if not isinstance(document, dict) or document.get("schema") != _SCHEMA:
+        return None
+    names = [Path(str(name)) for name in document.get("files", [])]
+    return [name.as_posix() for name in names if not name.is_absolute() and ".." not in name.parts]
+
+
+def check_place(out: Path) -> None:
+    """A usage error unless it is a new or an empty folder, or an older site."""
+    if out.is_file() or (out.is_dir() and any(out.iterdir()) and _listed(out) is None):
+        raise UsageError(f"{out}: holds something else; expected a new or an empty folder, or an older site")
+
+
+def put(new: Path, out: Path) -> None:
+    """Moves the files of `new`, on the same disk, to `out`. Called again, it finishes what was interrupted."""
+    out.mkdir(parents=True, exist_ok=True)
+    old, files = _listed(out) or [], _files(new)
+    strange = [name for name in files if name not in old and (out / name).exists()]
+    if strange:
+        raise UsageError(f"{out / strange[0]}: is not of an older site, and the new one has such a file; take it away")
+    write_json(out / _LIST, {"schema": _SCHEMA, "files": sorted({*old, *files})})
+    for name in old:
+        (out / name).unlink(missing_ok=True)
+    for name in files:
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (new / name).replace(out / name)
+    for room in sorted({parent for name in old for parent in Path(name).parents}, reverse=True):
+        if (out / room).is_dir() and not any((out / room).iterdir()):
+            (out / room).rmdir()
+    write_json(out / _LIST, {"schema": _SCHEMA, "files": files})

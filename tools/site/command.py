@@ -1,0 +1,74 @@
+"""The command `docs`: the documents as a site."""
+
+import argparse
+import shutil
+import tempfile
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.cli.app import new_parser
+from raysteps.common.errors import UsageError
+from raysteps.course.project import Project
+from raysteps.report.terminal import short_path
+from tools.site.build import GALLERY, build_site, check_place, check_tools, put, stage
+from tools.site.command_page import command_page
+from tools.site.documents import documents
+from tools.site.links import dead_links
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where it goes, and what else comes along."""
+    parser.add_argument("--out", type=Path, metavar="DIR", help="where index.html goes (build/site)")
+    parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery made before, to be part of the site")
+
+
+def _check(out: Path, gallery: Path | None) -> None:
+    check_place(out)
+    if gallery is not None and not (gallery / GALLERY.name).is_file():
+        raise UsageError(
+            f"{gallery}: expected a folder with {GALLERY.name} in it; make one with: ./raysteps gallery --out {gallery}"
+        )
+
+
+def _troubles(project: Project) -> list[str]:
+    """What is wrong in the documents themselves."""
+    from tools.site.formulas import bad_formulas  # brings docutils, which the other commands do not need
+
+    written = documents(project)
+    return [*dead_links(project.root, written), *bad_formulas(project.root, written)]
+
+
+def _build(project: Project, out: Path, gallery: Path | None, commands: str, console: Console) -> list[str]:
+    """Builds beside its place, and puts it there when nothing is wrong."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
+        work = Path(name)
+        (work / "stage").mkdir()
+        stage(project, work / "stage", commands, gallery=gallery is not None)
+        with console.status("building the site"):
+            troubles = build_site(work / "stage", work / "site", work)
+        if gallery is not None:
+            shutil.copytree(gallery, work / "site" / GALLERY.parent)
+        if not troubles:
+            put(work / "site", out)
+    return troubles
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Builds all of it anew."""
+    out: Path = (arguments.out or project.build / "site").absolute()
+    _check(out, arguments.gallery)
+    check_tools()
+    troubles = _troubles(project)
+    if not troubles:
+        troubles = _build(project, out, arguments.gallery, command_page(project, new_parser(project)), console)
+    for trouble in troubles:
+        console.print(escape(trouble), highlight=False)
+    if troubles:
+        many = f"{len(troubles)} things" if len(troubles) > 1 else "one thing"
+        console.print(f"no site was written: {many} to mend")
+        return 1
+    console.print(f"the site is in {escape(short_path(out / 'index.html'))}: open it in a browser, or serve its folder")
+    return 0

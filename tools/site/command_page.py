@@ -1,0 +1,127 @@
+"""The page of all commands, made from the command line itself."""
+
+import argparse
+import re
+from collections.abc import Iterator
+
+from raysteps.course.project import Project
+
+# What the C++ programs accept, read from the text that they print for --help.
+
+_SOURCES = {"raytrace": "options.cpp", "inspect": "inspect_options.cpp", "view": "view_options.cpp"}
+_OPTION = re.compile(r"^  (?:-\w, )?(--?[\w-]+)(?: (\S+))?(?=\s|$)", re.MULTILINE)
+
+
+def usage(project: Project, program: str) -> str:
+    """The text."""
+    source = (project.root / "framework" / "apps" / _SOURCES[program]).read_text(encoding="utf-8")
+    found = re.search(r'_usage = R"\((.*?)\)"', source, re.DOTALL)
+    if found is None:
+        raise ValueError(f"framework/apps/{_SOURCES[program]}: expected a constant k_..._usage")
+    return found[1]
+
+
+def usage_parser(project: Project, program: str) -> argparse.ArgumentParser:
+    """Reads a scene and the program's options as the program does, but for the ranges of numbers."""
+    parser = argparse.ArgumentParser(prog=program, allow_abbrev=False, add_help=False)
+    parser.add_argument("scene", nargs="?")
+    for option, value in _OPTION.findall(usage(project, program)):
+        words = value.split("|")
+        if not value:
+            parser.add_argument(option, action="store_true")
+        elif len(words) > 1:
+            parser.add_argument(option, choices=words)
+        elif value == "N":
+            parser.add_argument(option, type=int)
+        elif value == "WxH":
+            parser.add_argument(option, type=_size)
+        else:
+            parser.add_argument(option)
+    return parser
+
+
+def _size(word: str) -> str:
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", word):
+        raise argparse.ArgumentTypeError(f"{word}: expected WxH")
+    return word
+
+
+_WIDTH = 88
+_OF_PROGRAMS = {"render": "raytrace", "view": "view"}
+_BEGIN = """# Commands
+
+Everything that `./raysteps` can do. `./raysteps COMMAND --help` prints the same.
+
+Exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 a fault of the grader, 130
+interrupted.
+"""
+_OWN_STEPS = """All words after the command go to `{program}`, a C++ program. Without `--impl`, or with `--impl mine`,
+it has your own steps; with `--impl reference` those of the kit.
+"""
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|").replace("<", "&lt;").replace("*", "\\*").replace("_", "\\_")
+
+
+def _help(parser: argparse.ArgumentParser, action: argparse.Action) -> str:
+    return _cell((action.help or "") % {"default": action.default, "prog": parser.prog})
+
+
+def _value(action: argparse.Action) -> str:
+    if action.nargs == 0:
+        return ""
+    word = action.metavar or ("{" + ",".join(map(str, action.choices)) + "}" if action.choices else None)
+    shown = " ".join(word) if isinstance(word, tuple) else word or action.dest.upper()
+    return f"{shown} ..." if action.nargs in ("*", "+") else shown
+
+
+def _name(action: argparse.Action) -> str:
+    if not action.option_strings:
+        return _value(action)
+    value = _value(action)
+    return ", ".join(action.option_strings) + (f" {value}" if value else "")
+
+
+def _commands(parser: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.ArgumentParser, str]]:
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            helps = {choice.dest: choice.help or "" for choice in action._choices_actions}
+            for name, child in action.choices.items():
+                yield name, child, helps.get(name, "")
+
+
+def _usage(parser: argparse.ArgumentParser) -> str:
+    parser.formatter_class = lambda prog: argparse.HelpFormatter(prog, width=_WIDTH)
+    return parser.format_usage().removeprefix("usage: ").replace("raysteps", "./raysteps", 1)
+
+
+def _part(project: Project, words: str, parser: argparse.ArgumentParser, about: str, level: int) -> Iterator[str]:
+    yield f"{'#' * level} {words}"
+    sentence = about[:1].upper() + about[1:]
+    yield f"{_cell(sentence)}{'' if sentence.endswith('.') else '.'}" if sentence else ""
+    program = _OF_PROGRAMS.get(words)
+    if program:
+        yield _OWN_STEPS.format(program=program)
+        yield f"```text\n{usage(project, program).strip()}\n```"
+        return
+    children = list(_commands(parser))
+    if not children:
+        yield f"```text\n{_usage(parser).strip()}\n```"
+    shown = [
+        action
+        for action in parser._actions
+        if not isinstance(action, argparse._SubParsersAction | argparse._HelpAction)
+        and action.help != argparse.SUPPRESS
+    ]
+    if shown:
+        rows = [f"| `{_name(action).replace('|', chr(92) + '|')}` | {_help(parser, action)} |" for action in shown]
+        yield "\n".join(["| argument | meaning |", "|---|---|", *rows])
+    for name, child, said in children:
+        yield from _part(project, f"{words} {name}", child, said, level + 1)
+
+
+def command_page(project: Project, parser: argparse.ArgumentParser) -> str:
+    """The text, in Markdown."""
+    parts = [part for name, child, about in _commands(parser) for part in _part(project, name, child, about, 2)]
+    return "\n\n".join([_BEGIN.strip(), *(part for part in parts if part)]) + "\n"

@@ -1,0 +1,62 @@
+"""Which documents the site has, and in which order."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project
+
+COMMANDS_PAGE = Path("docs/commands.md")  # made from the command line itself, so not in the repository
+MISTAKES = Path("docs/mistakes/README.md")
+_SECTIONS = (
+    ("For students", ("students", "where-students-work", "paper")),
+    ("For instructors", ("instructors", "class", "exports", "release")),
+    ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
+    ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),
+    (
+        "How it works",
+        ("architecture", "handouts", "site", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration"),
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Section:
+    """Some pages below a word in the site's menu; paths begin at the repository."""
+
+    title: str
+    pages: tuple[Path, ...]
+
+
+def front_page() -> Path:
+    """The one that becomes index.html."""
+    return Path("README.md")
+
+
+def below(project: Project, page: Path) -> tuple[Path, ...]:
+    """The pages that unfold below one of the menu: those of each step's mistakes."""
+    if page != MISTAKES:
+        return ()
+    return tuple(sorted(page.parent / path.name for path in (project.root / page.parent).glob("[0-9]*.md")))
+
+
+def sections(project: Project) -> list[Section]:
+    """The menu. A document that no section names stands under the last one, so that none is ever missing."""
+    handouts = tuple(Path("steps") / step.id / "README.md" for step in read_steps(project))
+    named = {name for _, names in _SECTIONS for name in names}
+    others = sorted(path.stem for path in (project.root / "docs").glob("*.md") if path.stem not in named)
+    made = []
+    for title, names in _SECTIONS:
+        wanted = [*names, *others] if title == _SECTIONS[-1][0] else list(names)
+        pages = [Path("docs") / f"{name}.md" for name in wanted]
+        made.append(Section(title, tuple(p for p in pages if p == COMMANDS_PAGE or (project.root / p).is_file())))
+    reference = next(section for section in made if section.title == "Reference")
+    made[made.index(reference)] = Section(reference.title, (*reference.pages, Path("scenes/README.md")))
+    made.insert(1, Section("The steps", handouts))
+    return [section for section in made if section.pages]
+
+
+def documents(project: Project) -> list[Path]:
+    """All that are written by hand, from the repository on."""
+    pages = [page for section in sections(project) for page in section.pages if page != COMMANDS_PAGE]
+    return [front_page(), *pages, *(child for page in pages for child in below(project, page))]

@@ -1,0 +1,104 @@
+"""What may be handed in for a step, and what a true grade gives it."""
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_if_changed
+from raysteps.course.manifest import Step
+from raysteps.course.mutants import Mutant, read_alternatives, read_mutants, reference_source
+from raysteps.course.project import Project
+from raysteps.course.stubs import stub_for, without_markers
+
+Kind = Literal["stub", "reference", "mutant", "alternative"]
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """One file for one step. A mutant is wrong, a stub is nothing, the others are right."""
+
+    kind: Kind
+    step: str
+    name: str
+    source: str
+    mutant: Mutant | None = None
+
+    @property
+    def is_right(self) -> bool:
+        return self.kind in ("reference", "alternative")
+
+
+def reference(project: Project, step: Step) -> Entrant:
+    """The kit's own solution, as a student would hand it in."""
+    return Entrant("reference", step.id, "the reference", reference_source(project, step))
+
+
+def stub(project: Project, step: Step) -> Entrant:
+    """Without the lines that tell that nothing was begun, so that it is run like any other file."""
+    lines = stub_for(project, step).splitlines()
+    source = "\n".join(line for line in lines if "RAYSTEPS_TODO" not in line) + "\n"
+    return Entrant("stub", step.id, "stub", source)
+
+
+def mutants(project: Project, step: Step) -> list[Entrant]:
+    """One for each known mistake."""
+    right = reference_source(project, step)
+    known = read_mutants(project, step)
+    return [Entrant("mutant", step.id, mutant.id, mutant.applied(right), mutant) for mutant in known]
+
+
+def right_ones(project: Project, step: Step) -> list[Entrant]:
+    """The reference, then the other correct ways."""
+    return [reference(project, step), *alternatives(project, step)]
+
+
+def alternatives(project: Project, step: Step) -> list[Entrant]:
+    """One for each other correct way."""
+    known = read_alternatives(project, step)
+    return [Entrant("alternative", step.id, one.name, one.source) for one in known]
+
+
+# The two sample submissions, made from the solutions so that they never drift.
+
+
+def _solved(project: Project, step: Step) -> str:
+    return without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
+
+
+def _with_mistake(source: str, mistake: dict[str, Any]) -> str:
+    find = str(mistake["find"])
+    if source.count(find) != 1:
+        raise GraderFault(f"grader/samples/partial.toml: '{find}' must occur exactly once in {mistake['step']}")
+    return source.replace(find, str(mistake["replace"]))
+
+
+def sample_files(project: Project, steps: list[Step]) -> dict[Path, str]:
+    """Path and content of every file of the samples."""
+    plan = tomllib.loads((project.samples / "partial.toml").read_text(encoding="utf-8"))
+    mistakes = {str(mistake["step"]): mistake for mistake in plan["mistakes"]}
+    files: dict[Path, str] = {}
+    for step in steps:
+        solved = _solved(project, step)
+        files[project.samples / "complete" / "steps" / step.path] = solved
+        if step.id in mistakes:
+            partial = _with_mistake(solved, mistakes[step.id])
+        else:
+            partial = solved if step.id in plan["solved"] else stub_for(project, step)
+        files[project.samples / "partial" / "steps" / step.path] = partial
+    return files
+
+
+def outdated_samples(project: Project, steps: list[Step]) -> list[Path]:
+    """The sample files that differ from what the solutions make."""
+    return [
+        path
+        for path, text in sample_files(project, steps).items()
+        if not path.is_file() or path.read_bytes() != text.encode()
+    ]
+
+
+def write_samples(project: Project, steps: list[Step]) -> list[Path]:
+    """Writes all samples; returns what changed."""
+    return [path for path, text in sample_files(project, steps).items() if write_if_changed(path, text.encode())]
