@@ -10,11 +10,11 @@ from raysteps.course.manifest import read_all_steps, read_steps
 from raysteps.course.mutants import read_mutants
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
-from raysteps.diagnosis.mutant_fingerprints import known_mistakes
+from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
 from raysteps.judge.plan import read_plan
 from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import Say
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 from tools import mistake_pages as handbook
 from tools.calibration.calibrate import calibrate
 from tools.grade_audit import check_truth
@@ -37,17 +37,17 @@ def samples(project: Project, *, check: bool) -> int:
     return _tell(project, changed, strays, "dev samples", check=check)
 
 
-def mistakes(project: Project, say: Say, *, check: bool) -> int:
+def mistakes(project: Project, say: ProgressCallback, *, check: bool) -> int:
     """Makes the pages of docs/mistakes/, or tells which are out of date."""
     changed = (handbook.out_of_date if check else handbook.write)(project, say)
     return _tell(project, [project.root / name for name in changed], [], "dev mistakes", check=check)
 
 
-def learn(project: Project, say: Say) -> int:
+def learn(project: Project, say: ProgressCallback) -> int:
     """Keeps what the known mistakes of all steps answer and draw."""
     kit = build_kit(project, say)
     for step in kit.steps:
-        known_mistakes(kit, step, read_plan(project, step), read_mutants(project, step), say)
+        mutant_fingerprints(kit, step, read_plan(project, step), read_mutants(project, step), say)
     return 0
 
 

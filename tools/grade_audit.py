@@ -15,12 +15,12 @@ from rich.table import Table
 from raysteps.course.manifest import Step, choose
 from raysteps.course.project import Project
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.test_submissions import Entrant, alternatives, mutants, reference, stub
 
 # Which files are handed in together. A mistake must cost its own step and no other, so every mistake is graded
@@ -89,7 +89,7 @@ def random_pairs(project: Project, steps: Sequence[Step], amount: int, seed: int
 
 
 @dataclass(frozen=True)
-class Seen:
+class ObservedGrade:
     """One file with its result."""
 
     entrant: Entrant
@@ -139,7 +139,7 @@ class Seen:
 # Grades one round: one submission made of the entrants of all steps.
 
 
-def grade_round(kit: BuiltKit, handed_in: Round, *, seed: int, only: Collection[str]) -> list[Seen]:
+def grade_round(kit: BuiltKit, handed_in: Round, *, seed: int, only: Collection[str]) -> list[ObservedGrade]:
     """Of the steps that the round grades, those in `only`. The kit's own files need no sandbox, and nobody reads the
     smallest wrong cases."""
     graded = tuple(step for step in handed_in.graded if step in only)
@@ -149,8 +149,11 @@ def grade_round(kit: BuiltKit, handed_in: Round, *, seed: int, only: Collection[
     settings = Settings(seed=seed, only=graded, feedback="diagnosis", jobs=1)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         submission = Submission("truth", sources, {})
-        results = {result.id: result for result in grade_one(kit, submission, settings, OpenAir(), Path(folder)).steps}
-    return [Seen(entrant, results[entrant.step]) for entrant in handed_in.entrants if entrant.step in results]
+        results = {
+            result.id: result
+            for result in grade_submission(kit, submission, settings, LimitsOnly(), Path(folder)).steps
+        }
+    return [ObservedGrade(entrant, results[entrant.step]) for entrant in handed_in.entrants if entrant.step in results]
 
 
 # The table of `dev check`, and what is not as it should be.
@@ -176,7 +179,7 @@ class Row:
     full: int
 
 
-def row_of(name: str, seen: Sequence[Seen]) -> Row:
+def row_of(name: str, seen: Sequence[ObservedGrade]) -> Row:
     """Counts each file once, however often it was handed in."""
     wrong = {one.entrant.name: one for one in seen if one.entrant.kind == "mutant"}
     others = {one.entrant.name for one in seen if one.entrant.kind == "alternative"}
@@ -213,7 +216,7 @@ def table_of(rows: Sequence[Row]) -> Table:
     return table
 
 
-def problems_of(rounds: Sequence[Sequence[Seen]]) -> list[str]:
+def problems_of(rounds: Sequence[Sequence[ObservedGrade]]) -> list[str]:
     """What is not true, each with the files that were handed in with it."""
     found = []
     for seen in rounds:
@@ -235,7 +238,7 @@ def shortfalls(summed: Row) -> list[str]:
     return found
 
 
-def print_notes(console: Console, seen: Sequence[Seen]) -> None:
+def print_notes(console: Console, seen: Sequence[ObservedGrade]) -> None:
     """The mistakes that the visible tests do not notice, and those that are called something else."""
     wrong = {(one.entrant.step, one.entrant.name): one for one in seen if one.entrant.kind == "mutant"}
     for (step, name), one in wrong.items():
@@ -250,11 +253,11 @@ def print_notes(console: Console, seen: Sequence[Seen]) -> None:
 
 
 def _graded(
-    kit: BuiltKit, rounds: Sequence[Round], what: str, seed: int, only: Collection[str], say: Say
-) -> list[list[Seen]]:
+    kit: BuiltKit, rounds: Sequence[Round], what: str, seed: int, only: Collection[str], say: ProgressCallback
+) -> list[list[ObservedGrade]]:
     """Several rounds at a time, each on one processor: the slowest step of one holds up no other."""
 
-    def grade(numbered: tuple[int, Round]) -> list[Seen]:
+    def grade(numbered: tuple[int, Round]) -> list[ObservedGrade]:
         number, handed_in = numbered
         say(f"{what} {number} of {len(rounds)}")
         return grade_round(kit, handed_in, seed=seed, only=only)
@@ -263,7 +266,9 @@ def _graded(
         return list(pool.map(grade, enumerate(rounds, start=1)))
 
 
-def _pairs(kit: BuiltKit, steps: Sequence[Step], amount: int, seed: int, console: Console, say: Say) -> list[str]:
+def _pairs(
+    kit: BuiltKit, steps: Sequence[Step], amount: int, seed: int, console: Console, say: ProgressCallback
+) -> list[str]:
     """Two mistakes at a time: both must be named."""
     rounds = random_pairs(kit.project, steps, amount, seed)
     graded = _graded(kit, rounds, "pair", seed, {step.id for step in steps}, say)
@@ -280,7 +285,13 @@ def _pairs(kit: BuiltKit, steps: Sequence[Step], amount: int, seed: int, console
 
 
 def check_truth(
-    project: Project, console: Console, say: Say, *, only: Sequence[str] = (), pairs: int = 0, seed: int = 1
+    project: Project,
+    console: Console,
+    say: ProgressCallback,
+    *,
+    only: Sequence[str] = (),
+    pairs: int = 0,
+    seed: int = 1,
 ) -> int:
     """Prints the table and what is wrong; 1 when something is."""
     kit = build_kit(project, say)

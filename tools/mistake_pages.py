@@ -10,16 +10,16 @@ from PIL import Image
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_if_changed
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import Mutant, read_mutants
 from raysteps.course.project import Project
-from raysteps.diagnosis.mutant_fingerprints import Fingerprint, known_mistakes
+from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, mutant_fingerprints
 from raysteps.images.compare import Pixels, compare
 from raysteps.images.render import reference_picture
 from raysteps.judge.plan import read_plan
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
 # What there is to show of a known mistake.
 
@@ -40,7 +40,7 @@ def references(kit: BuiltKit, step: Step) -> dict[str, Pixels]:
     return {case.name: reference_picture(kit, kit.project.root / case.scene, case.args) for case in step.images}
 
 
-def _exhibit(step: Step, mutant: Mutant, known: Fingerprint, right: Mapping[str, Pixels]) -> Exhibit:
+def _exhibit(step: Step, mutant: Mutant, known: MutantFingerprint, right: Mapping[str, Pixels]) -> Exhibit:
     wrong = {
         case.name: compare(known.pictures[case.name], right[case.name], case.max_wrong)
         for case in step.images
@@ -52,12 +52,12 @@ def _exhibit(step: Step, mutant: Mutant, known: Fingerprint, right: Mapping[str,
     return Exhibit(mutant, best, known.pictures[best] if best else None, list(shown), functions)
 
 
-def exhibits(kit: BuiltKit, step: Step, say: Say) -> list[Exhibit]:
+def exhibits(kit: BuiltKit, step: Step, say: ProgressCallback) -> list[Exhibit]:
     """One for each mistake, in the order of the catalogue."""
     mutants = read_mutants(kit.project, step)
     if not mutants:
         raise GraderFault(f"{step.id}: there is no catalogue of mistakes")
-    known = known_mistakes(kit, step, read_plan(kit.project, step), mutants, say)
+    known = mutant_fingerprints(kit, step, read_plan(kit.project, step), mutants, say)
     right = references(kit, step)
     return [_exhibit(step, mutant, known[mutant.id], right) for mutant in mutants]
 
@@ -65,7 +65,7 @@ def exhibits(kit: BuiltKit, step: Step, say: Say) -> list[Exhibit]:
 # The pages' pictures: small files, compared with some patience.
 
 _COLORS = 96
-_MOST_APART = 2.0  # of 255, on average: another compiler moves a few pixels
+_MAX_APART = 2.0  # of 255, on average: another compiler moves a few pixels
 
 
 def _png(pixels: Pixels) -> bytes:
@@ -85,7 +85,7 @@ def is_current(path: Path, pixels: Pixels) -> bool:
         return False
     with Image.open(io.BytesIO(_png(pixels))) as image:
         wanted = np.asarray(image.convert("RGB"), dtype=np.int16)
-    return kept.shape == wanted.shape and float(np.abs(kept - wanted).mean()) <= _MOST_APART
+    return kept.shape == wanted.shape and float(np.abs(kept - wanted).mean()) <= _MAX_APART
 
 
 def write_image(path: Path, pixels: Pixels) -> None:
@@ -106,7 +106,7 @@ The pages are made by `./raysteps dev mistakes`; edit `mutants.toml`, not them.
 
 
 def _code(words: Iterable[str]) -> str:
-    return listed([f"`{word}`" for word in words])
+    return join_and([f"`{word}`" for word in words])
 
 
 def _cell(text: str) -> str:
@@ -121,7 +121,7 @@ def picture_path(step: Step, name: str) -> str:
 def _shows_in(exhibit: Exhibit) -> str:
     parts = []
     if exhibit.pictures:
-        parts.append(f"It shows in {listed(list(exhibit.pictures))}.")
+        parts.append(f"It shows in {join_and(list(exhibit.pictures))}.")
     else:
         parts.append("No picture of the step shows it.")
     if exhibit.functions:
@@ -166,7 +166,7 @@ def index_page(every: Sequence[tuple[Step, Sequence[Exhibit]]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _contents(project: Project, say: Say) -> tuple[dict[Path, str], dict[Path, Pixels]]:
+def _contents(project: Project, say: ProgressCallback) -> tuple[dict[Path, str], dict[Path, Pixels]]:
     """Texts and pictures by their paths."""
     kit = build_kit(project, say)
     folder = project.root / "docs" / "mistakes"
@@ -183,7 +183,7 @@ def _contents(project: Project, say: Say) -> tuple[dict[Path, str], dict[Path, P
     return texts, pictures
 
 
-def out_of_date(project: Project, say: Say) -> list[str]:
+def out_of_date(project: Project, say: ProgressCallback) -> list[str]:
     """Paths that are missing, old or no longer needed."""
     texts, pictures = _contents(project, say)
     folder = project.root / "docs" / "mistakes"
@@ -193,7 +193,7 @@ def out_of_date(project: Project, say: Say) -> list[str]:
     return sorted(path.relative_to(project.root).as_posix() for path in old)
 
 
-def write(project: Project, say: Say) -> list[str]:
+def write(project: Project, say: ProgressCallback) -> list[str]:
     """Makes what is out of date anew, removes what is not needed, and returns what changed."""
     texts, pictures = _contents(project, say)
     folder = project.root / "docs" / "mistakes"

@@ -92,7 +92,7 @@ _NAMES = ("ada", "barbara", "donald", "edsger", "frances", "grace", "john", "kat
 
 
 @dataclass(frozen=True)
-class Made:
+class SampleClass:
     """One generated submission."""
 
     path: Path
@@ -145,18 +145,18 @@ def _sources(kind: str, solved: Sources, stubs: Sources, steps: list[Step], dice
     return makers[kind]() if kind in makers else _with_statement(solved, steps, kind, dice)
 
 
-def make_class(project: Project, folder: Path, count: int, seed: int) -> list[Made]:
+def make_class(project: Project, folder: Path, count: int, seed: int) -> list[SampleClass]:
     """Writes that many submissions, the same for the same seed. Every kind is there before one comes again."""
     steps = read_steps(project)
     solved = {step.id: without_markers((project.solutions / step.path).read_text(encoding="utf-8")) for step in steps}
     stubs = {step.id: stub_for(project, step) for step in steps}
     dice = random.Random(seed)  # noqa: S311
-    made: list[Made] = []
+    made: list[SampleClass] = []
     kinds: list[str] = []
     for at in range(count):
         kinds = kinds or dice.sample(KINDS, len(KINDS))
         kind, form = kinds.pop(), FORMS[(at + at // len(FORMS)) % len(FORMS)]
         base = folder / f"{_NAMES[at % len(_NAMES)]}-{at + 1:03d}"
         sources = _sources(kind, solved, stubs, steps, dice)
-        made.append(Made(write_sample(base, form, sources, steps), kind, form))
+        made.append(SampleClass(write_sample(base, form, sources, steps), kind, form))
     return made

@@ -16,7 +16,7 @@ from typing import Any
 
 from rich.console import Console
 
-from raysteps.classroom.jobs import Say
+from raysteps.classroom.jobs import ProgressCallback
 from raysteps.cli.grade_class import add_arguments, run
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.course.manifest import read_steps
@@ -66,7 +66,7 @@ class FakeGrader:
             log(f"program {program.pid}")
             program.wait()
 
-    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: Say) -> None:
+    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: ProgressCallback) -> None:
         source = next(iter(submission.sources.values()), b"").decode()
         log(f"begin {submission.name}")
         log(f"at {os.environ.get('FAKE_WORKER', 'here')}")
@@ -102,7 +102,7 @@ class FakeGrader:
         log(f"end {submission.name}")
 
 
-def make(*, require_sandbox: bool, say: Say) -> FakeGrader:
+def make(*, require_sandbox: bool, say: ProgressCallback) -> FakeGrader:
     return FakeGrader()
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from raysteps.common.process import Outcome
 from raysteps.judge.numbers import Vector, text
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.task import TaskResult
 
 Answer = Callable[[str, list[float]], str]
 
@@ -19,8 +19,8 @@ class Ended(Exception):
         self.half = half  # what it wrote of a line
 
 
-def ran(stdout: str, code: int = 0, *, timed_out: bool = False, seconds: float = 0.01) -> Ran:
-    return Ran(Outcome(code, timed_out, stdout, "", seconds), {}, 0.0, "wall" if timed_out else "")
+def ran(stdout: str, code: int = 0, *, timed_out: bool = False, seconds: float = 0.01) -> TaskResult:
+    return TaskResult(Outcome(code, timed_out, stdout, "", seconds), {}, 0.0, "wall" if timed_out else "")
 
 
 class FakeWorker:
@@ -33,13 +33,13 @@ class FakeWorker:
         self.starts = 0
         self.used = 0.0
 
-    def __call__(self, stdin: bytes, seconds: float) -> Ran:
+    def __call__(self, stdin: bytes, seconds: float) -> TaskResult:
         self.starts += 1
         ran = self._run(stdin, seconds)
         self.used += ran.outcome.seconds
         return ran
 
-    def _run(self, stdin: bytes, seconds: float) -> Ran:
+    def _run(self, stdin: bytes, seconds: float) -> TaskResult:
         said = ""
         lines = stdin.decode().splitlines()
         for line in lines:

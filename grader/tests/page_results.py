@@ -11,10 +11,10 @@ from raysteps.course.manifest import Step
 from raysteps.images.compare import difference, write_png
 from raysteps.results.model import (
     CaseGroup,
-    Cumulative,
     Diagnosis,
     HiddenResult,
     ImageResult,
+    Integration,
     Results,
     StepResult,
     TestResult,
@@ -67,7 +67,7 @@ def passed_step(step: Step, folder: Path, shape: tuple[int, int] = (24, 32)) -> 
         tests=[TestResult("a test that passes", True)],
         images=[_image(folder, step, at, shape, right=True) for at in range(len(step.images))],
         hidden=[HiddenResult("mirror", "function", 1.0)],
-        cumulative=Cumulative(True),
+        cumulative=Integration(True),
     )
 
 
@@ -104,7 +104,7 @@ def wrong_step(step: Step, folder: Path, shape: tuple[int, int] = (24, 32)) -> S
             Diagnosis("finding", "where", f"{NASTY} is wrong where z < 0"),
         ],
         build_log=f"warning: unused {NASTY}",
-        cumulative=Cumulative(False, "This step itself is not right yet."),
+        cumulative=Integration(False, "This step itself is not right yet."),
         messages=["1 of 2 tests failed.", f"more {NASTY}"],
     )  # fmt: skip
 

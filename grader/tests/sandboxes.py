@@ -15,10 +15,10 @@ from raysteps.course.project import here
 from raysteps.sandbox.bubblewrap import Bubblewrap
 from raysteps.sandbox.detect import VARIABLE, find_sandbox
 from raysteps.sandbox.namespaces import AsRoot
-from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult
 from raysteps.sandbox.users import can_lend_users
 
-Misbehave = Callable[..., Ran]
+Misbehave = Callable[..., TaskResult]
 PROGRAM = f"program-{os.getpid()}"  # no other run of tests on this machine starts processes of that name
 
 
@@ -69,7 +69,7 @@ def hostile(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def misbehave(hostile: Path) -> Misbehave:
     """Runs the program in a sandbox, in one of its ways."""
 
-    def run(sandbox: Sandbox, *words: str | Input | Output, **limits: float) -> Ran:
+    def run(sandbox: Sandbox, *words: str | Input | Output, **limits: float) -> TaskResult:
         chosen = Limits(**{"wall_seconds": 10, "memory_mb": 512, **limits})  # type: ignore[arg-type]
         return sandbox.run(Task((Input(hostile, PROGRAM), *words), limits=chosen))
 

@@ -11,7 +11,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.common.process import end_all
+from raysteps.common.process import kill_process_group
 
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -70,7 +70,7 @@ class Terminal:
         return termios.tcgetattr(self._slave) == self.before
 
     def close(self) -> None:
-        end_all(self.process)
+        kill_process_group(self.process)
         self.process.wait()
         os.close(self._master)
         os.close(self._slave)

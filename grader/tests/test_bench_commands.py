@@ -14,7 +14,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import run
 from raysteps.course.project import Project
 from tools.bench.docs import bench_docs
-from tools.bench.programs import ask, can_pin, checked, pinned, portable, what_is_missing
+from tools.bench.programs import ask, can_pin_processor, checked, pinned, portable, what_is_missing
 from tools.bench.records import keep, kept
 from tools.bench.scale import KINDS
 
@@ -66,7 +66,7 @@ def test_what_is_missing_are_named_with_the_way_to_install_them(monkeypatch: pyt
     assert what_is_missing({"embree_version": "3.13.5", "structures": [{"name": "wide"}]}) == [povray]
 
 
-@pytest.mark.skipif(not can_pin(), reason="this system pins no programs")
+@pytest.mark.skipif(not can_pin_processor(), reason="this system pins no programs")
 def test_pinning_ends_with_the_measurement() -> None:
     before = os.sched_getaffinity(0)
     with pinned() as works:

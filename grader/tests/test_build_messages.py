@@ -5,13 +5,13 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.grading.build_messages import compile_message, forbidden_message, link_message
-from raysteps.sandbox.task import Ran, Stopped
+from raysteps.sandbox.task import LimitHit, TaskResult
 
 SOURCE = "#include <a>\n\nint one;\nint two = nope;\nint three;\n"
 
 
-def ran(stderr: str, *, stopped: Stopped = "", seconds: float = 1.0) -> Ran:
-    return Ran(Outcome(1, stopped == "wall", "", stderr, seconds), {}, seconds, stopped)
+def ran(stderr: str, *, stopped: LimitHit = "", seconds: float = 1.0) -> TaskResult:
+    return TaskResult(Outcome(1, stopped == "wall", "", stderr, seconds), {}, seconds, stopped)
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def test_places_as_windows_writes_them(shadows: Step, output: str, place: str) -
         (ran("", stopped="memory"), "It does not build: the compiler needed more memory than it may have."),
     ],
 )
-def test_other_ends_of_a_compiler(shadows: Step, said: Ran, expected: str) -> None:
+def test_other_ends_of_a_compiler(shadows: Step, said: TaskResult, expected: str) -> None:
     assert compile_message(shadows, SOURCE, said) == expected
 
 
@@ -86,7 +86,7 @@ def test_a_missing_function_is_named() -> None:
     ],
 )
 def test_microsofts_linker_is_understood(said: str, told: str) -> None:
-    message = link_message(Ran(Outcome(1, False, said, "", 1.0), {}, 1.0, ""))
+    message = link_message(TaskResult(Outcome(1, False, said, "", 1.0), {}, 1.0, ""))
     assert "raysteps::f(int) is " + told in message
 
 

@@ -16,8 +16,8 @@ from tools.calibration.full_marks import mark
 from tools.calibration.gate import Gate, Share, gate_between, plain
 from tools.calibration.measure import (
     KIT,
-    Calibrated,
-    Limited,
+    CalibratedPicture,
+    LimitedPicture,
     PictureShares,
     View,
     all_settings,
@@ -60,32 +60,34 @@ def test_a_mistake_of_few_pixels_is_not_what_the_picture_shows() -> None:
 
 
 def test_a_margin_under_two_is_a_complaint() -> None:
-    limited = Limited("02-intersection", "twins", "balls", 0.01, ())
+    limited = LimitedPicture("02-intersection", "twins", "balls", 0.01, ())
     near = gate_between({"a": 0.004}, {"mild": [0.007]}, _PIXELS, 0.0053)
     assert not near.is_clear
-    assert "change the scene" in complaints([Calibrated(limited, near)], check=False)[0]
+    assert "change the scene" in complaints([CalibratedPicture(limited, near)], check=False)[0]
     stale = Gate(Share(0.001, "a"), Share(0.1, "mild"), (), 0.01, 0.05)
-    assert complaints([Calibrated(limited, stale)], check=False) == []
-    assert "max_wrong is 0.05, measured 0.01" in complaints([Calibrated(limited, stale)], check=True)[0]
+    assert complaints([CalibratedPicture(limited, stale)], check=False) == []
+    assert "max_wrong is 0.05, measured 0.01" in complaints([CalibratedPicture(limited, stale)], check=True)[0]
     fresh = replace(stale, written=0.012)
-    assert complaints([Calibrated(limited, fresh)], check=True) == []
+    assert complaints([CalibratedPicture(limited, fresh)], check=True) == []
     assert (stale.stands, fresh.stands) == (0.01, 0.012)
     narrow = Gate(Share(0.008, "a"), Share(0.018, "mild"), (), 0.012, 0.008)
     assert not narrow.is_written, "near enough, and yet a correct solution would not pass"
-    page = calibration_page([Calibrated(limited, stale)], [], ["no FMA here"])
+    page = calibration_page([CalibratedPicture(limited, stale)], [], ["no FMA here"])
     assert "| 02-intersection | balls-twin | 0.1 % (a) | 10 % (mild) | 100 | 0.01 |  |" in page
     assert "- no FMA here" in page
-    other = Limited("04-shadows", "images", "corner", 0.01, ())
+    other = LimitedPicture("04-shadows", "images", "corner", 0.01, ())
     unseen = tuple(f"a-mistake-with-a-long-name-{number}" for number in range(9))
     fresh = replace(fresh, unseen=unseen)
     stale = replace(stale, unseen=unseen[:7])
-    page = calibration_page([Calibrated(limited, stale)], [], ["no FMA here"])
-    both = calibration_page([Calibrated(limited, fresh), Calibrated(other, fresh)], [], ["no FMA here"])
+    page = calibration_page([CalibratedPicture(limited, stale)], [], ["no FMA here"])
+    both = calibration_page([CalibratedPicture(limited, fresh), CalibratedPicture(other, fresh)], [], ["no FMA here"])
     assert page_with(both, page) == calibration_page(
-        [Calibrated(limited, stale), Calibrated(other, fresh)], [], ["no FMA here"]
+        [CalibratedPicture(limited, stale), CalibratedPicture(other, fresh)], [], ["no FMA here"]
     )
-    new = Calibrated(Limited("10-fog", "images", "mist", 0.01, ()), fresh)
-    more = calibration_page([Calibrated(limited, fresh), Calibrated(other, fresh), new], [], ["no FMA here"])
+    new = CalibratedPicture(LimitedPicture("10-fog", "images", "mist", 0.01, ()), fresh)
+    more = calibration_page(
+        [CalibratedPicture(limited, fresh), CalibratedPicture(other, fresh), new], [], ["no FMA here"]
+    )
     assert page_with(both, calibration_page([new], [], [])) == more
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from class_fakes import grade_class, write_entry
 
-from raysteps.classroom.database import ClassDatabase, reading
+from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.classroom.entries import Shard
 from raysteps.common.errors import UsageError
 
@@ -148,7 +148,7 @@ def test_no_option_is_ignored_without_a_word(tmp_path: Path, words: list[str]) -
 
 def test_shards_are_read_as_they_were_at_one_moment(tmp_path: Path, handed_in: Path) -> None:
     shard = _grade(tmp_path, 1)
-    with reading(shard / "class.sqlite") as connection:
+    with open_readonly(shard / "class.sqlite") as connection:
         query = "SELECT count(*) FROM submissions"
         (before,) = connection.execute(query).fetchone()
         with closing(ClassDatabase(shard)) as database:

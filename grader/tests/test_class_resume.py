@@ -138,14 +138,14 @@ def test_interrupted_while_the_kit_is_built(
 def test_whatever_one_submission_brings_about_the_class_goes_on(
     tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    known = raysteps.submission.load.take_in
+    known = raysteps.submission.load.load_submission
 
     def take_in(path: Path, steps: Any) -> Any:
         if path.name == "s2":
             raise KeyError("odd")
         return known(path, steps)
 
-    monkeypatch.setattr(raysteps.classroom.entries, "take_in", take_in)
+    monkeypatch.setattr(raysteps.classroom.entries, "load_submission", take_in)
     out = tmp_path / "out"
     assert grade_class(handed_in, "--out", out) == 4
     document = _document(out)

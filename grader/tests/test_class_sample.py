@@ -8,7 +8,7 @@ import pytest
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import same_code
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 from tools.sample_class import FORMS, KINDS, MISTAKES, make_class
 
 
@@ -33,7 +33,7 @@ def test_every_submission_is_what_it_says(
 ) -> None:
     seen: Counter[str] = Counter()
     for one in make_class(project, tmp_path, 60, 5):
-        sources = {step: data.decode() for step, data in take_in(one.path, steps).sources.items()}
+        sources = {step: data.decode() for step, data in load_submission(one.path, steps).sources.items()}
         different = [step for step, text in sources.items() if not same_code(text, solved[step])]
         seen[one.form] += 1
         match one.kind:

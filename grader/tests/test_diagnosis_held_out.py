@@ -12,10 +12,10 @@ from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
 from raysteps.exports.items import step_text
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import Results
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _FOLDER = Path(__file__).parent / "held_out"
@@ -32,8 +32,8 @@ def _source(case: dict[str, Any]) -> str:
 
 
 def _grade(kit: BuiltKit, make: MakeSubmission, out: Path, sources: Sources) -> Results:
-    return grade_one(
-        kit, take_in(make("held-out", sources), kit.steps), Settings(only=tuple(sources)), find_sandbox(), out
+    return grade_submission(
+        kit, load_submission(make("held-out", sources), kit.steps), Settings(only=tuple(sources)), find_sandbox(), out
     )
 
 

@@ -8,13 +8,13 @@ import pytest
 
 from raysteps.course.manifest import ImageCase
 from raysteps.course.mutants import Mutant
-from raysteps.diagnosis.evidence import Answers, Evidence, Picture, Questions, Said, likeness
+from raysteps.diagnosis.evidence import Answers, Evidence, ObservedAnswers, Picture, Questions, answer_similarity
 from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, pair_score
-from raysteps.diagnosis.mutant_fingerprints import Fingerprint, read_known, write_known
+from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
 from raysteps.images.compare import Pixels
 from raysteps.judge.cases import functions_of
 from raysteps.judge.functions import Case
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 _AMOUNT = 40
 
@@ -25,31 +25,36 @@ def _mutant(name: str, function: str = "mirror") -> Mutant:
 
 def _questions(function: str = "mirror") -> Questions:
     known = functions_of("03")[function]
-    draw = Draw(f"made-up/{function}")
+    draw = RandomSource(f"made-up/{function}")
     cases = [Case(function, "any", known.groups[0].make(draw)) for _ in range(_AMOUNT)]
     return Questions(known, cases, ["1 2 3"] * _AMOUNT)
 
 
-def _wrong(line: str, *numbers: int, problem: str = "the direction is wrong") -> dict[int, Said]:
-    return {number: Said(line, problem) for number in numbers}
+def _wrong(line: str, *numbers: int, problem: str = "the direction is wrong") -> dict[int, ObservedAnswers]:
+    return {number: ObservedAnswers(line, problem) for number in numbers}
 
 
-def _score(mistake: Mapping[int, Said], mine: Mapping[int, Said]) -> float:
+def _score(mistake: Mapping[int, ObservedAnswers], mine: Mapping[int, ObservedAnswers]) -> float:
     return agreement(_questions(), mistake, mine).score
 
 
 def test_the_same_numbers_are_the_same_answer() -> None:
     questions = _questions()
     function, case = questions.function, questions.cases[0]
-    said = Said("4 5 6", "it is wrong")
-    assert likeness(function, case, "1 2 3", said, said) == 1
-    assert likeness(function, case, "1 2 3", said, Said("4.0001 5 6", "it is wrong")) == 1
-    assert likeness(function, case, "1 2 3", said, Said("4 5 -6", "it is wrong")) > 0.6
-    assert likeness(function, case, "1 2 3", said, Said("-4 -5 -6", "it is wrong")) == 0.25, "only signs agree"
-    assert likeness(function, case, "1 2 3", said, Said("7 8 9", "it is wrong")) == 0.25
-    assert likeness(function, case, "1 2 3", said, Said("7 8 9", "it is too long")) == 0
-    assert likeness(function, case, "1 2 3", said, Said("", "crashed")) == 0
-    assert likeness(function, case, "1 2 3", Said("nan 1 1", "x"), Said("nan 1 1", "x")) == 1
+    said = ObservedAnswers("4 5 6", "it is wrong")
+    assert answer_similarity(function, case, "1 2 3", said, said) == 1
+    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("4.0001 5 6", "it is wrong")) == 1
+    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("4 5 -6", "it is wrong")) > 0.6
+    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("-4 -5 -6", "it is wrong")) == 0.25, (
+        "only signs agree"
+    )
+    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is wrong")) == 0.25
+    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is too long")) == 0
+    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("", "crashed")) == 0
+    assert (
+        answer_similarity(function, case, "1 2 3", ObservedAnswers("nan 1 1", "x"), ObservedAnswers("nan 1 1", "x"))
+        == 1
+    )
 
 
 @pytest.mark.parametrize(
@@ -58,7 +63,9 @@ def test_the_same_numbers_are_the_same_answer() -> None:
 def test_whatever_is_said_is_compared(line: str) -> None:
     questions = _questions()
     for other in ("4 5 6", "threw it", "inf inf inf"):
-        value = likeness(questions.function, questions.cases[0], "1 2 3", Said(other, "a"), Said(line, "a"))
+        value = answer_similarity(
+            questions.function, questions.cases[0], "1 2 3", ObservedAnswers(other, "a"), ObservedAnswers(line, "a")
+        )
         assert 0 <= value <= 1
 
 
@@ -71,7 +78,7 @@ def test_a_score_is_the_share_of_wrong_cases_that_agree() -> None:
 
 
 def test_cases_that_were_never_asked_count_for_nothing() -> None:
-    unasked = {number: Said("", "", known=False) for number in range(10, 40)}
+    unasked = {number: ObservedAnswers("", "", known=False) for number in range(10, 40)}
     assert _score(_wrong("4 5 6", *range(40)), _wrong("4 5 6", *range(10)) | unasked) == 1
 
 
@@ -80,9 +87,10 @@ def _evidence(mine: Answers) -> Evidence:
 
 
 def _matched(
-    mine: Mapping[str, Mapping[int, Said]], known: Mapping[Mutant, Mapping[str, Mapping[int, Said]]]
+    mine: Mapping[str, Mapping[int, ObservedAnswers]],
+    known: Mapping[Mutant, Mapping[str, Mapping[int, ObservedAnswers]]],
 ) -> list[Match]:
-    return [match(mutant, Fingerprint(answers, {}), _evidence(mine)) for mutant, answers in known.items()]
+    return [match(mutant, MutantFingerprint(answers, {}), _evidence(mine)) for mutant, answers in known.items()]
 
 
 def test_one_mistake_upstream_explains_what_it_spoils_further_down() -> None:
@@ -117,7 +125,7 @@ def test_mistakes_that_cannot_be_told_apart_are_both_said() -> None:
 
 
 def test_noise_has_no_name() -> None:
-    mine = {number: Said(f"{number} {number + 1} 7", "the direction is wrong") for number in range(30)}
+    mine = {number: ObservedAnswers(f"{number} {number + 1} 7", "the direction is wrong") for number in range(30)}
     known = {_mutant("one"): {"mirror": _wrong("4 5 6", *range(30))}}
     assert not name_mistakes(_matched({"mirror": mine}, known))
 
@@ -145,7 +153,7 @@ def test_pictures_alone_name_a_mistake_where_there_is_no_judge() -> None:
     other[15:] //= 2
     evidence = Evidence({}, {}, {"lit": _picture(wrong, reference)})
     matches = [
-        match(_mutant(name), Fingerprint({}, {"lit": pixels}), evidence)
+        match(_mutant(name), MutantFingerprint({}, {"lit": pixels}), evidence)
         for name, pixels in (("b", other), ("a", wrong))
     ]
     (named,) = name_mistakes(matches)
@@ -156,18 +164,21 @@ def test_a_picture_of_one_colour_has_no_name() -> None:
     reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
     black = np.zeros_like(reference)
     evidence = Evidence({}, {}, {"lit": _picture(black, reference)})
-    assert not name_mistakes([match(_mutant("dark"), Fingerprint({}, {"lit": black}), evidence)])
+    assert not name_mistakes([match(_mutant("dark"), MutantFingerprint({}, {"lit": black}), evidence)])
 
 
 def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
-    answers = {"mirror": {3: Said("1 2 3", "it is wrong"), 4: Said("", "", known=False)}}
-    known = {"one": Fingerprint(answers, {"lit": np.ones((2, 3, 3), dtype=np.uint8)}), "two": Fingerprint({}, {})}
+    answers = {"mirror": {3: ObservedAnswers("1 2 3", "it is wrong"), 4: ObservedAnswers("", "", known=False)}}
+    known = {
+        "one": MutantFingerprint(answers, {"lit": np.ones((2, 3, 3), dtype=np.uint8)}),
+        "two": MutantFingerprint({}, {}),
+    }
     write_known(tmp_path / "03.npz", known)
     found = read_known(tmp_path / "03.npz")
     assert found is not None
     assert found["one"].answers == answers
     assert (found["one"].pictures["lit"] == 1).all()
-    assert found["two"] == Fingerprint({}, {})
+    assert found["two"] == MutantFingerprint({}, {})
     (tmp_path / "03.npz").write_bytes(b"half of a file")
     assert read_known(tmp_path / "03.npz") is None
     assert read_known(tmp_path / "04.npz") is None

@@ -8,9 +8,9 @@ import pytest
 from raysteps.course.manifest import Step
 from raysteps.results.model import (
     CaseGroup,
-    Cumulative,
     HiddenResult,
     ImageResult,
+    Integration,
     Results,
     StepResult,
     TestResult,
@@ -52,7 +52,7 @@ def step_result(step: Step, *, share: float = 1.0, text: str = "is wrong") -> St
         result.points = round(step.points * shares, 2)
         result.status = "partial" if result.points else "failed"
         result.messages = ["Some of 7 tests failed.", text]
-    result.cumulative = Cumulative(share >= 1, "" if share >= 1 else "balls: the picture is wrong.")
+    result.cumulative = Integration(share >= 1, "" if share >= 1 else "balls: the picture is wrong.")
     return result
 
 

@@ -3,11 +3,11 @@
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.exports.class_results import Graded, Person, match
+from raysteps.exports.class_results import GradedStudent, Person, match
 
 
-def _graded(submission: str = "x", id: str = "", name: str = "", email: str = "") -> Graded:  # noqa: A002
-    return Graded(submission, id, name, email, 1.0, 1.0, 10.0)
+def _graded(submission: str = "x", id: str = "", name: str = "", email: str = "") -> GradedStudent:  # noqa: A002
+    return GradedStudent(submission, id, name, email, 1.0, 1.0, 10.0)
 
 
 def _person(label: str, email: str = "", id: str = "", number: str = "", name: str = "") -> Person:  # noqa: A002
@@ -46,7 +46,7 @@ _PEOPLE = [
         (_graded("Ann_7001_assignsubmission_file_7001555_assignsubmission_"), 0),
     ],
 )
-def test_evidence(who: Graded, row: int | str | None) -> None:
+def test_evidence(who: GradedStudent, row: int | str | None) -> None:
     if isinstance(row, str):
         with pytest.raises(UsageError, match=row):
             match([who], _PEOPLE)

@@ -15,10 +15,10 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.gallery import shots as reference
-from raysteps.gallery.scenes import CHOSEN, Shown, about_scene, shown_scenes, what_is_new
+from raysteps.gallery.scenes import CHOSEN, GalleryScene, about_scene, gallery_scenes, what_is_new
 from raysteps.gallery.shots import MySteps
 from raysteps.images.render import reference_picture
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SIZE = "24x16"
@@ -37,17 +37,17 @@ def test_every_step_has_words_of_its_own(steps: list[Step]) -> None:
 
 
 def test_scenes_are_found_by_name_and_by_file(project: Project, tmp_path: Path) -> None:
-    assert [scene.name for scene in shown_scenes(project, [])] == list(CHOSEN)
+    assert [scene.name for scene in gallery_scenes(project, [])] == list(CHOSEN)
     file = tmp_path / "my-own.nff"
     file.write_text("# A ball in the dark: nothing else.\n# More words.\nv\n")
-    found = shown_scenes(project, ["glass", str(file), "glass"])
+    found = gallery_scenes(project, ["glass", str(file), "glass"])
     assert [(scene.name, scene.title) for scene in found] == [("glass", "Glass"), ("my-own", "My own")]
     assert found[1].words == "A ball in the dark"
     assert about_scene("empty", tmp_path / "nowhere.nff") == ("Empty", "")
     with pytest.raises(
         UsageError, match=r"--scene nowhere: there is no such scene; expected an NFF file or one of .*glass"
     ):
-        shown_scenes(project, ["nowhere"])
+        gallery_scenes(project, ["nowhere"])
 
 
 @pytest.mark.parametrize("size", ["640", "8x8", "640x9999", "axb"])
@@ -75,9 +75,9 @@ def test_a_scene_that_is_too_large_to_be_traced_without_a_tree_shows_no_work(
 
     monkeypatch.setattr(reference, "reference_picture", too_slow)
     kit: Any = SimpleNamespace(project=project, steps=steps)
-    own = Shown("large", "Large", "", tmp_path / "large.nff")
+    own = GalleryScene("large", "Large", "", tmp_path / "large.nff")
     assert reference.reference_efforts(kit, own, lambda words: None) == {}
-    (glass,) = shown_scenes(project, ["glass"])
+    (glass,) = gallery_scenes(project, ["glass"])
     with pytest.raises(GraderFault):
         reference.reference_efforts(kit, glass, lambda words: None)
 
@@ -108,8 +108,8 @@ def test_steps_that_cannot_be_shown_are_notes_and_the_others_are_shown(
         phong: unsolved[phong],
         shadows: solved[shadows],
     }
-    submission = take_in(make_submission("ann", sources), steps)
-    (scene,) = shown_scenes(project, ["three-spheres"])
+    submission = load_submission(make_submission("ann", sources), steps)
+    (scene,) = gallery_scenes(project, ["three-spheres"])
     mine = MySteps(kit, submission, tmp_path / "build", lambda words: None)
     shots = [mine.shot(step, scene, _SIZE) for step in steps[:5]]
     assert [shot.pixels is not None for shot in shots] == [True, False, False, True, False]

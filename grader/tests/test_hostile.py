@@ -26,7 +26,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.sandbox import users
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain import build_kit as kit_building
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -235,7 +235,7 @@ def test_an_attack_is_real(attack: Attack, place: Range, temporary: Path) -> Non
     folder.mkdir()
     listener = Listener(folder)
     try:
-        graded = replace(place, listener=listener).grade(attack, OpenAir(), f"{attack.name}-outside")
+        graded = replace(place, listener=listener).grade(attack, LimitsOnly(), f"{attack.name}-outside")
     finally:
         listener.close()
     assert graded.results[0].steps[0].points > 0, graded.results[0].steps[0].messages

@@ -21,8 +21,8 @@ from raysteps.common.schemas import complaint, read_schema
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.images.compare import read_ppm
-from raysteps.inspector.divergence import find_parting
-from raysteps.inspector.programs import Inspected, Wish, inspect, last_good_step
+from raysteps.inspector.divergence import find_divergence
+from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
 from raysteps.inspector.records import Record
 from raysteps.toolchain.cmake import release_tree
 
@@ -43,9 +43,9 @@ def raytrace(project: Project) -> Path:
     return tree.program("raytrace-reference")
 
 
-def wish(project: Project, scene: str, x: int, y: int, step: int = 8, *options: str) -> Wish:
+def wish(project: Project, scene: str, x: int, y: int, step: int = 8, *options: str) -> InspectOptions:
     path = project.scenes / "lessons" / f"{scene}.nff"
-    return Wish(str(path), str(x), str(y), step, (*SIZE, *options))
+    return InspectOptions(str(path), str(x), str(y), step, (*SIZE, *options))
 
 
 @pytest.fixture(scope="session")
@@ -102,7 +102,7 @@ def test_a_scene_that_is_none_is_named(project: Project, program: Path, tmp_path
     scene = tmp_path / "scene.nff"
     scene.write_text("s 0 0 zero 1\n", encoding="utf-8")
     with pytest.raises(UsageError, match=r"scene\.nff:1"):
-        inspect(program, Wish(str(scene), "1", "1", 8))
+        inspect(program, InspectOptions(str(scene), "1", "1", 8))
 
 
 @pytest.mark.parametrize(
@@ -115,14 +115,14 @@ def test_a_scene_that_is_none_is_named(project: Project, program: Path, tmp_path
     ],
 )
 def test_how_a_program_of_a_student_may_end(tmp_path: Path, text: str, says: str) -> None:
-    ended = inspect(script(tmp_path, text), Wish("scene.nff", "1", "2", 8), seconds=0.5)
+    ended = inspect(script(tmp_path, text), InspectOptions("scene.nff", "1", "2", 8), seconds=0.5)
     assert says in ended.problem
     assert ended.record is None
 
 
 def test_the_last_step_that_still_works_is_found(tmp_path: Path) -> None:
     program = script(tmp_path, 'test "$5" -lt 5 || kill -SEGV $$')
-    assert last_good_step(program, Wish("scene.nff", "1", "2", 8)) == 4
+    assert last_good_step(program, InspectOptions("scene.nff", "1", "2", 8)) == 4
 
 
 @pytest.mark.parametrize("scene", ["acne-corner", "cones", "glass", "inside-sphere", "many-spheres", "overexposed"])
@@ -156,8 +156,8 @@ def jitter(value: Any, share: float) -> Any:
 
 
 def test_rounding_is_no_difference(record: Record) -> None:
-    assert find_parting(record, record) is None
-    assert find_parting(jitter(record, 3e-6), record) is None
+    assert find_divergence(record, record) is None
+    assert find_divergence(jitter(record, 3e-6), record) is None
 
 
 def test_other_boxes_and_more_tests_are_no_difference(project: Project, program: Path, record: Record) -> None:
@@ -165,7 +165,7 @@ def test_other_boxes_and_more_tests_are_no_difference(project: Project, program:
         other = inspect(program, wish(project, "three-spheres", 24, 15, 8, "--accel", accel)).record
         assert other is not None
         assert other["counts"] != record["counts"]
-        assert find_parting(other, record) is None
+        assert find_divergence(other, record) is None
 
 
 def _frame(record: Record) -> None:
@@ -221,13 +221,13 @@ def test_the_first_difference_is_named(
 ) -> None:
     mine = copy.deepcopy(record)
     change(mine)
-    parting = find_parting(mine, record)
+    parting = find_divergence(mine, record)
     assert parting is not None
     assert (parting.place, parting.function) == (place, function)
     assert words in parting.words
     for width in (60, 160):
         console = Console(width=width, record=True, file=io.StringIO())
-        assert compare(project, Inspected(record=mine), Inspected(record=record), console) == 1
+        assert compare(project, InspectResult(record=mine), InspectResult(record=record), console) == 1
         text = console.export_text()
         marked = [line for line in text.splitlines() if line.lstrip().startswith(">")]
         assert len(marked) == (2 if width == 60 else 1)
@@ -236,7 +236,7 @@ def test_the_first_difference_is_named(
 
 def test_two_that_agree_are_told_so(project: Project, record: Record) -> None:
     console = Console(width=160, record=True, file=io.StringIO())
-    assert compare(project, Inspected(record=record), Inspected(record=record), console) == 0
+    assert compare(project, InspectResult(record=record), InspectResult(record=record), console) == 0
     assert "No difference" in console.export_text()
 
 

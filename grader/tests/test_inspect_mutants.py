@@ -12,8 +12,8 @@ from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_alternatives, read_mutants, reference_source
 from raysteps.course.project import Project
 from raysteps.images.compare import Pixels, read_ppm
-from raysteps.inspector.divergence import find_parting
-from raysteps.inspector.programs import Wish, inspect
+from raysteps.inspector.divergence import find_divergence
+from raysteps.inspector.programs import InspectOptions, inspect
 
 _SIZE = ("--size", "64x48")
 # step, mistake, scene; then the line that is marked, and the function that it points to
@@ -69,13 +69,13 @@ def test_the_place_of_a_mistake_is_marked(project: Project, steps: list[Step], w
             for at, program in enumerate((workshop.link("raytrace", step, built, name), workshop.reference("raytrace")))
         ]
         x, y = _worst_pixel(pictures[0], pictures[1])
-        wish = Wish(scene, str(x), str(y), step.index, _SIZE)
+        wish = InspectOptions(scene, str(x), str(y), step.index, _SIZE)
         mine = inspect(workshop.link("inspect", step, built, name), wish).record
         reference = inspect(workshop.reference("inspect"), wish).record
         assert mine is not None
         assert reference is not None
         assert mine["bytes"] == pictures[0][y, x].tolist()
-        parting = find_parting(mine, reference)
+        parting = find_divergence(mine, reference)
         assert parting is not None, name
         return (number, mistake, lesson, parting.place, parting.function)
 
@@ -93,8 +93,8 @@ def test_another_right_solution_is_no_difference(
     built = workshop.compile(step, alternative.source, f"right-{number}")
     program = workshop.link("inspect", step, built, f"right-{number}")
     for x, y in _PIXELS:
-        wish = Wish(_scene(project, _ALTERNATIVES[number]), str(x), str(y), 8, _SIZE)
+        wish = InspectOptions(_scene(project, _ALTERNATIVES[number]), str(x), str(y), 8, _SIZE)
         mine, reference = inspect(program, wish).record, inspect(workshop.reference("inspect"), wish).record
         assert mine is not None
         assert reference is not None
-        assert find_parting(mine, reference) is None, (x, y)
+        assert find_divergence(mine, reference) is None, (x, y)

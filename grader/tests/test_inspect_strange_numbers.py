@@ -11,9 +11,9 @@ import pytest
 from inspect_records import ball_record
 from rich.console import Console
 
-from raysteps.inspector.divergence import find_parting
+from raysteps.inspector.divergence import find_divergence
 from raysteps.inspector.pixel_page import page_html
-from raysteps.inspector.programs import Wish, inspect
+from raysteps.inspector.programs import InspectOptions, inspect
 from raysteps.inspector.records import Record
 from raysteps.inspector.side_by_side import print_trees
 
@@ -53,7 +53,7 @@ def test_it_is_compared_and_drawn_all_the_same(change: Change, function: str | N
     for record in (mine, reference):
         record["ray"]["hit"]["fill"]["shine"] = 300
     change(mine)
-    parting = find_parting(mine, reference)
+    parting = find_divergence(mine, reference)
     assert (parting.function if parting else None) == function
     drawn = re.search(r'id="data">(.*?)</script>', page_html(mine, reference, parting), re.DOTALL)
     assert drawn is not None
@@ -68,6 +68,6 @@ def test_a_scene_whose_name_is_no_text_can_be_inspected(tmp_path: Path) -> None:
     program = tmp_path / "inspect-mine"
     program.write_text(f'#!/bin/sh\nwhile [ "$1" != --json ]; do shift; done\ncp "{tmp_path}/made.json" "$2"\n')
     program.chmod(0o755)
-    found = inspect(program, Wish("b.nff", "1", "2", 8))
+    found = inspect(program, InspectOptions("b.nff", "1", "2", 8))
     assert found.record is not None
     assert "b\ufffd.nff" in page_html(found.record)

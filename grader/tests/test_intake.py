@@ -13,7 +13,7 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.submission import entries
-from raysteps.submission.load import submission_name, take_in
+from raysteps.submission.load import load_submission, submission_name
 
 LAYOUTS = [
     "steps/02-intersection/intersection.cpp",
@@ -52,21 +52,21 @@ def test_layouts(tmp_path: Path, steps: list[Step], layout: str, kind: str) -> N
             (path / name).write_bytes(data)
     else:
         path = _zip(tmp_path / "anna.zip", files) if kind == "zip" else _tar(tmp_path / "anna.tar.gz", files)
-    submission = take_in(path, steps)
+    submission = load_submission(path, steps)
     assert submission.name == "anna"
     assert submission.sources == {"02-intersection": b"int x;"}
 
 
 def test_the_most_explicit_place_wins(tmp_path: Path, steps: list[Step]) -> None:
     files = {"intersection.cpp": b"flat", "steps/02-intersection/intersection.cpp": b"steps"}
-    assert take_in(_zip(tmp_path / "a.zip", files), steps).sources == {"02-intersection": b"steps"}
+    assert load_submission(_zip(tmp_path / "a.zip", files), steps).sources == {"02-intersection": b"steps"}
 
 
 @pytest.mark.parametrize("name", ["../intersection.cpp", "/intersection.cpp", "a/../../intersection.cpp", "a/b/c.cpp"])
 def test_paths_that_lead_out_are_ignored(tmp_path: Path, steps: list[Step], name: str) -> None:
     for path in (_zip(tmp_path / "a.zip", {name: b"x"}), _tar(tmp_path / "a.tgz", {name: b"x"})):
         with pytest.raises(UsageError, match="holds no step"):
-            take_in(path, steps)
+            load_submission(path, steps)
 
 
 def test_links_and_pipes_are_refused(tmp_path: Path, steps: list[Step]) -> None:
@@ -77,7 +77,7 @@ def test_links_and_pipes_are_refused(tmp_path: Path, steps: list[Step]) -> None:
     (folder / "intersection.cpp").symlink_to(secret)
     os.mkfifo(folder / "shadows.cpp")
     (folder / "reflection.cpp").write_text("int x;")
-    submission = take_in(folder, steps)
+    submission = load_submission(folder, steps)
     assert set(submission.sources) == {"05-reflection"}
     assert submission.notes["02-intersection"] == "intersection.cpp is a link, not a file, and was not taken."
     assert "is a pipe" in submission.notes["04-shadows"]
@@ -90,14 +90,14 @@ def test_links_in_archives_are_refused(tmp_path: Path, steps: list[Step]) -> Non
             info = tarfile.TarInfo(name)
             info.type, info.linkname = kind, "/etc/passwd"
             archive.addfile(info)
-    submission = take_in(path, steps)
+    submission = load_submission(path, steps)
     assert not submission.sources
     assert set(submission.notes) == {"02-intersection", "04-shadows"}
     zipped = zipfile.ZipInfo("intersection.cpp")
     zipped.external_attr = 0o120777 << 16
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive_zip:
         archive_zip.writestr(zipped, "/etc/passwd")
-    submission = take_in(tmp_path / "a.zip", steps)
+    submission = load_submission(tmp_path / "a.zip", steps)
     assert not submission.sources
     assert "is a link" in submission.notes["02-intersection"]
 
@@ -112,7 +112,7 @@ def test_large_and_repeated_files_cost_their_step_only(tmp_path: Path, steps: li
         info = tarfile.TarInfo("octree.cpp")
         info.size = 1
         archive.addfile(info, io.BytesIO(b"o"))
-    submission = take_in(path, steps)
+    submission = load_submission(path, steps)
     assert submission.sources == {"06-octree": b"o"}
     assert "more than once" in submission.notes["02-intersection"]
     assert "larger than 1 MB" in submission.notes["04-shadows"]
@@ -125,10 +125,10 @@ def test_a_zip_bomb_is_not_unpacked(tmp_path: Path, steps: list[Step]) -> None:
             for _ in range(size // 1_000_000):
                 file.write(bytes(1_000_000))
         if size < 32_000_000:
-            assert words in take_in(path, steps).notes["02-intersection"]
+            assert words in load_submission(path, steps).notes["02-intersection"]
         else:
             with pytest.raises(UsageError, match=words):
-                take_in(path, steps)
+                load_submission(path, steps)
 
 
 @pytest.mark.parametrize("data", [b"", b"not an archive", b"PK\x03\x04broken", b"\x1f\x8bbroken"])
@@ -136,9 +136,9 @@ def test_junk_is_a_usage_error(tmp_path: Path, steps: list[Step], data: bytes) -
     path = tmp_path / "junk.zip"
     path.write_bytes(data)
     with pytest.raises(UsageError):
-        take_in(path, steps)
+        load_submission(path, steps)
     with pytest.raises(UsageError, match="no such submission"):
-        take_in(tmp_path / "missing", steps)
+        load_submission(tmp_path / "missing", steps)
 
 
 @pytest.mark.parametrize("kind", ["folder", "zip", "tar"])
@@ -157,17 +157,17 @@ def test_too_many_files_are_refused(
             (tmp_path / name / inner).write_bytes(data)
         return tmp_path / name
 
-    assert take_in(pack("few"), steps).sources == {"02-intersection": b"int x;"}
+    assert load_submission(pack("few"), steps).sources == {"02-intersection": b"int x;"}
     files |= {f"more/{number}": b"x" for number in range(9)}
     with pytest.raises(UsageError, match="more than 8 files"):
-        take_in(pack("many"), steps)
+        load_submission(pack("many"), steps)
 
 
 def test_a_tar_bomb_is_refused(tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(entries, "MAX_UNPACKED", 2 << 20)
     path = _tar(tmp_path / "a.tgz", {"zeros": b"\0" * (3 << 20), "intersection.cpp": b"int x;"})
     with pytest.raises(UsageError, match="MB unpacked"):
-        take_in(path, steps)
+        load_submission(path, steps)
 
 
 @pytest.mark.parametrize("ending", ["gz", "xz", "bz2"])
@@ -184,7 +184,7 @@ def test_damaged_archives_are_a_usage_error(tmp_path: Path, steps: list[Step], e
         path = tmp_path / f"{number}.tar.{ending}"
         path.write_bytes(broken)
         with suppress(UsageError):  # damage shows only where the format has a checksum; no other exception may come
-            take_in(path, steps)
+            load_submission(path, steps)
 
 
 def test_names_that_are_not_utf8(tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.submission.encoding import decode
-from raysteps.submission.entries import NotTaken
-from raysteps.submission.load import take_in
+from raysteps.submission.entries import RejectedFile
+from raysteps.submission.load import load_submission
 
 TEXT = "// Gr\u00f6\u00dfe\n#include <a>\n\nint x = 1;\n"
 
@@ -67,7 +67,7 @@ def test_bytes_of_any_older_encoding_keep_lines_and_code() -> None:
     ],
 )
 def test_what_is_no_source_is_explained(data: bytes, words: str) -> None:
-    with pytest.raises(NotTaken) as problem:
+    with pytest.raises(RejectedFile) as problem:
         decode(data)
     assert str(problem.value).startswith(words)
     assert "was not taken" in str(problem.value)
@@ -76,7 +76,7 @@ def test_what_is_no_source_is_explained(data: bytes, words: str) -> None:
 def test_notes_and_remarks_reach_the_submission(tmp_path: Path, steps: list[Step]) -> None:
     (tmp_path / "shadows.cpp").write_bytes(TEXT.encode("utf-16"))
     (tmp_path / "octree.cpp").write_bytes(b"\x7fELF" + bytes(100))
-    submission = take_in(tmp_path, steps)
+    submission = load_submission(tmp_path, steps)
     assert submission.sources == {"04-shadows": TEXT.encode()}
     assert submission.remarks == {"04-shadows": "shadows.cpp was UTF-16; it was read as such."}
     assert set(submission.notes) == {"06-octree"}
@@ -86,6 +86,6 @@ def test_notes_and_remarks_reach_the_submission(tmp_path: Path, steps: list[Step
 def test_a_submission_of_binaries_only_says_so(tmp_path: Path, steps: list[Step]) -> None:
     (tmp_path / "notes.txt").write_text("x")
     with pytest.raises(UsageError, match="holds no step"):
-        take_in(tmp_path, steps)
+        load_submission(tmp_path, steps)
     (tmp_path / "octree.cpp").write_bytes(bytes(100))
-    assert "NUL" in take_in(tmp_path, steps).notes["06-octree"]
+    assert "NUL" in load_submission(tmp_path, steps).notes["06-octree"]

@@ -22,7 +22,7 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.submission import entries
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 
 GOOD = "steps/04-shadows/shadows.cpp"
 
@@ -51,7 +51,7 @@ def test_links_to_folders_are_not_followed(tmp_path: Path, steps: list[Step]) ->
     (inside / "steps" / "04-shadows").symlink_to(outside / "steps" / "04-shadows")
     (inside / "round").symlink_to(inside)
     (inside / "root").symlink_to("/")
-    assert set(take_in(inside, steps).sources) == {"06-octree"}
+    assert set(load_submission(inside, steps).sources) == {"06-octree"}
 
 
 def test_what_is_no_file_is_named(tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -61,7 +61,7 @@ def test_what_is_no_file_is_named(tmp_path: Path, steps: list[Step], monkeypatch
     monkeypatch.chdir(tmp_path)  # the path of a socket may not be long
     with socket.socket(socket.AF_UNIX) as listening:
         listening.bind("reflection.cpp")
-        notes = take_in(tmp_path, steps).notes
+        notes = load_submission(tmp_path, steps).notes
     kinds = {"04-shadows": "pipe", "06-octree": "folder", "08-refraction": "link", "05-reflection": "socket"}
     assert set(notes) == set(kinds)
     assert all(f"is a {kind}, not a file" in notes[step] for step, kind in kinds.items())
@@ -73,7 +73,7 @@ def test_devices_are_not_opened(tmp_path: Path, steps: list[Step]) -> None:
         os.mknod(tmp_path / "shadows.cpp", 0o20666, os.makedev(1, 5))
     except PermissionError:
         pytest.skip("no devices here")
-    assert "is a device" in take_in(tmp_path, steps).notes["04-shadows"]
+    assert "is a device" in load_submission(tmp_path, steps).notes["04-shadows"]
 
 
 @pytest.fixture
@@ -104,7 +104,7 @@ def test_what_cannot_be_read_is_named(for_all: Path, steps: list[Step]) -> None:
     closed.mkdir()
     closed.chmod(0)
     with _as_nobody():
-        submission = take_in(folder, steps)
+        submission = load_submission(folder, steps)
     assert set(submission.sources) == {"04-shadows"}
     assert submission.notes == {
         "06-octree": "octree.cpp cannot be read (Permission denied) and was not taken.",
@@ -112,7 +112,7 @@ def test_what_cannot_be_read_is_named(for_all: Path, steps: list[Step]) -> None:
     }
     folder.chmod(0)
     with _as_nobody(), pytest.raises(UsageError, match="Permission denied"):
-        take_in(folder, steps)
+        load_submission(folder, steps)
 
 
 def test_a_folder_that_turns_into_a_link_is_not_followed(
@@ -131,7 +131,7 @@ def test_a_folder_that_turns_into_a_link_is_not_followed(
         return real(path, flags, *rest, dir_fd=dir_fd)
 
     monkeypatch.setattr(os, "open", slow)
-    submission = take_in(inside, steps)
+    submission = load_submission(inside, steps)
     assert set(submission.sources) == {"06-octree"}
     assert submission.notes == {"04-shadows": "The folder steps/04-shadows cannot be read."}
 
@@ -160,7 +160,7 @@ def test_a_folder_that_changes_all_the_time(tmp_path: Path, steps: list[Step]) -
         for _ in range(200):
             # Now and then it is gone at that moment, and then nothing is left.
             with suppress(UsageError):
-                assert set(take_in(tmp_path, steps).sources.get("04-shadows", b"")) <= set(b"x")
+                assert set(load_submission(tmp_path, steps).sources.get("04-shadows", b"")) <= set(b"x")
     finally:
         stop.set()
         thread.join()
@@ -170,7 +170,7 @@ def test_a_file_without_end_is_not_read_to_its_end(tmp_path: Path, steps: list[S
     path = _good(tmp_path) / GOOD
     with path.open("wb") as file:
         file.truncate(1 << 40)
-    assert "larger than 1 MB" in take_in(tmp_path, steps).notes["04-shadows"]
+    assert "larger than 1 MB" in load_submission(tmp_path, steps).notes["04-shadows"]
 
 
 def test_deep_folders_are_left_alone(tmp_path: Path, steps: list[Step]) -> None:
@@ -183,7 +183,7 @@ def test_deep_folders_are_left_alone(tmp_path: Path, steps: list[Step]) -> None:
         handle = below
     os.close(handle)
     try:
-        assert set(take_in(tmp_path, steps).sources) == {"04-shadows"}
+        assert set(load_submission(tmp_path, steps).sources) == {"04-shadows"}
     finally:
         subprocess.run(["rm", "-rf", str(tmp_path / ("d" * 200))], check=True)
 
@@ -197,7 +197,7 @@ def test_an_encrypted_zip_is_refused(tmp_path: Path, steps: list[Step]) -> None:
     data[data.index(b"PK\x01\x02") + 8] |= 1  # and in the directory
     path.write_bytes(data)
     with pytest.raises(UsageError, match="encrypted"):
-        take_in(path, steps)
+        load_submission(path, steps)
 
 
 def test_a_damaged_zip_is_refused(tmp_path: Path, steps: list[Step]) -> None:
@@ -208,14 +208,14 @@ def test_a_damaged_zip_is_refused(tmp_path: Path, steps: list[Step]) -> None:
     data[500] ^= 0xFF
     path.write_bytes(data)
     with pytest.raises(UsageError, match="cannot be read"):
-        take_in(path, steps)
+        load_submission(path, steps)
 
 
 @pytest.mark.parametrize(("start", "kind"), [(b"Rar!\x1a\x07", "RAR"), (b"7z\xbc\xaf\x27\x1c", "7z")])
 def test_other_archives_are_named(tmp_path: Path, steps: list[Step], start: bytes, kind: str) -> None:
     (tmp_path / "a.zip").write_bytes(start + bytes(100))
     with pytest.raises(UsageError, match=f"is a {kind} archive; hand in"):
-        take_in(tmp_path / "a.zip", steps)
+        load_submission(tmp_path / "a.zip", steps)
 
 
 def test_a_zip_with_a_huge_directory_is_refused(tmp_path: Path, steps: list[Step]) -> None:
@@ -226,7 +226,7 @@ def test_a_zip_with_a_huge_directory_is_refused(tmp_path: Path, steps: list[Step
         file.seek(size)
         file.write(struct.pack("<4s4H2LH", b"PK\x05\x06", 0, 0, 0xFFFF, 0xFFFF, size, 0, 0))
     with pytest.raises(UsageError, match="hand in the steps only"):
-        take_in(path, steps)
+        load_submission(path, steps)
 
 
 def test_a_zip_of_overlapping_files_is_refused(
@@ -241,7 +241,7 @@ def test_a_zip_of_overlapping_files_is_refused(
     tail = struct.pack("<4s4H2LH", b"PK\x05\x06", 0, 0, 1000, 1000, len(directory), start, 0)
     (tmp_path / "a.zip").write_bytes(data[:start] + directory + tail)
     with pytest.raises(UsageError, match="unpack"):
-        take_in(tmp_path / "a.zip", steps)
+        load_submission(tmp_path / "a.zip", steps)
 
 
 def _endless(pack: Callable[[bytes], bytes]) -> bytes:
@@ -258,7 +258,7 @@ def _endless(pack: Callable[[bytes], bytes]) -> bytes:
 def test_a_tar_that_grows_is_stopped(tmp_path: Path, steps: list[Step], pack: Callable[[bytes], bytes]) -> None:
     (tmp_path / "a.tar").write_bytes(_endless(pack))
     with pytest.raises(UsageError, match="200 times its size"):
-        take_in(tmp_path / "a.tar", steps)
+        load_submission(tmp_path / "a.tar", steps)
 
 
 def _header(name: str, size: bytes, kind: bytes = b"0") -> bytes:
@@ -288,14 +288,14 @@ def _header(name: str, size: bytes, kind: bytes = b"0") -> bytes:
 def test_tars_made_to_hang(tmp_path: Path, steps: list[Step], name: str, data: bytes) -> None:
     (tmp_path / "a.tar").write_bytes(data + bytes(1024))
     with pytest.raises(UsageError):
-        take_in(tmp_path / "a.tar", steps)
+        load_submission(tmp_path / "a.tar", steps)
 
 
 def test_headers_within_headers_without_end(tmp_path: Path, steps: list[Step]) -> None:
     one = _header("././@LongLink", b"00000000004\0", b"L") + b"abc\0".ljust(512, b"\0")
     (tmp_path / "a.tar").write_bytes(one * 5000)
     with pytest.raises(UsageError):
-        take_in(tmp_path / "a.tar", steps)
+        load_submission(tmp_path / "a.tar", steps)
 
 
 def test_archives_within_archives_are_not_opened(tmp_path: Path, steps: list[Step]) -> None:
@@ -305,7 +305,7 @@ def test_archives_within_archives_are_not_opened(tmp_path: Path, steps: list[Ste
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
         archive.writestr("inner.zip", inner.getvalue())
         archive.writestr("octree.cpp", inner.getvalue())
-    submission = take_in(tmp_path / "a.zip", steps)
+    submission = load_submission(tmp_path / "a.zip", steps)
     assert not submission.sources
     assert "zip archive" in submission.notes["06-octree"]
 
@@ -314,7 +314,7 @@ def test_a_file_at_a_lesser_place_is_better_than_a_link(tmp_path: Path, steps: l
     (tmp_path / "steps" / "04-shadows").mkdir(parents=True)
     (tmp_path / GOOD).symlink_to("/etc/passwd")
     (tmp_path / "shadows.cpp").write_text("int x;\n")
-    submission = take_in(tmp_path, steps)
+    submission = load_submission(tmp_path, steps)
     assert submission.sources == {"04-shadows": b"int x;\n"}
     assert not submission.notes
     assert submission.remarks == {"04-shadows": f"{GOOD} is a link, not a file, and was not taken."}
@@ -326,4 +326,4 @@ def test_a_crowd_in_one_folder_is_refused(tmp_path: Path, steps: list[Step], mon
     for number in range(101):
         (tmp_path / f"{number}").touch()
     with pytest.raises(UsageError, match="more than 100 files"):
-        take_in(tmp_path, steps)
+        load_submission(tmp_path, steps)

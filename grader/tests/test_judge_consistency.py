@@ -10,7 +10,7 @@ from raysteps.course.project import Project
 from raysteps.judge.claims import contradictions
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.results.model import CaseGroup, Ending, HiddenResult, ImageResult, StepResult, TestResult
+from raysteps.results.model import CaseGroup, HiddenResult, ImageResult, StepResult, Termination, TestResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _TAGS = {
@@ -34,7 +34,7 @@ def plan(project: Project, step: Step) -> Plan:
     return plan
 
 
-def _seen(plan: Plan, name: str, shares: Mapping[str, float], outcome: Ending = "wrong") -> HiddenResult:
+def _seen(plan: Plan, name: str, shares: Mapping[str, float], outcome: Termination = "wrong") -> HiddenResult:
     """What share of each kind of cases came out right; 0 where nothing is said."""
     cases = next(function.cases for function in plan.functions if function.name == name)
     assert set(shares) <= set(cases)
@@ -104,7 +104,7 @@ def test_honest_mistakes(
     assert {test.name for test in result.tests if test.passed} == passed
 
 
-def _cut_short(plan: Plan, name: str, asked: int, right: int, outcome: Ending) -> HiddenResult:
+def _cut_short(plan: Plan, name: str, asked: int, right: int, outcome: Termination) -> HiddenResult:
     """The first ordinary cases were asked, and then no more."""
     result = _seen(plan, name, {}, outcome)
     for place, group in enumerate(result.groups):
@@ -114,7 +114,7 @@ def _cut_short(plan: Plan, name: str, asked: int, right: int, outcome: Ending) -
 
 
 @pytest.mark.parametrize("outcome", ["crashed", "timeout", "wrong"])
-def test_what_was_never_asked_speaks_against_nobody(step: Step, plan: Plan, outcome: Ending) -> None:
+def test_what_was_never_asked_speaks_against_nobody(step: Step, plan: Plan, outcome: Termination) -> None:
     """Four rare crashes, or no time at all; or the answers were too large."""
     for asked, right in ((0, 0), (12, 8), (8, 4)):
         hidden = [_cut_short(plan, name, asked, right, outcome) for name in ("Sphere::intersect", "closest_hit")]
@@ -155,7 +155,7 @@ def test_an_embedded_picture(step: Step, plan: Plan, wrong_share: float | None, 
 
 
 def _shared(
-    octree: Step, plan: Plan, wrong: Mapping[str, int], *, wasteful: bool, outcome: Ending = "wrong"
+    octree: Step, plan: Plan, wrong: Mapping[str, int], *, wasteful: bool, outcome: Termination = "wrong"
 ) -> tuple[list[str], StepResult]:
     """Step 06 whose pictures all pass, after so many cases of these kinds were wrong."""
     result = StepResult(octree.id, "partial", 0, 20, False)
@@ -166,7 +166,7 @@ def _shared(
             for kind, n in function.cases.items()
         ]
         bad = any(group.right < group.cases for group in groups)
-        ending: Ending = outcome if bad else "ok"
+        ending: Termination = outcome if bad else "ok"
         result.hidden.append(HiddenResult(function.name, "function", 0.5, groups=groups, outcome=ending))
     result.hidden += [HiddenResult(twin_name(image.name), "picture", 1.0) for image in octree.images]
     result.hidden += [HiddenResult(scene.name, "picture", 1.0) for scene in plan.random_scenes]

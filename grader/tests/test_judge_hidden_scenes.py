@@ -5,9 +5,9 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.hidden_scenes import HiddenScene, changed, hidden_scenes
+from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes, perturbed_scene
 from raysteps.judge.plan import read_plan
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 
 def _scenes(project: Project, step: Step, seed: int) -> list[HiddenScene]:
@@ -60,11 +60,11 @@ def test_the_seed_decides(project: Project, steps: list[Step]) -> None:
 
 def test_a_scene_of_an_unknown_form_is_the_kits_fault() -> None:
     with pytest.raises(GraderFault, match="from x y z"):
-        changed("v\nfrom\n1 2 3\nat 0 0 0\nup 0 1 0\n", Draw("seed"), spheres=False)
+        perturbed_scene("v\nfrom\n1 2 3\nat 0 0 0\nup 0 1 0\n", RandomSource("seed"), spheres=False)
 
 
 def test_spheres_that_are_seen_from_inside_stay() -> None:
     nff = "from 0 0 9\nat 0 0 0\nup 0 1 0\ns 0 0 0 1\ns 0 0 0 -40\n"
-    lines = changed(nff, Draw("seed"), spheres=True).splitlines()
+    lines = perturbed_scene(nff, RandomSource("seed"), spheres=True).splitlines()
     assert lines[4] == "s 0 0 0 -40"
     assert lines[3] != "s 0 0 0 1"

@@ -7,10 +7,10 @@ from conftest import MakeSubmission, Sources
 
 from raysteps.course.manifest import Step
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # Six levels of boxes, whatever is in them: nothing is lost, and there are 37449 of them.
@@ -61,8 +61,8 @@ class _Honest:
         source = self._solved[step.id]
         assert source.count(old) == 1
         path = self._make("honest", {step.id: source.replace(old, new)})
-        submission, settings = take_in(path, self._kit.steps), Settings(only=(step.id,))
-        return grade_one(self._kit, submission, settings, find_sandbox(), self._out).steps[0]
+        submission, settings = load_submission(path, self._kit.steps), Settings(only=(step.id,))
+        return grade_submission(self._kit, submission, settings, find_sandbox(), self._out).steps[0]
 
 
 @pytest.fixture

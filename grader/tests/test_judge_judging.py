@@ -10,12 +10,12 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.hidden_tests import judge_functions
+from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, TimeBudget
 from raysteps.results.model import HiddenResult
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.task import TaskResult
 
 _SEED = 5
 
@@ -51,7 +51,7 @@ def plan(project: Project, step: Step) -> Plan:
 
 
 def judge(step: Step, plan: Plan, student: Ask) -> dict[str, HiddenResult]:
-    results = judge_functions(step, plan, student, FakeWorker(right), _SEED)
+    results = run_hidden_tests(step, plan, student, FakeWorker(right), _SEED)
     assert [result.name for result in results] == ["tone_map", "to_byte"]
     return {result.name: result for result in results}
 
@@ -212,7 +212,7 @@ def test_after_four_crashes_the_rest_is_not_known(step: Step, plan: Plan) -> Non
 def test_silence_and_a_refused_start(step: Step, plan: Plan) -> None:
     for silent in (ran("", 127), ran("", 0), ran("no protocol at all\n", 0)):
 
-        def say_nothing(stdin: bytes, seconds: float, silent: Ran = silent) -> Ran:
+        def say_nothing(stdin: bytes, seconds: float, silent: TaskResult = silent) -> TaskResult:
             return silent
 
         for result in judge(step, plan, say_nothing).values():
@@ -252,7 +252,7 @@ def test_an_exception_is_an_answer(step: Step, plan: Plan) -> None:
 def test_lines_in_between_change_nothing(step: Step, plan: Plan) -> None:
     """Answers come in order: what was said too early or twice is not heard."""
 
-    def noisy(stdin: bytes, seconds: float) -> Ran:
+    def noisy(stdin: bytes, seconds: float) -> TaskResult:
         clean = FakeWorker(right)(stdin, seconds).outcome.stdout.splitlines()
         lines = ["done 5 9 9 9", "score 100", *clean]
         lines.insert(6, "done 0 9 9 9")
@@ -266,7 +266,7 @@ def test_lines_in_between_change_nothing(step: Step, plan: Plan) -> None:
 def test_a_long_answer_that_was_cut_is_no_crash(step: Step, plan: Plan, end: str) -> None:
     """In the middle of a line, or exactly behind one."""
 
-    def cut(stdin: bytes, seconds: float) -> Ran:
+    def cut(stdin: bytes, seconds: float) -> TaskResult:
         said = FakeWorker(right)(stdin, seconds).outcome.stdout
         kept = said[:1500]
         if len(said) > len(kept):
@@ -294,7 +294,7 @@ def test_an_exit_in_the_middle_is_no_cut(step: Step, plan: Plan) -> None:
 def test_an_endless_answer_ends(step: Step, plan: Plan) -> None:
     starts = []
 
-    def endless(stdin: bytes, seconds: float) -> Ran:
+    def endless(stdin: bytes, seconds: float) -> TaskResult:
         starts.append(1)
         return ran("start 0\ndone 0 " + "1 " * 100_000)
 
@@ -307,7 +307,7 @@ def test_an_endless_answer_ends(step: Step, plan: Plan) -> None:
 @pytest.mark.parametrize("bad", ["nan nan nan", "threw no", "bad-case what", "1 2", ""])
 def test_a_broken_reference_is_the_kits_fault(step: Step, plan: Plan, bad: str) -> None:
     with pytest.raises(GraderFault):
-        judge_functions(step, plan, FakeWorker(right), FakeWorker(lambda *_: bad), _SEED)
+        run_hidden_tests(step, plan, FakeWorker(right), FakeWorker(lambda *_: bad), _SEED)
 
 
 def test_a_reference_that_crashes_is_the_kits_fault(step: Step, plan: Plan) -> None:
@@ -315,4 +315,4 @@ def test_a_reference_that_crashes_is_the_kits_fault(step: Step, plan: Plan) -> N
         raise Ended
 
     with pytest.raises(GraderFault, match="tone_map"):
-        judge_functions(step, plan, FakeWorker(right), FakeWorker(crash), _SEED)
+        run_hidden_tests(step, plan, FakeWorker(right), FakeWorker(crash), _SEED)

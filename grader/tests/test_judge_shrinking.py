@@ -13,19 +13,27 @@ from judge_fakes import Ended, FakeWorker
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.cases import functions_of
-from raysteps.judge.choice_sequence import Recorder, Replay, Unfit, complexity, cost, simpler_directions, simpler_reals
+from raysteps.judge.choice_sequence import (
+    InvalidChoice,
+    Recorder,
+    Replay,
+    complexity,
+    cost,
+    simpler_directions,
+    simpler_reals,
+)
 from raysteps.judge.counterexamples import Examples, choices_of
-from raysteps.judge.decode_case import read_inputs
+from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.hidden_tests import judge_functions
+from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import Change, Recipe, changes, live_choices, make
 from raysteps.judge.worker import Ask, ask_student, reference_unkept
 from raysteps.results.model import HiddenResult
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import limits_of
@@ -58,7 +66,7 @@ def _recorded(function: Function, group: str, seed: str) -> tuple[Recorder, Case
 def test_a_recorder_draws_what_anybody_draws(steps: list[Step]) -> None:
     for function, group in _all_groups(steps):
         _, case = _recorded(function, group, "3")
-        plain = Case(function.name, group, function.by_name[group].make(Draw("3")))
+        plain = Case(function.name, group, function.by_name[group].make(RandomSource("3")))
         assert case.line(0) == plain.line(0)
 
 
@@ -84,13 +92,13 @@ def test_choices_out_of_bounds_are_brought_back() -> None:
     assert draw.chance(0.5) is False, "a choice of another kind is left for later"
     assert draw.direction() == (0.0, 1.0, 0.0)
     assert draw.fine(1, 9) == 5
-    with pytest.raises(Unfit):
+    with pytest.raises(InvalidChoice):
         draw.until(lambda _: False, lambda: 1)
 
 
 def test_the_choices_of_a_later_case(steps: list[Step]) -> None:
     group = functions_of("02")["Sphere::intersect"].groups[0]
-    draw = Draw("a seed")
+    draw = RandomSource("a seed")
     cases = [group.make(draw) for _ in range(4)]
     again = group.make(Replay([choice.value for choice in choices_of(group, "a seed", 3)]))
     assert again == cases[3] != cases[2]
@@ -143,7 +151,7 @@ def _judge_toned(
 ) -> dict[str, HiddenResult]:
     step, reference = _step(steps, "07"), FakeWorker(_right)
     examples = Examples(student, reference, folder)
-    results = judge_functions(step, _plan(project, step), student, reference, seed, examples=examples)
+    results = run_hidden_tests(step, _plan(project, step), student, reference, seed, examples=examples)
     return {result.name: result for result in results}
 
 
@@ -182,7 +190,7 @@ def test_the_same_example_every_time(project: Project, steps: list[Step], tmp_pa
 def test_points_do_not_depend_on_the_example(project: Project, steps: list[Step], tmp_path: Path) -> None:
     step = _step(steps, "07")
     shrunk = _judge_toned(project, steps, tmp_path, FakeWorker(_unclamped))
-    plain = judge_functions(step, _plan(project, step), FakeWorker(_unclamped), FakeWorker(_right), _SEED)
+    plain = run_hidden_tests(step, _plan(project, step), FakeWorker(_unclamped), FakeWorker(_right), _SEED)
     for result in plain:
         other = shrunk[result.name]
         assert (result.share, result.groups, result.message) == (other.share, other.groups, other.message)
@@ -205,7 +213,7 @@ def _hang() -> str:
 
 def _complexity(result: HiddenResult) -> float:
     line = "1 tone_map " + result.given.removeprefix("color: (").rstrip(")").replace(",", "")
-    return complexity(read_inputs(functions_of("07")["tone_map"], line))[1]
+    return complexity(decode_inputs(functions_of("07")["tone_map"], line))[1]
 
 
 def test_a_crash_is_shrunk(project: Project, steps: list[Step], tmp_path: Path) -> None:
@@ -219,7 +227,7 @@ def test_a_hang_costs_no_more_than_its_budget(project: Project, steps: list[Step
     worker = FakeWorker(_when_bright(_hang))
     without = FakeWorker(_when_bright(_hang))
     step = _step(steps, "07")
-    judge_functions(step, _plan(project, step), without, FakeWorker(_right), _SEED)
+    run_hidden_tests(step, _plan(project, step), without, FakeWorker(_right), _SEED)
     result = _judge_toned(project, steps, tmp_path, worker)["tone_map"]
     assert result.outcome == "timeout"
     assert worker.used - without.used <= 8
@@ -282,7 +290,7 @@ _NO_LIMIT = _Planted(
 
 
 def _build(kit: BuiltKit, step: Step, source: str, folder: Path) -> Ask:
-    box, limits = OpenAir(), limits_of(step, {})
+    box, limits = LimitsOnly(), limits_of(step, {})
     build = StudentBuild(kit, box, folder)
     compiled = build.compile(step, source.encode(), limits)
     assert compiled.binary is not None, compiled.ran.outcome.stderr
@@ -299,11 +307,11 @@ def test_a_planted_mistake(
     assert solved[step.id].count(planted.old) == 1
     student = _build(kit, step, solved[step.id].replace(planted.old, planted.new), tmp_path / "build")
 
-    def reference(cases: bytes, _seconds: float) -> Ran:
+    def reference(cases: bytes, _seconds: float) -> TaskResult:
         return reference_unkept(kit, cases)
 
     examples = Examples(student, reference, tmp_path)
-    results = judge_functions(step, _plan(project, step), student, reference, _SEED, examples=examples)
+    results = run_hidden_tests(step, _plan(project, step), student, reference, _SEED, examples=examples)
     (wrong,) = [result for result in results if result.share < 1]
     assert wrong.name == planted.function
     assert wrong.given.removeprefix("sphere: ").startswith(planted.given), wrong.given

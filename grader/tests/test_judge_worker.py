@@ -9,13 +9,13 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.hidden_tests import judge_functions, make_cases
+from raysteps.judge.hidden_tests import make_cases, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import reference_answers
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
-_MOST_SECONDS = 0.5  # of the worker for a whole step, on any machine
+_MAX_SECONDS = 0.5  # of the worker for a whole step, on any machine
 
 
 @pytest.fixture(scope="module")
@@ -35,12 +35,12 @@ def _run(worker: Path, stdin: str) -> "subprocess.CompletedProcess[str]":
 
 @pytest.mark.parametrize("seed", [1, 2, 12345])
 def test_the_reference_is_right_in_everything(project: Project, steps: list[Step], worker: Path, seed: int) -> None:
-    def ask(stdin: bytes, _seconds: float) -> Ran:
+    def ask(stdin: bytes, _seconds: float) -> TaskResult:
         done = _run(worker, stdin.decode())
-        return Ran(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
+        return TaskResult(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
 
     for step in steps:
-        for result in judge_functions(step, _plan(project, step), ask, ask, seed):
+        for result in run_hidden_tests(step, _plan(project, step), ask, ask, seed):
             assert result.share == 1, f"{result.message} {result.given}"
 
 
@@ -61,20 +61,20 @@ def test_overlap_answers_are_what_the_cases_were_made_for(project: Project, step
 def test_a_function_that_hangs_costs_no_other(project: Project, steps: list[Step], worker: Path, hanging: str) -> None:
     used = []
 
-    def reference(stdin: bytes, _seconds: float) -> Ran:
+    def reference(stdin: bytes, _seconds: float) -> TaskResult:
         done = _run(worker, stdin.decode())
-        return Ran(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
+        return TaskResult(Outcome(done.returncode, False, done.stdout, done.stderr, 0.01), {}, 0.0, "")
 
-    def student(stdin: bytes, seconds: float) -> Ran:
+    def student(stdin: bytes, seconds: float) -> TaskResult:
         number, function = stdin.decode().split(" ", 2)[:2]
         hangs = function == hanging
-        ran = Ran(Outcome(-9, True, f"start {number}\n", "", seconds), {}, 0.0, "wall")
+        ran = TaskResult(Outcome(-9, True, f"start {number}\n", "", seconds), {}, 0.0, "wall")
         ran = ran if hangs else reference(stdin, seconds)
         used.append(ran.outcome.seconds)
         return ran
 
     step = next(step for step in steps if step.number == "06")
-    results = judge_functions(step, _plan(project, step), student, reference, 1)
+    results = run_hidden_tests(step, _plan(project, step), student, reference, 1)
     assert {result.name: result.share for result in results} == {
         name: 0.0 if name == hanging else 1.0 for name in step.functions
     }

@@ -8,8 +8,8 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 from playwright.sync_api import Page
 
 from raysteps.course.manifest import Step
-from raysteps.gallery.gallery_page import Hung, gallery_page
-from raysteps.gallery.scenes import Shown
+from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
+from raysteps.gallery.scenes import GalleryScene
 from raysteps.gallery.shots import Effort, Shot
 from raysteps.images.compare import Pixels
 from raysteps.results.work_ratio import Work
@@ -27,12 +27,14 @@ def _effort(name: str, tests: int) -> Effort:
     return Effort(name, np.full((9, 12, 3), tests % 256, np.uint8), Work(100, tests * 100, 0, 8, 9, 10))
 
 
-def _scene(number: int, title: str, steps: list[Step], *, mine: bool) -> Hung:
+def _scene(number: int, title: str, steps: list[Step], *, mine: bool) -> GalleryEntry:
     reference = [Shot(_picture(number, _SAME.get(step, step))) for step in range(len(steps))]
     own = [Shot(_picture(number, step, mine=True), "Unfinished: shade.") for step in range(len(steps))]
     own[3] = Shot(None, f"It does not build: {_SCRIPT}")
     efforts = {6: [_effort("every surface", 820), _effort("octree", 3)]}
-    return Hung(Shown(title, title, f"About {title}.", Path("a.nff")), reference, efforts, own if mine else [])
+    return GalleryEntry(
+        GalleryScene(title, title, f"About {title}.", Path("a.nff")), reference, efforts, own if mine else []
+    )
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 from browser import OpenPage, assert_accessible
 from inspect_records import ball_record
 
-from raysteps.inspector.divergence import find_parting
+from raysteps.inspector.divergence import find_divergence
 from raysteps.inspector.pixel_page import write_page
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def test_what_a_scene_is_called_stays_text(page: "Page") -> None:
 @pytest.mark.parametrize(("width", "scheme"), [(360, "dark"), (1440, "light")])
 def test_two_trees_beside_each_other(tmp_path: Path, open_page: OpenPage, width: int, scheme: str) -> None:
     mine, reference = ball_record(lit=False), ball_record()
-    parting = find_parting(mine, reference)
+    parting = find_divergence(mine, reference)
     assert parting is not None
     write_page(mine, reference, parting, tmp_path / "both.html")
     page = open_page(tmp_path / "both.html", width=width, scheme=scheme)

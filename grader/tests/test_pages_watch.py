@@ -13,9 +13,9 @@ from watch_fakes import result_of
 from raysteps.course.manifest import Step
 from raysteps.progress.hints import Hint
 from raysteps.results.model import Diagnosis
-from raysteps.watch.page_state import Board, page_of, state_of
+from raysteps.watch.page_state import PageState, page_of, state_of
 from raysteps.watch.server import PageServer
-from raysteps.watch.step_view import View
+from raysteps.watch.step_view import StepView
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -27,14 +27,14 @@ class Live:
     def __init__(self, step: Step, out: Path) -> None:
         self.step = step
         self.out = out
-        self.board = Board(state_of(View(step, saved="12:00:00")))
+        self.board = PageState(state_of(StepView(step, saved="12:00:00")))
         self.server = PageServer(self.board, page_of)
 
-    def view(self, source: str, *, full: bool = False) -> View:
+    def view(self, source: str, *, full: bool = False) -> StepView:
         result = asdict(result_of(self.step, source, self.out, full=full))
-        return View(self.step, "idle", "", "12:00:00", 0.8, result, self.out, complete=True, full=full)
+        return StepView(self.step, "idle", "", "12:00:00", 0.8, result, self.out, complete=True, full=full)
 
-    def show(self, view: View) -> None:
+    def show(self, view: StepView) -> None:
         self.board.show(state_of(view))
 
 
@@ -56,7 +56,7 @@ def _says(page: "Page", where: str, text: str) -> None:
     page.locator(where, has_text=text).first.wait_for()
 
 
-def _failing(live: Live) -> View:
+def _failing(live: Live) -> StepView:
     view = live.view("// wrong", full=True)
     assert view.result is not None
     found = Diagnosis(
@@ -92,7 +92,7 @@ def test_what_a_run_has_not_told_yet_stays(live: Live, pages: Watched) -> None:
     live.show(live.view("// wrong"))
     page.locator("compare-pictures[data-state=ready]").wait_for()
     page.locator("compare-pictures").evaluate("element => { element.mark = 1; element.view = 'side'; }")
-    live.show(View(live.step, saved="12:00:05"))
+    live.show(StepView(live.step, saved="12:00:05"))
     _says(page, "#watch-doing[data-phase=looking]", "saved 12:00:05")
     assert page.locator("#watch-words .panel").count() == 1
     live.show(live.view("int right;"))
@@ -124,7 +124,7 @@ def test_another_step_takes_the_place_of_this_one(live: Live, pages: Watched, st
     page = pages.open(live.server.address)
     live.show(live.view("// wrong"))
     _says(page, "#watch-pictures h2", steps[0].images[0].name)
-    live.show(View(steps[1]))
+    live.show(StepView(steps[1]))
     _says(page, "h1", "02 Intersection")
     assert page.locator("#watch-pictures article, #watch-words .panel").count() == 0
 

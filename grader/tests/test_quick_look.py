@@ -12,7 +12,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
 from raysteps.results.model import StepResult
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.watch.runner import WORKER
 
@@ -27,7 +27,7 @@ def step(steps: list[Step]) -> Step:
 def _look(kit: BuiltKit, step: Step, source: str, out: Path) -> tuple[StepResult, list[tuple[int, int]]]:
     """The result, and how many tests and pictures were told of at each time."""
     told: list[tuple[int, int]] = []
-    tell = QuickLook(kit, step, OpenAir(), out, lambda result: told.append((len(result.tests), len(result.images))))
+    tell = QuickLook(kit, step, LimitsOnly(), out, lambda result: told.append((len(result.tests), len(result.images))))
     return tell.look(source), told
 
 

@@ -12,7 +12,7 @@ from raysteps.cli.app import new_parser
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.scoring import most_points
+from raysteps.grading.scoring import max_points
 from raysteps.release.build_release import first_steps, write_release
 from raysteps.release.kit_pages import as_printed, for_students, readme
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -135,6 +135,6 @@ def test_every_handout_shows_such_a_check(released: Path, steps: list[Step]) -> 
     for number in _numbers(released):
         step = next(step for step in steps if step.number == number)
         text = (released / "steps" / step.id / "README.md").read_text(encoding="utf-8")
-        seen = most_points(step, judged=False)
+        seen = max_points(step, judged=False)
         assert f": passed, {seen:g} of {seen:g}" in text
         assert "hidden   all" not in text

@@ -15,7 +15,7 @@ from raysteps.course.project import Project, places
 from raysteps.release import build_release as making
 from raysteps.release.contents import kit_contents
 from raysteps.release.leaks import find_leaks
-from raysteps.release.secrets import gather, read_shared, words_in
+from raysteps.release.secrets import gather, read_allowlist, words_in
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SEED = 918273
@@ -35,7 +35,7 @@ def copy(project: Project, tmp_path: Path) -> Project:
 def _release(project: Project, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Of all steps, without the pictures that the reference draws."""
     steps = read_steps(project)
-    monkeypatch.setattr(making, "write_all_given", lambda *_: None)
+    monkeypatch.setattr(making, "write_reference_artifacts", lambda *_: None)
     kit = BuiltKit(project, folder, "0123456789 test", steps, description=None, tests={}, interpreter=None)  # type: ignore[arg-type]
     making.write_release(kit, steps, "Course", folder)
     return folder
@@ -131,7 +131,7 @@ def test_what_is_public_though_it_is_alike_is_still_there(project: Project) -> N
     """An entry of shared.toml that nothing needs any more would forgive something else."""
     secrets = gather(project, shared=[])
     released = kit_contents(project, read_steps(project), [])
-    for one in read_shared():
+    for one in read_allowlist():
         wanted = " ".join(word.text for word in words_in(one.words))
         for name in one.files:
             assert name in released, f"{name} of shared.toml does not go out"

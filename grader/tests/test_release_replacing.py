@@ -24,7 +24,7 @@ def _git(folder: Path, *words: str) -> str:
 @pytest.fixture
 def older(kit: BuiltKit, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A release of step 01 that somebody keeps in a repository, and built. No test here looks at its pictures."""
-    monkeypatch.setattr(making, "write_all_given", lambda *_: None)
+    monkeypatch.setattr(making, "write_reference_artifacts", lambda *_: None)
     out = tmp_path / "out" / "course"
     assert _released(kit, steps, out, "Spring")
     _git(out, "init", "--quiet")

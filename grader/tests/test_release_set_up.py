@@ -13,7 +13,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.release.leaks import find_leaks, not_searched, to_search
-from raysteps.release.secrets import Secrets, Sequences
+from raysteps.release.secrets import NgramIndex, Secrets
 
 _PROGRAM = b"\x7fELF\2\1\1\0"  # a leak wherever it is searched
 _MADE = (".venv/bin/python", "build/release/bin/raytrace", "grader/src/raysteps.egg-info/SOURCES.txt",
@@ -29,11 +29,11 @@ def _write(folder: Path, *names: str) -> Path:
 
 
 def _places(folder: Path, *, tried: bool) -> set[str]:
-    return {leak.place for leak in find_leaks(Secrets(Sequences(), {}, None), folder, tried=tried)}
+    return {leak.place for leak in find_leaks(Secrets(NgramIndex(), {}, None), folder, tried=tried)}
 
 
 def _checked(project: Project, folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[int, str]:
-    monkeypatch.setattr(release, "gather", lambda _: Secrets(Sequences(), {}, None))
+    monkeypatch.setattr(release, "gather", lambda _: Secrets(NgramIndex(), {}, None))
     console = Console(width=200, record=True, file=StringIO())
     code = release.run(project, argparse.Namespace(check=folder), console)
     return code, console.export_text()

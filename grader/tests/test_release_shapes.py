@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from raysteps.release.leaks import find_leaks, strange
-from raysteps.release.secrets import Secrets, Sequences
+from raysteps.release.secrets import NgramIndex, Secrets
 
 _TEXT = b"int main() { return 0; }\n" * 20
 
@@ -78,5 +78,5 @@ def test_a_place_that_tells_what_it_is(tmp_path: Path) -> None:
     for name in ("grader/judge/a.py", "course.toml", "x/solutions/b.txt"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("nothing\n", encoding="utf-8")
-    found = {leak.place for leak in find_leaks(Secrets(Sequences(), {}, None), tmp_path)}
+    found = {leak.place for leak in find_leaks(Secrets(NgramIndex(), {}, None), tmp_path)}
     assert {"grader/judge", "course.toml", "x/solutions"} <= found

@@ -15,18 +15,18 @@ from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.options import Feedback, Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.cases import functions_of
 from raysteps.judge.counterexamples import CaseFile, read_case, write_case
-from raysteps.judge.decode_case import read_inputs
+from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
-from raysteps.judge.protocol import Garbled
+from raysteps.judge.protocol import ProtocolError
 from raysteps.progress.check import clear
 from raysteps.results.store import place_of
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.submission.load import take_in
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _LINE = "1 Sphere::intersect 0 0 0 1 1 1 1 1 1 2 0 1 0 0 2 0 0 -1"
@@ -56,7 +56,7 @@ def test_inputs_can_be_read_back_from_the_line(project: Project, steps: list[Ste
         for function in plan.functions:
             known = functions_of(step.number)[function.name]
             for case in make_cases(step, function, 2):
-                inputs = read_inputs(known, case.line(1))
+                inputs = decode_inputs(known, case.line(1))
                 assert list(inputs) == list(case.inputs)
                 again = Case(case.function, case.group, inputs)
                 assert again.line(1) == case.line(1)
@@ -119,8 +119,8 @@ def test_a_missing_file_ends_with_2(capsys: pytest.CaptureFixture[str]) -> None:
 
 @pytest.mark.parametrize("words", ["1 closest_hit 1 9 0 0 0 0 0 1", "1 closest_hit -1", "1 closest_hit 99999999"])
 def test_lists_that_are_none(words: str) -> None:
-    with pytest.raises(Garbled, match="surfaces: "):
-        read_inputs(functions_of("02")["closest_hit"], words)
+    with pytest.raises(ProtocolError, match="surfaces: "):
+        decode_inputs(functions_of("02")["closest_hit"], words)
 
 
 # --- with programs ---
@@ -203,12 +203,12 @@ def test_the_file_of_a_graded_case(
     """It is named in the results, and asked again it is wrong again; who must not see it does not get it."""
     source = solved["07-tone-mapping"].replace("std::lround(", "static_cast<int>(")
     folder = make_submission("ann", {"07-tone-mapping": source})
-    submission = take_in(folder, kit.steps)
+    submission = load_submission(folder, kit.steps)
     feedbacks: tuple[Feedback, ...] = ("full", "diagnosis", "score")
     for feedback in feedbacks:
         out = tmp_path / feedback
         settings = Settings(only=("07-tone-mapping",), feedback=feedback)
-        grade_one(kit, submission, settings, OpenAir(), out)
+        grade_submission(kit, submission, settings, LimitsOnly(), out)
         (step,) = json.loads((out / "results.json").read_text("utf-8"))["steps"]
         named = [item["case"] for item in step["hidden"] if item["case"]]
         there = sorted(path.relative_to(out).as_posix() for path in out.rglob("cases/*"))

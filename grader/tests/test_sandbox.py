@@ -12,12 +12,12 @@ import pytest
 from sandboxes import PROGRAM, Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
 
 from raysteps.course.project import here
-from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 
 __all__ = ["any_sandbox", "hostile", "misbehave", "sandbox", "secret"]  # pytest finds fixtures by name
 
 
-def _compile(sandbox: Sandbox, source: Path, *options: str) -> Ran:
+def _compile(sandbox: Sandbox, source: Path, *options: str) -> TaskResult:
     return sandbox.run(Task(("c++", *options, "-c", Input(source), "-o", Output("out.o")), tools=True))
 
 

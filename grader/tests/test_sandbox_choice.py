@@ -78,7 +78,7 @@ def test_a_bubblewrap_that_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path:
 def test_folders_of_killed_graders_are_swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     old = time.time() - 3600
-    with workplace.fresh_workplace(None):
+    with workplace.fresh_task_dir(None):
         living = next(tmp_path.iterdir())
         abandoned = tmp_path / "raysteps-run-abandoned"
         young = tmp_path / "raysteps-run-young"

@@ -6,10 +6,10 @@ import pytest
 from conftest import MakeSubmission, Sources
 
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.submission.load import take_in
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 STEP = "02-intersection"
@@ -22,7 +22,9 @@ def _closed_steps(kit: BuiltKit) -> None:
 
 
 def _grade(kit: BuiltKit, submission: Path, out: Path) -> StepResult:
-    return grade_one(kit, take_in(submission, kit.steps), Settings(only=(STEP,)), OpenAir(), out).steps[0]
+    return grade_submission(
+        kit, load_submission(submission, kit.steps), Settings(only=(STEP,)), LimitsOnly(), out
+    ).steps[0]
 
 
 def _with(solved: Sources, statement: str, include: str) -> dict[str, str]:

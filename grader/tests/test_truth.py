@@ -8,7 +8,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_alternatives, read_mutants
 from raysteps.course.project import Project
 from raysteps.results.model import Diagnosis, StepResult, TestResult
-from tools.grade_audit import Seen, problems_of, random_pairs, rounds_of, row_of, shortfalls, total
+from tools.grade_audit import ObservedGrade, problems_of, random_pairs, rounds_of, row_of, shortfalls, total
 from tools.test_submissions import Entrant, Kind, mutants
 
 
@@ -21,14 +21,14 @@ def _seen(
     diagnoses: list[Diagnosis] | None = None,
     status: str = "",
     at: int = 0,
-) -> Seen:
+) -> ObservedGrade:
     entrant = mutants(project, step)[at] if kind == "mutant" else Entrant(kind, step.id, kind, "")
     result = StepResult(step.id, "passed" if points == step.points else "partial", points, step.points, step.bonus)
     if status == "does-not-build":
         result.status = "does-not-build"
     result.tests = [TestResult("a test", points > step.points / 2)]
     result.diagnoses = diagnoses or []
-    return Seen(entrant, result)
+    return ObservedGrade(entrant, result)
 
 
 def _named(project: Project, step: Step, alike: list[str] | None = None, *, at: int = 0) -> list[Diagnosis]:

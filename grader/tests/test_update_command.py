@@ -11,8 +11,9 @@ from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, mine,
 from raysteps.cli import update as command
 from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
+from raysteps.common.files import content_hash
 from raysteps.course.project import Project
-from raysteps.updater.release_list import PLACE, mark
+from raysteps.updater.release_list import PLACE
 
 __all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
@@ -28,7 +29,7 @@ def test_it_names_what_it_did(mine: Path, newer: Path, capsys: pytest.CaptureFix
     (mine / OWN[0]).unlink()
     (mine / OWN[2]).parent.mkdir()
     (mine / OWN[2]).write_bytes(b"my c")
-    before, after = (mark((root / PLACE).read_bytes())[:12] for root in (mine, newer))
+    before, after = (content_hash((root / PLACE).read_bytes())[:12] for root in (mine, newer))
     assert _run(mine, newer) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Files of the kit: 3 replaced, 1 added, 0 removed.",

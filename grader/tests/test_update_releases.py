@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from update_kits import files_of, zipped
 
-from raysteps.common.files import mark
+from raysteps.common.files import content_hash
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -129,8 +129,8 @@ def test_with_the_lines_of_windows_from_a_zip(mine: Path, new: Path, tmp_path: P
     assert there.pop(f"{RAY}.mine") == b"// my ray\r\n"
     expected = files_of(new).items()
     own = (*work, *BESIDE)
-    assert {name: mark(data) for name, data in there.items()} == {
-        name: mark(data) for name, data in expected if name not in own
+    assert {name: content_hash(data) for name, data in there.items()} == {
+        name: content_hash(data) for name, data in expected if name not in own
     }
 
 

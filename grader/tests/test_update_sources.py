@@ -9,7 +9,7 @@ import pytest
 from update_kits import NEW, OWN, STEPS, WORK, expect_done, files_of, mine, newer, release, update, zipped
 
 from raysteps.common.errors import UsageError
-from raysteps.updater.release_list import PLACE, Listed, Release, encoded
+from raysteps.updater.release_list import PLACE, ListedFile, Release, encoded
 
 __all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
@@ -139,6 +139,8 @@ def test_a_path_that_may_not_be_in_a_list(mine: Path, newer: Path, path: str) ->
     document = json.loads((newer / PLACE).read_text())
     _with(newer, files=[*document["files"], {**document["files"][0], "path": path}])
     _refused(mine, newer, "lists ")
-    release_of_it = Release("Course", "k", STEPS, (Listed("steps/01-a/a.hpp", "0" * 64), Listed(path, "0" * 64)))
+    release_of_it = Release(
+        "Course", "k", STEPS, (ListedFile("steps/01-a/a.hpp", "0" * 64), ListedFile(path, "0" * 64))
+    )
     with pytest.raises(UsageError, match="the release lists "):
         encoded(release_of_it)

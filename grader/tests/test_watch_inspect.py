@@ -15,8 +15,8 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.watch import session as actions
 from raysteps.watch.session import Actions
-from raysteps.watch.step_view import View
-from raysteps.watch.terminal_view import Showing
+from raysteps.watch.step_view import StepView
+from raysteps.watch.terminal_view import TerminalView
 
 _COMMAND = "./raysteps inspect scenes/lessons/three-spheres.nff 5 3 --step 1 --size 160x120 --against reference"
 
@@ -36,8 +36,10 @@ class LentKeyboard:
 
 def _press(project: Project, step: Step, source: str, out: Path, log: list[str]) -> str:
     """What is printed."""
-    view = View(step, "idle", result=asdict(result_of(step, source, out, full=False)), out=out, complete=True)
-    session: Any = SimpleNamespace(project=project, view=view, showing=Showing(printed()), keyboard=LentKeyboard(log))
+    view = StepView(step, "idle", result=asdict(result_of(step, source, out, full=False)), out=out, complete=True)
+    session: Any = SimpleNamespace(
+        project=project, view=view, showing=TerminalView(printed()), keyboard=LentKeyboard(log)
+    )
     session.look = session.go_to = session.check = None
     Actions(session).press("i")
     return text(session.showing.console)

@@ -14,14 +14,14 @@ from raysteps.images.compare import write_png
 from raysteps.report.wording import inspect_command, typed
 from raysteps.watch.page_state import page_of, state_of
 from raysteps.watch.session import command_of_worst, worst_pixel
-from raysteps.watch.step_view import View, verdict
+from raysteps.watch.step_view import StepView, verdict
 
 _TALLY = "1 of 2 tests right, 0 of 1 picture right"
 
 
-def _view(step: Step, source: str, out: Path, *, full: bool = False) -> View:
+def _view(step: Step, source: str, out: Path, *, full: bool = False) -> StepView:
     result = asdict(result_of(step, source, out, full=full))
-    return View(step, "idle", result=result, out=out, complete=True, full=full, seconds=0.8, saved="12:00:00")
+    return StepView(step, "idle", result=result, out=out, complete=True, full=full, seconds=0.8, saved="12:00:00")
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from watch_fakes import WORKER, wait_for
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import Ended, Event, Told
+from raysteps.watch.events import Event, WorkerEnded, WorkerMessage
 from raysteps.watch.runner import Runner
 
 
@@ -37,14 +37,14 @@ def runner(course: Project, events: "Queue[Event]") -> Iterator[Runner]:
     found.close()
 
 
-def _until_ended(events: "Queue[Event]", run: int) -> tuple[list[Event], Ended]:
+def _until_ended(events: "Queue[Event]", run: int) -> tuple[list[Event], WorkerEnded]:
     """What this run told."""
     told: list[Event] = []
     while True:
         event = events.get(timeout=20)
-        if isinstance(event, Ended) and event.run == run:
+        if isinstance(event, WorkerEnded) and event.run == run:
             return told, event
-        if isinstance(event, Told) and event.run == run:
+        if isinstance(event, WorkerMessage) and event.run == run:
             told.append(event)
 
 
@@ -62,10 +62,10 @@ def test_a_job_tells_and_ends(runner: Runner, course: Project, events: "Queue[Ev
     run = runner.start("look", steps[0])
     told, ended = _until_ended(events, run)
     assert ended.code == 0
-    assert [event.words["complete"] for event in told if isinstance(event, Told)] == [False, True]
+    assert [event.words["complete"] for event in told if isinstance(event, WorkerMessage)] == [False, True]
     runner.finished()
     told, _ = _until_ended(events, runner.start("check", steps[0]))
-    assert isinstance(told[0], Told)
+    assert isinstance(told[0], WorkerMessage)
     assert told[0].words["result"]["points"] == 2.5
 
 

@@ -13,8 +13,8 @@ from watch_fakes import wait_for
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import Event, Noticed, Saved, Vanished
-from raysteps.watch.file_watcher import Saves, kind_of, why_poll
+from raysteps.watch.events import ChangeNoticed, Event, FileSaved, FileVanished
+from raysteps.watch.file_watcher import FileWatcher, kind_of, why_poll
 
 _OWN = "camera_rays.cpp"
 
@@ -25,7 +25,7 @@ class Watched:
     def __init__(self, project: Project, step: Step, *, poll: bool) -> None:
         self.events: Queue[Event] = Queue()
         self.path = project.steps / step.path
-        self.saves = Saves(project, step, self.events.put, poll=poll)
+        self.saves = FileWatcher(project, step, self.events.put, poll=poll)
 
     def next(self, seconds: float = 10) -> Event:
         return self.events.get(timeout=seconds)
@@ -52,9 +52,9 @@ def watched(request: pytest.FixtureRequest, course: Project, steps: list[Step]) 
 @pytest.mark.parametrize("watched", [False, True], ids=["events", "polling"], indirect=True)
 def test_a_save(watched: Watched) -> None:
     watched.path.write_text("int a;")
-    assert watched.next() == Saved(_OWN)
+    assert watched.next() == FileSaved(_OWN)
     watched.path.write_text("int b;")
-    assert watched.next() == Saved(_OWN)
+    assert watched.next() == FileSaved(_OWN)
     watched.assert_quiet()
 
 
@@ -65,7 +65,7 @@ def test_a_save_by_renaming(watched: Watched) -> None:
     new.write_text("int renamed;")
     watched.path.rename(watched.path.with_name(f"{_OWN}~"))
     new.rename(watched.path)
-    assert watched.next() == Saved(_OWN)
+    assert watched.next() == FileSaved(_OWN)
     watched.assert_quiet()
 
 
@@ -90,34 +90,34 @@ def test_nothing_new_is_no_save(watched: Watched, steps: list[Step]) -> None:
 @pytest.mark.parametrize("watched", [False, True], ids=["events", "polling"], indirect=True)
 def test_a_file_that_goes_and_comes_back(watched: Watched) -> None:
     watched.path.unlink()
-    assert watched.next() == Vanished(_OWN)
+    assert watched.next() == FileVanished(_OWN)
     watched.path.write_text("int back;")
-    assert watched.next() == Saved(_OWN)
+    assert watched.next() == FileSaved(_OWN)
 
 
 def test_the_tests_of_the_step_count_too(watched: Watched) -> None:
     watched.path.with_name("camera_rays_test.cpp").write_text("// more")
-    assert watched.next() == Saved("camera_rays_test.cpp", own=False)
+    assert watched.next() == FileSaved("camera_rays_test.cpp", own=False)
 
 
 def test_another_step_from_now_on(watched: Watched, course: Project, steps: list[Step]) -> None:
     watched.saves.look_at(steps[1])
     watched.path.write_text("int old;")
     (course.steps / steps[1].path).write_text("int new_one;")
-    assert watched.next() == Saved(steps[1].file)
+    assert watched.next() == FileSaved(steps[1].file)
     watched.assert_quiet()
 
 
 def test_a_folder_that_is_made_anew(watched: Watched, course: Project) -> None:
     """As when somebody switches to another branch."""
     course.steps.rename(course.root / "away")
-    assert watched.next() == Vanished(_OWN)
+    assert watched.next() == FileVanished(_OWN)
     (course.root / "away").rename(course.steps)
     found = [watched.next()]
-    while not isinstance(found[-1], Saved):
+    while not isinstance(found[-1], FileSaved):
         found.append(watched.next())
     watched.path.write_text("int later;")
-    wait_for(lambda: Saved(_OWN) in list(watched.events.queue))
+    wait_for(lambda: FileSaved(_OWN) in list(watched.events.queue))
 
 
 def test_where_no_events_come_it_begins_to_poll(
@@ -136,9 +136,9 @@ def test_where_no_events_come_it_begins_to_poll(
     found = Watched(course, steps[0], poll=False)
     found.saves.start()
     found.path.write_text("int unheard;")
-    assert found.next() == Saved(_OWN)
+    assert found.next() == FileSaved(_OWN)
     told = found.next()
-    assert isinstance(told, Noticed)
+    assert isinstance(told, ChangeNoticed)
     assert "from now on files are polled" in told.text
     wait_for(lambda: modes == [False, True])
     ended.append(True)
@@ -159,11 +159,11 @@ def test_where_events_cannot_be_had_it_begins_to_poll(
     found = Watched(course, steps[0], poll=False)
     found.saves.start()
     told = found.next()
-    assert isinstance(told, Noticed)
+    assert isinstance(told, ChangeNoticed)
     assert "OS file watch limit reached" in told.text
     time.sleep(0.7)
     found.path.write_text("int seen;")
-    assert found.next() == Saved(_OWN)
+    assert found.next() == FileSaved(_OWN)
     found.saves.close()
 
 

@@ -9,17 +9,17 @@ from collections.abc import Iterator
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.watch.page_state import Board
+from raysteps.watch.page_state import PageState
 from raysteps.watch.server import PageServer
 
 
 @pytest.fixture
-def board() -> Board:
-    return Board({"number": 1, "over": False})
+def board() -> PageState:
+    return PageState({"number": 1, "over": False})
 
 
 @pytest.fixture
-def server(board: Board) -> Iterator[PageServer]:
+def server(board: PageState) -> Iterator[PageServer]:
     found = PageServer(board, lambda text: f"<p>{text}</p>")
     yield found
     found.close()
@@ -35,7 +35,7 @@ def _ask(server: PageServer, path: str, method: str = "GET", host: str | None = 
     return connection.getresponse()
 
 
-def test_the_page_as_it_is_now(server: PageServer, board: Board) -> None:
+def test_the_page_as_it_is_now(server: PageServer, board: PageState) -> None:
     board.show({"number": 2, "over": False})
     answer = _ask(server, _path(server))
     assert answer.status == 200
@@ -55,7 +55,7 @@ def test_only_this_machine_can_reach_it(server: PageServer) -> None:
         pass
 
 
-def test_an_address_cannot_be_guessed(server: PageServer, board: Board) -> None:
+def test_an_address_cannot_be_guessed(server: PageServer, board: PageState) -> None:
     token = _path(server).strip("/")
     assert len(token) >= 32
     other = PageServer(board, str)
@@ -108,7 +108,7 @@ def _events(answer: http.client.HTTPResponse) -> Iterator[dict[str, object]]:
             yield json.loads(line.removeprefix(b"data: "))
 
 
-def test_news_come_by_themselves_and_the_end_too(server: PageServer, board: Board) -> None:
+def test_news_come_by_themselves_and_the_end_too(server: PageServer, board: PageState) -> None:
     answer = _ask(server, _path(server) + "events")
     assert answer.getheader("Content-Type") == "text/event-stream"
     events = _events(answer)
@@ -120,7 +120,7 @@ def test_news_come_by_themselves_and_the_end_too(server: PageServer, board: Boar
     assert list(events) == []
 
 
-def test_pages_that_were_closed_make_room(server: PageServer, board: Board) -> None:
+def test_pages_that_were_closed_make_room(server: PageServer, board: PageState) -> None:
     for _ in range(40):
         answer = _ask(server, _path(server) + "events")
         assert answer.status in (200, 503)
@@ -135,12 +135,12 @@ def test_pages_that_were_closed_make_room(server: PageServer, board: Board) -> N
     raise AssertionError("there is no room any more")
 
 
-def test_a_port_that_is_taken(board: Board, server: PageServer) -> None:
+def test_a_port_that_is_taken(board: PageState, server: PageServer) -> None:
     with pytest.raises(UsageError, match=f"--port {server.port}: the page cannot be served there"):
         PageServer(board, str, server.port)
 
 
-def test_who_stops_and_begins_again_gets_the_same_port(board: Board, server: PageServer) -> None:
+def test_who_stops_and_begins_again_gets_the_same_port(board: PageState, server: PageServer) -> None:
     answer = _ask(server, _path(server) + "events")
     server.close()
     assert b'"over":true' in answer.read()

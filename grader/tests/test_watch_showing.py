@@ -5,14 +5,14 @@ import io
 import pytest
 from rich.console import Console
 
-from raysteps.watch.terminal_view import Showing
+from raysteps.watch.terminal_view import TerminalView
 
 _TEXT = "  hidden  sphere intersect: expected a hit at 3.25, where the ray enters the sphere [from outside]"
 
 
 def _printed(text: str, *, terminal: bool, command: bool = False) -> list[str]:
     console = Console(file=io.StringIO(), width=40, force_terminal=terminal, color_system=None)
-    (Showing(console).command if command else Showing(console).line)(text)
+    (TerminalView(console).command if command else TerminalView(console).line)(text)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue().splitlines()
 

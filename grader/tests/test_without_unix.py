@@ -68,8 +68,8 @@ def test_a_folder_is_taken_in_and_links_are_not(tmp_path: Path) -> None:
     found = as_on_windows(f"""
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
-from raysteps.submission.load import take_in
-taken = take_in(pathlib.Path({str(tmp_path)!r}), read_steps(here()))
+from raysteps.submission.load import load_submission
+taken = load_submission(pathlib.Path({str(tmp_path)!r}), read_steps(here()))
 print(taken.sources, "02-intersection" in taken.sources)
 """)
     assert found == str({"01-camera-rays": b"int a;\nint b;\n"}) + " False"

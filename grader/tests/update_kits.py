@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.updater.release_list import PLACE, Listed, Release, encoded, mark, read_release
+from raysteps.common.files import content_hash
+from raysteps.updater.release_list import PLACE, ListedFile, Release, encoded, read_release
 from raysteps.updater.source import open_source
 from raysteps.updater.update import Changes, Update
 
@@ -42,7 +43,7 @@ def release(folder: Path, files: Mapping[str, bytes], steps: tuple[str, ...] = S
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     files_listed = [
-        Listed(name, mark(data), "student" if name in OWN else "kit", name == "raysteps")
+        ListedFile(name, content_hash(data), "student" if name in OWN else "kit", name == "raysteps")
         for name, data in files.items()
     ]
     (folder / PLACE).parent.mkdir(parents=True, exist_ok=True)

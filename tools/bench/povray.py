@@ -191,8 +191,8 @@ def brightness_difference(a: Any, b: Any) -> float:
 
 
 _SECONDS = 3600
-_MOST_DIFFERENCE = 0.01
-_MOST_WITH_GLASS = 0.05  # light passes POV-Ray's glass, while the kit's throws a full shadow
+_MAX_DIFFERENCE = 0.01
+_MAX_WITH_GLASS = 0.05  # light passes POV-Ray's glass, while the kit's throws a full shadow
 _TRACE_TIME = re.compile(r"Trace Time:.*\(([0-9.]+) seconds\)")
 _BACKGROUND = re.compile(r"^b .*$", re.MULTILINE)
 _OPTIONS = ("-D", "-A", "+WT1", "+FP", "File_Gamma=1.0", "+Q9", "-V", "-P")
@@ -209,7 +209,7 @@ class Race:
 
 
 @dataclass(frozen=True)
-class Taken:
+class TraceTime:
     """Seconds of one run: of tracing by its own account, of the whole process, and of the processor in it."""
 
     trace: float
@@ -217,7 +217,7 @@ class Taken:
     processor: float
 
 
-Runner = Callable[[int], Taken]  # of a picture with that many pixels on each side
+Runner = Callable[[int], TraceTime]  # of a picture with that many pixels on each side
 
 
 def _run(words: list[str | Path], folder: Path) -> tuple[Outcome, float]:
@@ -237,18 +237,18 @@ def trace_seconds(report: str) -> float:
     return float(found.group(1))
 
 
-def _povray(folder: Path, size: int) -> Taken:
+def _povray(folder: Path, size: int) -> TraceTime:
     files: list[str | Path] = ["+Iscene.pov", "+Opovray.ppm", f"+W{size}", f"+H{size}"]
     outcome, processor = _run(["povray", *files, *_OPTIONS], folder)
-    return Taken(trace_seconds(outcome.stderr + outcome.stdout), outcome.seconds, processor)
+    return TraceTime(trace_seconds(outcome.stderr + outcome.stdout), outcome.seconds, processor)
 
 
-def _raytrace(program: Path, folder: Path, tree: str, depth: int, size: int) -> Taken:
+def _raytrace(program: Path, folder: Path, tree: str, depth: int, size: int) -> TraceTime:
     options = ["--size", f"{size}x{size}", "--depth", str(depth), "--threads", "1", "--quiet"]
     words: list[str | Path] = [program, "scene.nff", "-o", f"{tree}.ppm", "--accel", tree, "--stats", f"{tree}.json"]
     outcome, processor = _run([*words, *options], folder)
     stats = json.loads((folder / f"{tree}.json").read_text(encoding="utf-8"))
-    return Taken(float(stats["render_seconds"]), outcome.seconds, processor)
+    return TraceTime(float(stats["render_seconds"]), outcome.seconds, processor)
 
 
 def _difference(folder: Path, tree: str) -> float:
@@ -263,7 +263,7 @@ def _skipped(scene: str, why: str) -> dict[str, Any]:
 def _measured(folder: Path, scene: str, runners: dict[str, Runner], race: Race, bound: float) -> dict[str, Any]:
     """A picture of one pixel takes reading and building, but no rays to speak of: the rest is tracing."""
     size = race.size
-    times: dict[str, list[tuple[Taken, float]]] = {name: [] for name in runners}
+    times: dict[str, list[tuple[TraceTime, float]]] = {name: [] for name in runners}
     for runner in runners.values():
         runner(size)  # warms up, and leaves the pictures
     difference = _difference(folder, list(runners)[1].removeprefix("raytrace "))
@@ -290,7 +290,7 @@ def race_povray(programs: Programs, scene: Path, race: Race) -> dict[str, Any]:
     """Both get the same flat scene with a black background."""
     text = flat_nff(programs.bench, scene)
     flat = read_flat(text)
-    bound = _MOST_WITH_GLASS if any(shape.fill[6] > 0.0 for shape in flat.shapes) else _MOST_DIFFERENCE
+    bound = _MAX_WITH_GLASS if any(shape.fill[6] > 0.0 for shape in flat.shapes) else _MAX_DIFFERENCE
     try:
         pov = pov_text(flat, race.depth)
     except UsageError as error:

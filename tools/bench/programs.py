@@ -21,7 +21,7 @@ from tools.selftest.programs import accelerations_of
 # Holds the programs that are started here on one processor, so that they do not wander while they are measured.
 
 
-def can_pin() -> bool:
+def can_pin_processor() -> bool:
     """Whether this system lets a program choose its processor."""
     return hasattr(os, "sched_setaffinity")
 
@@ -29,7 +29,7 @@ def can_pin() -> bool:
 @contextmanager
 def pinned() -> Iterator[bool]:
     """Programs started inside inherit one processor, the last that this one may use. Tells whether that worked."""
-    if not can_pin():
+    if not can_pin_processor():
         yield False
         return
     allowed = os.sched_getaffinity(0)
@@ -70,7 +70,7 @@ def machine(tree: BuildTree) -> Machine:
     optimization = [flag for flag in description.compile_flags if flag.startswith(("-O", "-m", "/O"))]
     system = f"{platform.system()} {platform.machine()}"
     flags = " ".join(optimization)
-    return Machine(_processor(), os.cpu_count() or 1, system, description.compiler_version, flags, can_pin())
+    return Machine(_processor(), os.cpu_count() or 1, system, description.compiler_version, flags, can_pin_processor())
 
 
 _NATIVE = "-march=native"
@@ -136,7 +136,7 @@ def what_is_missing(listed: dict[str, Any]) -> list[str]:
 # Asks raysteps-bench, which answers with JSON.
 
 _SECONDS = 4 * 3600
-_MOST_TEXT = 1 << 30
+_MAX_TEXT = 1 << 30
 
 
 def _checked(outcome: Outcome) -> str:
@@ -162,7 +162,7 @@ def ask_pinned(program: Path, *words: str | Path) -> Any:
 
 def flat_nff(program: Path, scene: Path) -> str:
     """The scene as the kit reads it: nothing but spheres, cones and triangles."""
-    return _checked(run([program, "nff", scene], seconds=_SECONDS, cap=_MOST_TEXT))
+    return _checked(run([program, "nff", scene], seconds=_SECONDS, cap=_MAX_TEXT))
 
 
 # The scenes that are measured.

@@ -18,10 +18,10 @@ from raysteps.common.files import write_if_changed
 from raysteps.course.manifest import choose
 from raysteps.course.project import Project
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.calibration.full_marks import marks
 from tools.calibration.gate import LEAST_MARGIN, Share, plain
-from tools.calibration.measure import SEEDS, Calibrated, PictureTable, Setting, all_settings, calibrate_step
+from tools.calibration.measure import SEEDS, CalibratedPicture, PictureTable, Setting, all_settings, calibrate_step
 
 # What a calibration found: as a table for a terminal, as docs/calibration.md, and in words what to do.
 
@@ -58,11 +58,11 @@ def _share(share: Share | None) -> str:
     return f"{share.value * 100:.3g} %{whose}"
 
 
-def _margin(one: Calibrated) -> str:
+def _margin(one: CalibratedPicture) -> str:
     return "" if math.isinf(one.gate.margin) else f"{float(f'{one.gate.margin:.3g}'):g}"
 
 
-def _row(one: Calibrated) -> tuple[str, ...]:
+def _row(one: CalibratedPicture) -> tuple[str, ...]:
     return (
         one.limited.step,
         one.limited.title,
@@ -73,7 +73,7 @@ def _row(one: Calibrated) -> tuple[str, ...]:
     )
 
 
-def calibration_table(found: Sequence[Calibrated]) -> Table:
+def calibration_table(found: Sequence[CalibratedPicture]) -> Table:
     """One row for each limit."""
     table = Table(title="limits on wrong pixels", title_justify="left")
     for heading in _HEADINGS:
@@ -85,7 +85,7 @@ def calibration_table(found: Sequence[Calibrated]) -> Table:
     return table
 
 
-def _unseen_everywhere(found: Sequence[Calibrated]) -> list[str]:
+def _unseen_everywhere(found: Sequence[CalibratedPicture]) -> list[str]:
     """Mistakes of each step that none of its pictures shows."""
     lines = []
     for step in dict.fromkeys(one.limited.step for one in found):
@@ -96,7 +96,7 @@ def _unseen_everywhere(found: Sequence[Calibrated]) -> list[str]:
     return lines
 
 
-def calibration_page(found: Sequence[Calibrated], settings: Sequence[Setting], left_out: Sequence[str]) -> str:
+def calibration_page(found: Sequence[CalibratedPicture], settings: Sequence[Setting], left_out: Sequence[str]) -> str:
     """docs/calibration.md."""
     lines = [_INTRODUCTION, "## Settings", ""]
     lines += [f"- {setting.name}" for setting in settings] + [f"- {text}" for text in left_out]
@@ -134,7 +134,7 @@ def page_with(page: str, measured: str) -> str:
     return "\n".join(entries)
 
 
-def complaints(found: Sequence[Calibrated], *, check: bool) -> list[str]:
+def complaints(found: Sequence[CalibratedPicture], *, check: bool) -> list[str]:
     """What is not as it should be, one line for each limit."""
     lines = []
     for one in found:
@@ -189,7 +189,7 @@ def write_limits(path: Path, limits: Mapping[tuple[PictureTable, str], float]) -
     return write_if_changed(path, with_limits(path.read_text(encoding="utf-8"), limits).encode())
 
 
-def _write(kit: BuiltKit, found: Sequence[Calibrated]) -> None:
+def _write(kit: BuiltKit, found: Sequence[CalibratedPicture]) -> None:
     for path in dict.fromkeys(one.limited.path(kit.project) for one in found):
         limits = {
             (one.limited.table, one.limited.name): one.gate.limit
@@ -200,14 +200,18 @@ def _write(kit: BuiltKit, found: Sequence[Calibrated]) -> None:
             print(f"{path.relative_to(kit.project.root).as_posix()} written")
 
 
-def _measured(kit: BuiltKit, only: Sequence[str], settings: Sequence[Setting], say: Say) -> list[Calibrated]:
-    found: list[Calibrated] = []
+def _measured(
+    kit: BuiltKit, only: Sequence[str], settings: Sequence[Setting], say: ProgressCallback
+) -> list[CalibratedPicture]:
+    found: list[CalibratedPicture] = []
     for step in choose(kit.steps, list(only)):
         found += calibrate_step(kit, step, settings, os.cpu_count() or 1, say)
     return found
 
 
-def calibrate(project: Project, only: Sequence[str], console: Console, say: Say, *, check: bool, grades: bool) -> int:
+def calibrate(
+    project: Project, only: Sequence[str], console: Console, say: ProgressCallback, *, check: bool, grades: bool
+) -> int:
     """Measures the limits of all pictures and writes them; or grades every correct solution (`grades`)."""
     kit = build_kit(project, say)
     settings, left_out = all_settings(kit)

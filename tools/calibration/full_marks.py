@@ -14,11 +14,11 @@ from rich.table import Table
 
 from raysteps.course.manifest import Step
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.calibration.measure import Setting, counted, own_setting
 from tools.test_submissions import Entrant, right_ones
 
@@ -54,7 +54,7 @@ def mark(kit: BuiltKit, step: Step, candidate: Entrant, setting: Setting, seed: 
     submission = Submission(candidate.name, {step.id: candidate.source.encode()}, {})
     wished = Settings(seed, (step.id,), limits={"seconds": _SECONDS})
     with tempfile.TemporaryDirectory(prefix="raysteps-") as out:
-        results = grade_one(setting.applied(kit), submission, wished, OpenAir(), Path(out))
+        results = grade_submission(setting.applied(kit), submission, wished, LimitsOnly(), Path(out))
     return Mark(step, candidate, setting, results.steps[0])
 
 
@@ -71,7 +71,9 @@ def _table(found: Sequence[Mark], seconds: float) -> Table:
     return table
 
 
-def marks(kit: BuiltKit, steps: Sequence[Step], settings: Sequence[Setting], console: Console, say: Say) -> int:
+def marks(
+    kit: BuiltKit, steps: Sequence[Step], settings: Sequence[Setting], console: Console, say: ProgressCallback
+) -> int:
     """Grades all, prints a table, and says what was lost."""
     start = time.monotonic()
     work = [

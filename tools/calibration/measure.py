@@ -21,9 +21,9 @@ from raysteps.images.compare import compare
 from raysteps.images.render import reference_picture, render
 from raysteps.judge.hidden_scenes import hidden_scenes
 from raysteps.judge.plan import read_plan
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.toolchain.compile import Compiled, Program, StudentBuild
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from raysteps.toolchain.limits import StepLimits, limits_of
 from tools.calibration.gate import Gate, gate_between
 from tools.test_submissions import Entrant, mutants, right_ones
@@ -42,7 +42,7 @@ class View:
 
 
 @dataclass(frozen=True)
-class Limited:
+class LimitedPicture:
     """One max_wrong of a manifest, and the pictures that it judges: of a hidden scene, one for each seed."""
 
     step: str
@@ -62,10 +62,10 @@ class Limited:
         return project.solutions / self.step / "cases.toml"
 
 
-def limited_pictures(project: Project, step: Step, seeds: range, folder: Path) -> list[Limited]:
+def limited_pictures(project: Project, step: Step, seeds: range, folder: Path) -> list[LimitedPicture]:
     """The visible pictures, the twins and the made-up scenes, whose files are written into the folder."""
     limits = [
-        Limited(step.id, "images", image.name, image.max_wrong, (View(project.root / image.scene, image.args),))
+        LimitedPicture(step.id, "images", image.name, image.max_wrong, (View(project.root / image.scene, image.args),))
         for image in step.images
     ]
     plan = read_plan(project, step)
@@ -81,9 +81,9 @@ def limited_pictures(project: Project, step: Step, seeds: range, folder: Path) -
         seeded.append(scenes)
     views = list(zip(*seeded, strict=True))
     for twin, of_twin in zip(plan.twins, views, strict=False):
-        limits.append(Limited(step.id, "twins", twin.twin_of, twin.max_wrong, of_twin))
+        limits.append(LimitedPicture(step.id, "twins", twin.twin_of, twin.max_wrong, of_twin))
     for made_up, of_scene in zip(plan.random_scenes, views[len(plan.twins) :], strict=True):
-        limits.append(Limited(step.id, "random_scenes", made_up.name, made_up.max_wrong, of_scene))
+        limits.append(LimitedPicture(step.id, "random_scenes", made_up.name, made_up.max_wrong, of_scene))
     return limits
 
 
@@ -193,7 +193,7 @@ class PictureShares:
         """One for each view; a program that makes no picture has every pixel wrong."""
         limits = limits_of(self._step, {})
         with tempfile.TemporaryDirectory(prefix="raysteps-") as name:
-            build = StudentBuild(setting.applied(self._kit), OpenAir(), Path(name))
+            build = StudentBuild(setting.applied(self._kit), LimitsOnly(), Path(name))
             compiled = build.compile(self._step, candidate.source.encode(), limits)
             if compiled.binary is None:
                 raise GraderFault(f"{self._step.id}: {candidate.name}, {setting.name}: {_said(compiled)}")
@@ -219,7 +219,7 @@ class PictureShares:
 
     def _share(self, program: Program, place: int, limits: StepLimits) -> tuple[float, bool]:
         view = self._views[place]
-        rendered = render(OpenAir(), program, view.scene, view.args, limits.of_program())
+        rendered = render(LimitsOnly(), program, view.scene, view.args, limits.of_program())
         if rendered.pixels is None:
             return _NO_PICTURE, rendered.ran.outcome.timed_out
         return compare(rendered.pixels, self._reference[place], 0.0).wrong_share, False
@@ -241,15 +241,15 @@ _EVERY = 25  # measurements between two lines of progress
 
 
 @dataclass(frozen=True)
-class Calibrated:
+class CalibratedPicture:
     """One limit with what it is made from."""
 
-    limited: Limited
+    limited: LimitedPicture
     gate: Gate
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredShares:
     """One candidate in one setting, with a share for each picture."""
 
     candidate: Entrant
@@ -257,7 +257,7 @@ class Measured:
     shares: tuple[float, ...]
 
 
-def counted(say: Say, what: str, total: int) -> Callable[[], None]:
+def counted(say: ProgressCallback, what: str, total: int) -> Callable[[], None]:
     """To be called after each of them; says how far it is now and then."""
     done = iter(range(1, total + 1))
 
@@ -269,11 +269,13 @@ def counted(say: Say, what: str, total: int) -> Callable[[], None]:
     return one_more
 
 
-def _measure(measuring: PictureShares, work: Sequence[tuple[Entrant, Setting]], jobs: int, say: Say) -> list[Measured]:
+def _measure(
+    measuring: PictureShares, work: Sequence[tuple[Entrant, Setting]], jobs: int, say: ProgressCallback
+) -> list[MeasuredShares]:
     one_more = counted(say, "measured", len(work))
 
-    def one(item: tuple[Entrant, Setting]) -> Measured:
-        measured = Measured(*item, measuring.shares(*item))
+    def one(item: tuple[Entrant, Setting]) -> MeasuredShares:
+        measured = MeasuredShares(*item, measuring.shares(*item))
         one_more()
         return measured
 
@@ -281,7 +283,7 @@ def _measure(measuring: PictureShares, work: Sequence[tuple[Entrant, Setting]], 
         return list(pool.map(one, work))
 
 
-def _worst(measured: Sequence[Measured], views: slice) -> dict[str, float]:
+def _worst(measured: Sequence[MeasuredShares], views: slice) -> dict[str, float]:
     """Of each correct solution in each setting."""
     return {
         f"{one.candidate.name}, {one.setting.name}": max(one.shares[views])
@@ -290,7 +292,9 @@ def _worst(measured: Sequence[Measured], views: slice) -> dict[str, float]:
     }
 
 
-def calibrate_step(kit: BuiltKit, step: Step, settings: Sequence[Setting], jobs: int, say: Say) -> list[Calibrated]:
+def calibrate_step(
+    kit: BuiltKit, step: Step, settings: Sequence[Setting], jobs: int, say: ProgressCallback
+) -> list[CalibratedPicture]:
     """Correct solutions in every setting, mistakes as students are graded."""
     own = own_setting(kit)
     correct, mistaken = right_ones(kit.project, step), mutants(kit.project, step)
@@ -310,6 +314,8 @@ def calibrate_step(kit: BuiltKit, step: Step, settings: Sequence[Setting], jobs:
         views = slice(start, start + len(limited.views))
         mistakes = {one.candidate.name: one.shares[views] for one in measured if not one.candidate.is_right}
         pixels = min(measuring.pixels[views])
-        found.append(Calibrated(limited, gate_between(_worst(measured, views), mistakes, pixels, limited.max_wrong)))
+        found.append(
+            CalibratedPicture(limited, gate_between(_worst(measured, views), mistakes, pixels, limited.max_wrong))
+        )
         start = views.stop
     return found

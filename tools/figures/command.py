@@ -17,7 +17,7 @@ from raysteps.common.text import count
 from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.figures import bending, boxes, camera, curves, plots, quadtree, renders, shading, surfaces
 from tools.figures.measuring import measured
 from tools.figures.window import CannotDraw, window
@@ -109,7 +109,7 @@ def _chosen(names: Sequence[str]) -> list[Figure]:
     return [one for one in every if not names or any(fnmatch.fnmatchcase(one.name, name) for name in names)]
 
 
-def _renewed(project: Project, kit: BuiltKit, figure: Figure, say: Say) -> str | Pixels | None:
+def _renewed(project: Project, kit: BuiltKit, figure: Figure, say: ProgressCallback) -> str | Pixels | None:
     """What should be in the figure's file; none when it is there, or cannot be drawn here."""
     path = project.root / figure.path
     try:
@@ -131,7 +131,7 @@ def _nobodys(project: Project) -> list[str]:
     return sorted(path for path in found if path not in known)
 
 
-def out_of_date(project: Project, say: Say, names: Sequence[str] = ()) -> list[str]:
+def out_of_date(project: Project, say: ProgressCallback, names: Sequence[str] = ()) -> list[str]:
     """Paths that are missing, old, or made by no figure."""
     kit = build_kit(project, say)
     old = [figure.path for figure in _chosen(names) if _renewed(project, kit, figure, say) is not None]

@@ -17,7 +17,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 from tools.figures import variants
 from tools.figures.variants import Variant, with_knobs
 
-Measured = dict[str, Any]
+Measurement = dict[str, Any]
 
 _SIZE = ("--size", "48x36")
 _SECONDS = 120
@@ -36,29 +36,29 @@ _DEPTH_KNOB = {
 _THRESHOLD_KNOB = {"k_shadow_threshold * hit.normal": "knob(0) * hit.normal"}
 
 
-def _stats(kit: BuiltKit, scene: Path, *options: str) -> Measured:
+def _stats(kit: BuiltKit, scene: Path, *options: str) -> Measurement:
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         picture, stats = Path(folder) / "picture.ppm", Path(folder) / "stats.json"
         words: list[str | Path] = [kit.reference("raytrace"), scene, *_SIZE, *options, "--quiet", "-o", picture]
         outcome = run([*words, "--stats", stats], seconds=_SECONDS)
         if outcome.code != 0:
             raise GraderFault(f"figures: {scene.name} cannot be rendered: {outcome.stderr.strip()}")
-        told: Measured = json.loads(stats.read_text(encoding="utf-8"))
+        told: Measurement = json.loads(stats.read_text(encoding="utf-8"))
         return told
 
 
-def _rays(stats: Measured) -> int:
+def _rays(stats: Measurement) -> int:
     return sum(int(count) for kind, count in stats["rays"].items() if kind != "eye_hit")
 
 
-def _per_ray(stats: Measured) -> float:
+def _per_ray(stats: Measurement) -> float:
     """Tests of surfaces and boxes together."""
     return float(stats["surface_tests"] + stats["box_tests"]) / _rays(stats)
 
 
-def growth(kit: BuiltKit) -> Measured:
+def growth(kit: BuiltKit) -> Measurement:
     """Tests per ray for each kind of scene and way to search: [surfaces, tests] pairs."""
-    result: Measured = {}
+    result: Measurement = {}
     for kind, sizes in _GROWING.items():
         scenes = [generated(kit.project, kind, size) for size in sizes]
         result[kind] = {
@@ -71,12 +71,12 @@ def growth(kit: BuiltKit) -> Measured:
     return result
 
 
-def depths(kit: BuiltKit) -> Measured:
+def depths(kit: BuiltKit) -> Measurement:
     """Tests per ray and entries per surface of an octree that ends at each depth, without any other limit."""
     variant = Variant(kit, kit.steps[5], with_knobs(kit, kit.steps[5], _DEPTH_KNOB))
     args = ("--step", "6", "--accel", "octree")
     gears = "scenes/generated/gears.nff"
-    result: Measured = {"surfaces": [], "boxes": [], "precise": [], "bounds": []}
+    result: Measurement = {"surfaces": [], "boxes": [], "precise": [], "bounds": []}
     for depth in _DEPTHS:
         stats = variant.draw(gears, (*args, *_SIZE), (depth, 0)).stats
         result["surfaces"].append([depth, stats["surface_tests"] / _rays(stats)])
@@ -91,11 +91,11 @@ def _share(pixels: Pixels, right: Pixels) -> float:
     return float((gaps(pixels, right) > 8).mean())
 
 
-def thresholds(kit: BuiltKit) -> Measured:
+def thresholds(kit: BuiltKit) -> Measurement:
     """The share of wrong pixels for each threshold of the shadow ray."""
     variant = Variant(kit, kit.steps[3], with_knobs(kit, kit.steps[3], _THRESHOLD_KNOB))
     args = ("--step", "4", "--size", "96x72")
-    result: Measured = {}
+    result: Measurement = {}
     for name in _ACNE_SCENES:
         scene = f"scenes/lessons/{name}.nff"
         right = variant.draw(scene, args, (1e-3,)).pixels
@@ -103,7 +103,7 @@ def thresholds(kit: BuiltKit) -> Measured:
     return result
 
 
-def bounces(kit: BuiltKit) -> Measured:
+def bounces(kit: BuiltKit) -> Measurement:
     """Rays per pixel for each ray depth."""
     scene = kit.project.scenes / "lessons" / "facing-mirrors.nff"
     rows = [(depth, _stats(kit, scene, "--step", "5", "--depth", str(depth))) for depth in _BOUNCES]
@@ -124,7 +124,7 @@ def _key(kit: BuiltKit, names: Sequence[str]) -> str:
     return hashlib.sha256(" ".join(names).encode() + data).hexdigest()[:24]
 
 
-def measured(kit: BuiltKit) -> Measured:
+def measured(kit: BuiltKit) -> Measurement:
     """All of it, measured by whoever needs it first."""
     path = kit.folder / "figures" / f"{_key(kit, list(_WHAT))}.json"
     with one_at_a_time(path.with_suffix(".lock")):
@@ -132,5 +132,5 @@ def measured(kit: BuiltKit) -> Measured:
             with ThreadPoolExecutor(2) as pool:
                 results = list(pool.map(lambda measure: measure(kit), _WHAT.values()))
             write_json(path, dict(zip(_WHAT, results, strict=True)))
-        told: Measured = json.loads(path.read_text(encoding="utf-8"))
+        told: Measurement = json.loads(path.read_text(encoding="utf-8"))
         return told

@@ -1,7 +1,7 @@
 """Plots of what was counted."""
 
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
-from tools.figures.measuring import Measured
+from tools.figures.measuring import Measurement
 
 _NAMES = {"none": "every surface", "boxes": "64 boxes", "octree": "octree", "bvh": "bounding volumes"}
 _MIDDLE = 420.0
@@ -11,7 +11,7 @@ def _points(rows: list[list[float]]) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in rows]
 
 
-def growth(measured: Measured) -> str:
+def growth(measured: Measurement) -> str:
     """Tests per ray against the size of the scene, on log axes."""
     found = measured["growth"]
     every = [_points(rows) for ways in found.values() for rows in ways.values()]
@@ -28,7 +28,7 @@ def growth(measured: Measured) -> str:
     return svg_text(charts, width=_MIDDLE, description=words, plate=True)
 
 
-def depths(measured: Measured) -> str:
+def depths(measured: Measurement) -> str:
     """Left: tests per ray. Right: entries per surface with both kinds of overlap test."""
     found = measured["depths"]
     x = Axis("greatest depth of the tree", 0.0, 7.0)
@@ -50,7 +50,7 @@ def depths(measured: Measured) -> str:
     return svg_text(charts, width=_MIDDLE, description=words, plate=True)
 
 
-def acne(measured: Measured) -> str:
+def acne(measured: Measurement) -> str:
     """Wrong pixels against the threshold."""
     found = measured["thresholds"]
     x = log_axis("threshold, in units of the scene", [at for rows in found.values() for at, _ in rows])
@@ -63,7 +63,7 @@ def acne(measured: Measured) -> str:
     return svg_text([Chart("acne, and lost shadows", x, y, series)], width=560.0, description=words, plate=True)
 
 
-def bounces(measured: Measured) -> str:
+def bounces(measured: Measurement) -> str:
     """Rays per pixel against the ray depth."""
     found = measured["bounces"]
     y = linear_axis("rays per pixel", [value for rows in found.values() for _, value in rows])

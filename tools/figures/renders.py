@@ -10,12 +10,12 @@ from PIL import Image, ImageDraw, ImageFont
 from raysteps.common.files import write_bytes
 from raysteps.course.project import generated
 from raysteps.course.stubs import stub_for
-from raysteps.images.compare import Pixels, apart, read_png
+from raysteps.images.compare import Pixels, pixels_differ, read_png
 from raysteps.images.render import reference_picture
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from tools.figures.variants import Variant
 
-_MOST_APART = 2.0  # of 255, on average: another compiler moves a few pixels
+_MAX_APART = 2.0  # of 255, on average: another compiler moves a few pixels
 _SMALL = ("--size", "240x180")
 _TILE, _GAP, _LETTERS = 236, 6, 18
 _PAPER, _INK = (26, 27, 30), (235, 235, 235)
@@ -111,7 +111,7 @@ def is_current(path: Path, pixels: Pixels) -> bool:
         kept = read_png(path)
     except (OSError, ValueError):
         return False
-    return kept.shape == pixels.shape and float(apart(kept, pixels).mean()) <= _MOST_APART
+    return kept.shape == pixels.shape and float(pixels_differ(kept, pixels).mean()) <= _MAX_APART
 
 
 def write(path: Path, pixels: Pixels) -> None:

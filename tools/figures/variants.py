@@ -12,7 +12,7 @@ from raysteps.common.text import shorten
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import reference_source
 from raysteps.images.compare import Pixels, parse_ppm
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Output, Task, Word
 from raysteps.toolchain.compile import Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -35,7 +35,7 @@ float knob(int number) {
 
 
 @dataclass(frozen=True)
-class Drawn:
+class RenderedVariant:
     """A picture and the counters that stand beside it."""
 
     pixels: Pixels
@@ -56,7 +56,7 @@ class Variant:
     """One step from another source, compiled as a student's step is, and linked with the kit."""
 
     def __init__(self, kit: BuiltKit, step: Step, source: str) -> None:
-        self._kit, self._air = kit, OpenAir()
+        self._kit, self._air = kit, LimitsOnly()
         self._limits = limits_of(step, {})
         self._folder = tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True)
         build = StudentBuild(kit, self._air, Path(self._folder.name))
@@ -68,7 +68,7 @@ class Variant:
             raise GraderFault(f"figures: {step.id} cannot be linked")
         self._program: Program = program
 
-    def draw(self, scene: str, args: Sequence[str], knobs: Sequence[float] = ()) -> Drawn:
+    def draw(self, scene: str, args: Sequence[str], knobs: Sequence[float] = ()) -> RenderedVariant:
         """One picture; `knobs` are the two numbers that the source asks for with knob(0) and knob(1)."""
         words: list[Word] = [*self._program.words, Input(self._kit.project.root / scene, "scene.nff"), *args, "--quiet"]
         words += ["-o", Output("picture"), "--stats", Output("stats")]
@@ -76,4 +76,4 @@ class Variant:
         ran = self._air.run(Task(tuple(words), self._limits.of_program(), stdin=told))
         if ran.outcome.code != 0 or "picture" not in ran.outputs:
             raise GraderFault(f"figures: {scene} cannot be rendered: {shorten(ran.outcome.stderr, 1000)}")
-        return Drawn(parse_ppm(ran.outputs["picture"]), json.loads(ran.outputs["stats"]))
+        return RenderedVariant(parse_ppm(ran.outputs["picture"]), json.loads(ran.outputs["stats"]))

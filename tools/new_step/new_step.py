@@ -110,7 +110,7 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
     return sorted(path.relative_to(project.root).as_posix() for path in made)
 
 
-_MOST_POINTS = 1000
+_MAX_POINTS = 1000
 
 
 def _points(text: str) -> float:
@@ -118,7 +118,7 @@ def _points(text: str) -> float:
         value = float(text)
     except ValueError:
         value = 0.0
-    if not (math.isfinite(value) and 0 < value <= _MOST_POINTS):
+    if not (math.isfinite(value) and 0 < value <= _MAX_POINTS):
         raise argparse.ArgumentTypeError(f"'{text}' are no points; expected a number above 0, such as 10")
     return value
 

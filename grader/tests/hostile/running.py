@@ -13,11 +13,11 @@ from hostile.planting import Listener, Planted
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.images.render import reference_picture
 from raysteps.results.model import Results
-from raysteps.sandbox.task import Isolation, Ran, Sandbox, Task
-from raysteps.submission.load import take_in
+from raysteps.sandbox.task import Isolation, Sandbox, Task, TaskResult
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # Enough for honest programs on a busy machine; attacks that take all that they get name less.
@@ -46,7 +46,7 @@ class Watched:
     def isolation(self) -> Isolation:
         return self.sandbox.isolation
 
-    def run(self, task: Task) -> Ran:
+    def run(self, task: Task) -> TaskResult:
         start = time.monotonic()
         ran = self.sandbox.run(task)
         seconds = time.monotonic() - start
@@ -131,9 +131,9 @@ class Range:
         start = time.monotonic()
         try:
             for _ in range(attack.rounds):
-                submission = take_in(path, self.kit.steps)
+                submission = load_submission(path, self.kit.steps)
                 graded.taken = set(submission.sources)
-                graded.results.append(grade_one(self.kit, submission, settings, watched, graded.out))
+                graded.results.append(grade_submission(self.kit, submission, settings, watched, graded.out))
         except UsageError as error:
             graded.refused = str(error)
         graded.runs, graded.seconds = watched.runs, time.monotonic() - start

@@ -14,8 +14,8 @@ from typing import Any
 
 from raysteps.classroom.class_document import Document, class_document
 from raysteps.classroom.database import FILE as DATABASE
-from raysteps.classroom.database import ClassDatabase, reading
-from raysteps.common.csv_safety import harmless_cell
+from raysteps.classroom.database import ClassDatabase, open_readonly
+from raysteps.common.csv_safety import escape_formula
 from raysteps.common.errors import UsageError
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.common.schemas import complaint, read_schema
@@ -39,7 +39,7 @@ def safe_cell(value: Cell) -> str:
         return ""
     if isinstance(value, (int, float)):
         return number(value)
-    return harmless_cell(value)
+    return escape_formula(value)
 
 
 def csv_bytes(rows: Iterable[Sequence[Cell]]) -> bytes:
@@ -170,7 +170,7 @@ def class_source(place: Path) -> Path | None:
 
 
 def _from_database(path: Path) -> Document:
-    with reading(path) as connection:
+    with open_readonly(path) as connection:
         try:
             return class_document(ClassDatabase(path.parent, connection))
         except sqlite3.Error as error:

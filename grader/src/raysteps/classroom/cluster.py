@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.jobs import Answer, Job, Say, make_grader
+from raysteps.classroom.jobs import Answer, Job, ProgressCallback, make_grader
 from raysteps.classroom.local_pool import Slot
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import count
@@ -117,7 +117,9 @@ def _connect(address: str) -> Any:
 class Cluster:
     """Hands jobs to the workers of a scheduler. A job whose worker is lost goes to another one."""
 
-    def __init__(self, address: str, run: str, kit: str, grader: str, *, require_sandbox: bool, say: Say) -> None:
+    def __init__(
+        self, address: str, run: str, kit: str, grader: str, *, require_sandbox: bool, say: ProgressCallback
+    ) -> None:
         self._address = address
         self._run = run
         self._kit = kit

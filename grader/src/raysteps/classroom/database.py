@@ -359,7 +359,7 @@ def _open(path: Path) -> sqlite3.Connection:
 
 
 @contextmanager
-def reading(path: Path) -> Iterator[sqlite3.Connection]:
+def open_readonly(path: Path) -> Iterator[sqlite3.Connection]:
     """A class as it is at one moment, even while it is graded on."""
     try:
         connection = _open(path)

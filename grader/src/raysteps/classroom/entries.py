@@ -13,10 +13,10 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import printable
 from raysteps.course.manifest import Step
-from raysteps.submission.load import Submission, take_in
+from raysteps.submission.load import Submission, load_submission
 
-_MOST_FILES = 20_000
-_MOST_DEPTH = 6
+_MAX_FILES = 20_000
+_MAX_DEPTH = 6
 _BLANKS = str.maketrans("\n\t", "  ")
 _NO_SUBMISSIONS = {"__MACOSX", "Thumbs.db", "desktop.ini"}
 
@@ -101,14 +101,14 @@ def _file_times(folder: Path) -> Iterator[float]:
             continue  # what cannot be read is not taken either
         for child in children:
             seen += 1
-            if seen > _MOST_FILES:
+            if seen > _MAX_FILES:
                 return
             status = child.lstat()
             if child.name.startswith(".") or (stat.S_ISDIR(status.st_mode) and child.name == "build"):
                 continue
             if stat.S_ISREG(status.st_mode):
                 yield status.st_mtime
-            elif stat.S_ISDIR(status.st_mode) and depth < _MOST_DEPTH:
+            elif stat.S_ISDIR(status.st_mode) and depth < _MAX_DEPTH:
                 stack.append((child, depth + 1))
 
 
@@ -133,19 +133,19 @@ _OF_THIS_MACHINE = {
 
 
 @dataclass(frozen=True)
-class TakenIn:
+class LoadedEntry:
     """A submission under its safe name. One that could not be read has no sources, and a note for each step."""
 
     submission: Submission
     unreadable: bool = False
 
 
-def take_in_as(name: str, path: Path, steps: list[Step]) -> TakenIn:
+def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
     """What the student packed badly is the student's; what this machine cannot read is a GraderFault."""
     try:
         if not path.exists() or (path.is_dir() and not os.access(path, os.R_OK | os.X_OK)):
             raise GraderFault(f"{path}: is not there any more, or must not be read")
-        return TakenIn(replace(take_in(path, steps), name=name))
+        return LoadedEntry(replace(load_submission(path, steps), name=name))
     except UsageError as error:
         cause: BaseException | None = error
         while cause is not None:
@@ -155,7 +155,7 @@ def take_in_as(name: str, path: Path, steps: list[Step]) -> TakenIn:
         # Where the submission lies is nobody's business but the instructor's.
         reason = printable(str(error).removeprefix(f"{path}: "))
         notes = {step.id: f"Nothing was taken from this submission: {reason}" for step in steps}
-        return TakenIn(Submission(name, {}, notes), unreadable=True)
+        return LoadedEntry(Submission(name, {}, notes), unreadable=True)
     except GraderFault:
         raise
     except Exception as error:  # whatever it is, it is the fault of one submission, and the class goes on

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from raysteps.submission.load import ARCHIVE_ENDINGS
 
-_MOST_BYTES = 100
+_MAX_BYTES = 100
 _DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
 # Only the beginning is the platform's; what comes after it may be a file name that a student chose.
 _CANVAS = re.compile(r"([^\W_]+)_(?:LATE_)?([0-9]+)_[0-9]+_")  # leeann_4711_815_steps
@@ -40,7 +40,7 @@ def safe_name(text: str) -> str:
     """Letters, digits, `.`, `_` and `-` only; never hidden, empty, too long, or a device of Windows."""
     plain = unicodedata.normalize("NFKC", text)
     name = "".join(letter if letter.isalnum() or letter in "._-" else "_" for letter in plain).strip("._-")
-    name = name.encode()[:_MOST_BYTES].decode("utf-8", "ignore").rstrip(".")
+    name = name.encode()[:_MAX_BYTES].decode("utf-8", "ignore").rstrip(".")
     return f"_{name}" if not name or _DEVICES.fullmatch(name) else name
 
 

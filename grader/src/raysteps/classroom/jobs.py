@@ -99,7 +99,7 @@ def _check(document: Any, kind: str) -> None:
 
 # What grades one submission; the class does not know how that is done.
 
-Say = Callable[[str], None]
+ProgressCallback = Callable[[str], None]
 KIT_GRADER = "raysteps.classroom.kit_grader:make"
 
 
@@ -109,11 +109,11 @@ class Grader(Protocol):
     fingerprint: str
     isolation: Isolation
 
-    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: Say) -> None:
+    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: ProgressCallback) -> None:
         """Writes out/results.json and the pictures that it names."""
 
 
-def make_grader(name: str, *, require_sandbox: bool, say: Say) -> Grader:
+def make_grader(name: str, *, require_sandbox: bool, say: ProgressCallback) -> Grader:
     """From `module:function`. A name, because it must reach other processes and machines."""
     found = re.fullmatch(r"([A-Za-z_][\w.]*):([A-Za-z_]\w*)", name)
     if found is None:

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.classroom.database import FILE, LATEST, reading
+from raysteps.classroom.database import FILE, LATEST, open_readonly
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import count, printable, size
@@ -32,7 +32,7 @@ _QUERY = (
 
 
 @dataclass(frozen=True)
-class Entered:
+class LeaderboardEntry:
     """One submission; without a document, why there is none."""
 
     name: str
@@ -41,14 +41,14 @@ class Entered:
     source: str = ""
 
 
-def _without(name: str, status: str | None) -> Entered:
-    return Entered(name, None, _WHY_NOT.get(status or "", "not graded yet"))
+def _without(name: str, status: str | None) -> LeaderboardEntry:
+    return LeaderboardEntry(name, None, _WHY_NOT.get(status or "", "not graded yet"))
 
 
-def _of_database(path: Path) -> list[Entered]:
+def _of_database(path: Path) -> list[LeaderboardEntry]:
     """Results of the kit that graded then: what this one cannot read is nobody's fault."""
     entered = []
-    with reading(path) as connection:
+    with open_readonly(path) as connection:
         for row in connection.execute(_QUERY):
             if row["status"] != "graded":
                 entered.append(_without(row["name"], row["status"]))
@@ -56,13 +56,13 @@ def _of_database(path: Path) -> list[Entered]:
             document = json.loads(row["document"])
             try:
                 validate(document)
-                entered.append(Entered(row["name"], document))
+                entered.append(LeaderboardEntry(row["name"], document))
             except GraderFault:
-                entered.append(Entered(row["name"], None, "graded by a kit of another form; grade it again"))
+                entered.append(LeaderboardEntry(row["name"], None, "graded by a kit of another form; grade it again"))
     return entered
 
 
-def _of_class(path: Path, facts: Document) -> list[Entered]:
+def _of_class(path: Path, facts: Document) -> list[LeaderboardEntry]:
     """class.json, and the results.json files that it names."""
     problem = complaint(facts, read_schema("raysteps.classroom", "class.schema.json"))
     if problem:
@@ -76,7 +76,7 @@ def _of_class(path: Path, facts: Document) -> list[Entered]:
         place = (home / one["results"]).resolve()
         if not place.is_relative_to(home):
             raise UsageError(f"{path}: names {one['results']}, which lies outside of its folder")
-        entered.append(Entered(one["name"], read_results(place)))
+        entered.append(LeaderboardEntry(one["name"], read_results(place)))
     return entered
 
 
@@ -89,7 +89,7 @@ def _is_class(path: Path) -> Document | None:
     return facts if isinstance(facts, dict) and facts.get("schema") == "raysteps/class/v1" else None
 
 
-def _of_place(place: Path) -> list[Entered]:
+def _of_place(place: Path) -> list[LeaderboardEntry]:
     path = place
     if place.is_dir():
         names = (FILE, "class.json", "results.json")
@@ -104,10 +104,10 @@ def _of_place(place: Path) -> list[Entered]:
     if facts is not None:
         return _of_class(path, facts)
     document = read_results(path)
-    return [Entered(document["submission"], document, source=str(place))]
+    return [LeaderboardEntry(document["submission"], document, source=str(place))]
 
 
-def read_entries(places: Sequence[Path]) -> list[Entered]:
+def read_entries(places: Sequence[Path]) -> list[LeaderboardEntry]:
     """All of all places. Where two are called alike, the place tells them apart."""
     entered = [replace(one, source=one.source or str(place)) for place in places for one in _of_place(place)]
     seen = Counter(one.name for one in entered)
@@ -150,7 +150,7 @@ class Board:
         return known.pop() if len(known) == 1 else None
 
 
-def _effort(entered: Entered, step: Step) -> Effort | NoEffort:
+def _effort(entered: LeaderboardEntry, step: Step) -> Effort | NoEffort:
     if entered.document is None:
         return NoEffort(entered.why)
     result = next((result for result in entered.document["steps"] if result["id"] == step.id), None)
@@ -168,7 +168,7 @@ def _in_place(efforts: Sequence[tuple[str, Effort]]) -> list[Ranked]:
     return [Ranked(places.index(_standing(effort)) + 1, name, effort) for name, effort in ordered]
 
 
-def rank(entered: Sequence[Entered], step: Step) -> Board:
+def rank(entered: Sequence[LeaderboardEntry], step: Step) -> Board:
     """Least work first, then least memory. The same results give the same board, in whatever order they come."""
     efforts: list[tuple[str, Effort]] = []
     others: list[NotRanked] = []

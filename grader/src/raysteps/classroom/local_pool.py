@@ -21,7 +21,7 @@ from raysteps.common.errors import GraderFault
 MOST_SECONDS = 3600.0  # every program has its own limit; this is for what nobody thought of
 
 
-class Died(Exception):
+class WorkerDied(Exception):
     """The process is gone, and with it the answer."""
 
 
@@ -72,7 +72,7 @@ class GradingProcess:
         if not line.endswith(b"\n"):
             if self._overtime:
                 raise Overtime(f"there was no answer after {most_seconds:.0f} s")
-            raise Died(self._why())
+            raise WorkerDied(self._why())
         return Answer.from_json(json.loads(line))
 
     def _why(self) -> str:
@@ -104,7 +104,7 @@ class GradingProcess:
 _ATTEMPTS = 2
 
 
-class Stopped(Exception):
+class JobStopped(Exception):
     """Somebody stopped the grading."""
 
 
@@ -119,7 +119,7 @@ class Slot:
     def _running(self) -> GradingProcess:
         with self._lock:
             if self._stopped:
-                raise Stopped
+                raise JobStopped
             if self._process is None:
                 self._process = GradingProcess()
             return self._process
@@ -139,7 +139,7 @@ class Slot:
             except Overtime as overtime:
                 self._drop()
                 return Answer(job.submission.name, "fault", fault=str(overtime))
-            except Died as death:
+            except WorkerDied as death:
                 self._drop()
                 deaths.append(str(death))
             except (OSError, ValueError, GraderFault) as error:
@@ -147,7 +147,7 @@ class Slot:
                 deaths.append(f"{type(error).__name__}: {error}")
             with self._lock:
                 if self._stopped:
-                    raise Stopped
+                    raise JobStopped
         text = "the process that graded this submission died twice"
         return Answer(job.submission.name, "fault", fault=f"{text}: {deaths[-1]}", details="\n".join(deaths))
 
@@ -187,7 +187,7 @@ class LocalPool:
         while (job := self._jobs.get()) is not None:
             try:
                 self._answers.put(slot.grade(job))
-            except Stopped:
+            except JobStopped:
                 return
             except BaseException as error:
                 self._answers.put(error)

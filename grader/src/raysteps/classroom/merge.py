@@ -6,10 +6,10 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.database import FILE, ClassDatabase, insert, reading, transaction
+from raysteps.classroom.database import FILE, ClassDatabase, insert, open_readonly, transaction
 from raysteps.classroom.entry_names import name_entries
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 
 # What merging looks at: the parts of a class, whether they fit together, and the order of their runs.
 
@@ -62,7 +62,7 @@ def disagreements(parts: list[Part]) -> list[str]:
         others = [str(part.folder) for part, one in zip(parts, facts, strict=True) if one[what] != counts]
         if others:
             warnings.append(
-                f"{listed(others)}: had other {what} than {last}, which began last and counts for the class; "
+                f"{join_and(others)}: had other {what} than {last}, which began last and counts for the class; "
                 "run the shards again with --resume so that all have the same"
             )
     return warnings
@@ -180,7 +180,7 @@ def merge(folders: list[Path], target: ClassDatabase) -> tuple[list[str], list[s
     """Runs are put into the order in which they began. Returns the shards that are missing, and warnings."""
     _check(folders, target)
     with ExitStack() as stack:
-        parts = [Part(folder, stack.enter_context(reading(folder / FILE))) for folder in folders]
+        parts = [Part(folder, stack.enter_context(open_readonly(folder / FILE))) for folder in folders]
         parts = sorted((part for part in parts if part.runs), key=lambda part: part.began)
         if not parts:
             raise UsageError("nothing has been graded in any of these folders")

@@ -12,7 +12,7 @@ from pathlib import Path
 from raysteps.classroom.entry_names import folded, platform_identity, stem
 from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed, printable
+from raysteps.common.text import join_and, printable
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
 _HEADERS = {
@@ -27,7 +27,7 @@ _HEADERS = {
     "submission": ("submission", "entry", "file", "filename", "folder", "archive"),
     "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
-_MOST_BYTES = 16 << 20
+_MAX_BYTES = 16 << 20
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def _columns(header: list[str], path: Path) -> dict[str, int]:
     if not columns.keys() & {"id", "name", "email"} and not {"first", "last"} <= columns.keys():
         raise UsageError(
             f"{path}:1: expected a header with a column id, name or email (and perhaps submission and submitted_at), "
-            f"found {listed([repr(cell) for cell in header])}"
+            f"found {join_and([repr(cell) for cell in header])}"
         )
     return columns
 
@@ -83,11 +83,11 @@ def _time(text: str, where: str) -> str:
 def _text(path: Path) -> str:
     try:
         with path.open("rb") as file:
-            data = file.read(_MOST_BYTES + 1)
+            data = file.read(_MAX_BYTES + 1)
     except OSError as error:
         raise UsageError(f"{path}: the roster cannot be read: {error.strerror}") from error
-    if len(data) > _MOST_BYTES:
-        raise UsageError(f"{path}: is larger than {_MOST_BYTES >> 20} MB; expected a roster")
+    if len(data) > _MAX_BYTES:
+        raise UsageError(f"{path}: is larger than {_MAX_BYTES >> 20} MB; expected a roster")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -27,7 +27,7 @@ from raysteps.grading.options import Feedback
 
 
 @dataclass(frozen=True)
-class Order:
+class ClassOptions:
     """What was asked for on the command line."""
 
     folder: Path
@@ -84,7 +84,7 @@ _NOBODY = Student(0, "", "", "")
 
 
 @dataclass
-class Given:
+class RunInputs:
     """`files` are no submissions, wherever they lie; `said` tells what comes from the last run."""
 
     students: list[Student] = field(default_factory=list)
@@ -99,7 +99,7 @@ def roster_text(students: Sequence[Student]) -> str:
 
 
 @dataclass
-class _Last(Given):
+class _Last(RunInputs):
     is_lost: bool = False  # a version of the kit that did not keep everything wrote the database
 
 
@@ -130,10 +130,10 @@ def _used_again(last: _Last, out: Path, option: str, what: str) -> str:
     return f"{what} of the last run in {out} is used again; {option} FILE takes another one, {option} none drops it"
 
 
-def read_given(order: Order) -> Given:
+def read_run_inputs(order: ClassOptions) -> RunInputs:
     """The roster and the late policy that were named, else with --resume those of the last run."""
     last = _last(order.out) if order.resume else _Last()
-    given = Given(files=[path for path in (order.roster, order.late_policy) if path is not None] + last.files)
+    given = RunInputs(files=[path for path in (order.roster, order.late_policy) if path is not None] + last.files)
     if order.late_policy is not None:
         given.late_policy = read_text(order.late_policy)
         parse_late_policy(given.late_policy, str(order.late_policy))
@@ -153,11 +153,11 @@ def read_given(order: Order) -> Given:
 class Plan:
     """`entries` are those of this shard, with their names."""
 
-    order: Order
+    order: ClassOptions
     steps: list[Step]
     chosen: list[Step]
     listing: Listing
-    given: Given
+    given: RunInputs
     matches: Matches
     uid: str = field(default_factory=lambda: uuid.uuid4().hex)
 
@@ -243,12 +243,12 @@ class Plan:
         return [entry for entry in self.listing.entries if self.order.shard.holds(entry.label)]
 
 
-def make_plan(project: Project, order: Order) -> Plan:
+def make_plan(project: Project, order: ClassOptions) -> Plan:
     """Everything that can be wrong with the inputs is found here."""
     check_places(order.folder, order.out, resume=order.resume)
     steps = read_steps(project)
     chosen = choose(steps, list(order.only))
-    given = read_given(order)
+    given = read_run_inputs(order)
     listing = list_entries(order.folder, given.files)
     matches = match([entry.label for entry in listing.entries], given.students)
     return Plan(order, steps, chosen, listing, given, matches)

@@ -12,10 +12,10 @@ from typing import Any, Protocol
 
 from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.entries import take_in_as
+from raysteps.classroom.entries import load_entry
 from raysteps.classroom.jobs import Answer, Job
 from raysteps.classroom.run_plan import Plan
-from raysteps.classroom.summary import Meter, first_line
+from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
 from raysteps.results.store import validate
@@ -100,7 +100,7 @@ class Session:
     plan: Plan
     kit: str
     database: ClassDatabase
-    meter: Meter
+    meter: ProgressMeter
     run: int
     names: dict[str, str]
     reused: list[str] = field(default_factory=list)
@@ -112,7 +112,7 @@ class Session:
         for entry in self.plan.mine():
             name = self.names[entry.label]
             try:
-                taken = take_in_as(name, entry.path, self.plan.steps)
+                taken = load_entry(name, entry.path, self.plan.steps)
             except GraderFault as fault:
                 self._record(Answer(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
                 continue

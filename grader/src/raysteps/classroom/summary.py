@@ -31,7 +31,7 @@ def first_line(text: str) -> str:
     return shorten(printable(text).split("\n", 1)[0], 300)
 
 
-class Meter:
+class ProgressMeter:
     """Counts submissions. What was graded before takes no time and says nothing about the time left."""
 
     def __init__(self, console: Console, total: int) -> None:
@@ -51,7 +51,7 @@ class Meter:
             self._bar = Progress(*columns, console=console, transient=True)
             self._task = self._bar.add_task("grading", total=total, left="")
 
-    def __enter__(self) -> "Meter":
+    def __enter__(self) -> "ProgressMeter":
         if self._bar is not None:
             self._bar.start()
         return self
@@ -93,7 +93,7 @@ class Meter:
 
 
 _MARKS = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
-_MOST_MISTAKES = 10
+_MAX_MISTAKES = 10
 _LEGEND = "b does not build, c crashed, t took too long, - not started"
 
 
@@ -175,7 +175,7 @@ def _mean(document: dict[str, Any]) -> str:
 
 def _mistakes(document: dict[str, Any]) -> list[str]:
     """What several did."""
-    common = [found for found in document["mistakes"] if found["submissions"] > 1][:_MOST_MISTAKES]
+    common = [found for found in document["mistakes"] if found["submissions"] > 1][:_MAX_MISTAKES]
     return [f"{found['submissions']} in {found['step']}: {found['title']}" for found in common]
 
 

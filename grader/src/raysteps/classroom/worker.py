@@ -16,13 +16,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, BinaryIO, NoReturn
 
-from raysteps.classroom.jobs import Answer, Grader, Job, Say, make_grader
+from raysteps.classroom.jobs import Answer, Grader, Job, ProgressCallback, make_grader
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.results.store import validate
 
 # Grades jobs in this process, one after another, with a grader that is made once.
 
-_MOST_DETAILS = 8000
+_MAX_DETAILS = 8000
 
 
 def this_worker() -> str:
@@ -47,10 +47,10 @@ def _read_answer(job: Job, out: Path, seconds: float) -> Answer:
     return Answer(job.submission.name, "graded", document, pictures, seconds=seconds, worker=this_worker())
 
 
-class Desk:
+class JobRunner:
     """One grader, made for the first job and kept while jobs ask for the same one."""
 
-    def __init__(self, say: Say) -> None:
+    def __init__(self, say: ProgressCallback) -> None:
         self._say = say
         self._made: tuple[str, bool] | None = None
         self._grader: Grader | None = None
@@ -81,7 +81,7 @@ class Desk:
                 job.submission.name,
                 "fault",
                 fault=text or type(error).__name__,
-                details=traceback.format_exc()[-_MOST_DETAILS:],
+                details=traceback.format_exc()[-_MAX_DETAILS:],
                 seconds=time.monotonic() - start,
                 worker=this_worker(),
             )
@@ -110,7 +110,7 @@ class _Worker:
         os._exit(1)
 
     def _answer_all(self, answers: BinaryIO) -> NoReturn:
-        desk = Desk(_say)
+        desk = JobRunner(_say)
         while True:
             answer = desk.grade(Job.from_json(json.loads(self._jobs.get())))
             answers.write(json.dumps(answer.to_json()).encode() + b"\n")

@@ -7,7 +7,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli.grade import Wish, grade
+from raysteps.cli.grade import GradeOptions, grade
 from raysteps.common import process
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import usable_folder
@@ -62,6 +62,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         console.print(f"  {escape(str(path))}", soft_wrap=True, highlight=False)
     for sample in ("complete", "partial"):
         console.print(f"\nGrading the sample submission [bold]{sample}[/bold].")
-        wish = Wish(project.samples / sample, folder / sample, details=sample == "partial")
+        wish = GradeOptions(project.samples / sample, folder / sample, details=sample == "partial")
         complain_about(sample, grade(project, wish, console))
     return 0

@@ -25,7 +25,7 @@ from raysteps.exports.autograders import (
     prairielearn_folder,
 )
 from raysteps.exports.autolab import as_lines, to_autolab
-from raysteps.exports.class_results import Graded, moodle_cell, read_class, results_of
+from raysteps.exports.class_results import GradedStudent, moodle_cell, read_class, results_of
 from raysteps.exports.formats import validate, write, write_out
 from raysteps.exports.gradebook import MOODLE_COLUMNS, canvas, fill, moodle, read_sheet
 from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
@@ -88,7 +88,7 @@ def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Con
     graded = read_class(arguments.results)
     documents = {one.submission: results_of(arguments.results, one) for one in graded if one.submission}
 
-    def feedback(one: Graded) -> str | None:
+    def feedback(one: GradedStudent) -> str | None:
         return moodle_cell(documents.get(one.submission), one, steps)
 
     # Moodle leaves a grade above the maximum out without a word.
@@ -108,7 +108,7 @@ def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Con
 # The options of `export`.
 
 _NUMBER = re.compile(r"[0-9]{1,18}")
-_MOST_MINUTES = 24 * 60
+_MAX_MINUTES = 24 * 60
 
 
 def _seed(text: str) -> str:
@@ -122,7 +122,7 @@ def _minutes(text: str) -> float:
         value = float(text)
     except ValueError:
         value = 0.0
-    if not 0 < value <= _MOST_MINUTES:
+    if not 0 < value <= _MAX_MINUTES:
         raise argparse.ArgumentTypeError(f"'{text}' is not a time; expected minutes, such as 9")
     return value
 

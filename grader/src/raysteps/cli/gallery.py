@@ -14,21 +14,21 @@ from raysteps.common.files import usable_folder
 from raysteps.common.text import size as shown_size
 from raysteps.course.project import Project
 from raysteps.exports.formats import write_out
-from raysteps.gallery.gallery_page import Hung, gallery_page
-from raysteps.gallery.scenes import CHOSEN, Shown, shown_scenes
+from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
+from raysteps.gallery.scenes import CHOSEN, GalleryScene, gallery_scenes
 from raysteps.gallery.shots import MySteps, my_steps, reference_efforts, reference_shots
 from raysteps.report.terminal import progress, short_path
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
 SIZE = "800x600"
-_LEAST, _MOST = 16, 2048  # pixels along a side
+_LEAST, _MAX = 16, 2048  # pixels along a side
 
 
 def _size(word: str) -> str:
     found = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", word)
-    if found is None or not all(_LEAST <= int(side) <= _MOST for side in found.groups()):
-        raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MOST}, like 800x600")
+    if found is None or not all(_LEAST <= int(side) <= _MAX for side in found.groups()):
+        raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MAX}, like 800x600")
     return word
 
 
@@ -46,19 +46,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", type=_size, default=SIZE, metavar="WxH", help=f"of the pictures ({SIZE})")
 
 
-def _hang(kit: BuiltKit, scene: Shown, size: str, own: MySteps | None, say: Say) -> Hung:
+def _hang(kit: BuiltKit, scene: GalleryScene, size: str, own: MySteps | None, say: ProgressCallback) -> GalleryEntry:
     shots = reference_shots(kit, scene, size, say)
     efforts = reference_efforts(kit, scene, say)
     if own is None:
-        return Hung(scene, shots, efforts)
+        return GalleryEntry(scene, shots, efforts)
     mine = []
     for step in kit.steps:
         say(f"{scene.name}: your step {step.number}")
         mine.append(own.shot(step, scene, size))
-    return Hung(scene, shots, efforts, mine, own.efforts(scene))
+    return GalleryEntry(scene, shots, efforts, mine, own.efforts(scene))
 
 
-def _notes(scenes: Sequence[Hung], kit: BuiltKit) -> list[str]:
+def _notes(scenes: Sequence[GalleryEntry], kit: BuiltKit) -> list[str]:
     """Of steps without a picture; each note once."""
     pairs = [(step, shot) for hung in scenes for step, shot in zip(kit.steps, hung.mine, strict=False)]
     return list(dict.fromkeys(f"{step.id}: {shot.note}" for step, shot in pairs if shot.pixels is None))
@@ -70,7 +70,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if out.is_file():
         raise UsageError(f"--out {out}: is a file; expected a folder")
     usable_folder(out)
-    scenes = shown_scenes(project, arguments.scene)
+    scenes = gallery_scenes(project, arguments.scene)
     with console.status("starting") as status, ExitStack() as stack:
         say = progress(console, status)
         kit = build_kit(project, say)

@@ -10,24 +10,24 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.common.files import one_at_a_time
-from raysteps.common.platform import own_command, typed
+from raysteps.common.platform import own_command, quote_command
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.grading.options import Settings
-from raysteps.grading.pipeline import grade_one
+from raysteps.grading.pipeline import grade_submission
 from raysteps.progress.check import clear, exit_code
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.submission.load import submission_name, take_in
+from raysteps.submission.load import load_submission, submission_name
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.limits import parse_limits
 
 
 @dataclass(frozen=True)
-class Wish:
+class GradeOptions:
     """What was asked for on the command line of `grade`."""
 
     submission: Path
@@ -63,27 +63,27 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
     seed = read_course(project).seed_or(arguments.seed)
     settings = Settings(seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
-    wish = Wish(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
+    wish = GradeOptions(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
     return exit_code(grade(project, wish, console))
 
 
-def grade(project: Project, wish: Wish, console: Console) -> Results:
+def grade(project: Project, wish: GradeOptions, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
 
     def again(case: str) -> str:
         words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
-        return f"{own_command()} {typed(words)}"
+        return f"{own_command()} {quote_command(words)}"
 
     sandbox = find_sandbox(require=wish.require_sandbox)
     out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
     with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
         say = progress(console, status)
-        submission = take_in(wish.submission, read_steps(project))
+        submission = load_submission(wish.submission, read_steps(project))
         kit = build_kit(project, say)
         clear(out, kit.steps, kit.steps)
         settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
-        results = grade_one(kit, submission, settings, sandbox, out, say)
+        results = grade_submission(kit, submission, settings, sandbox, out, say)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
     if wish.details:

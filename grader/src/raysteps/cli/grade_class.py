@@ -19,9 +19,9 @@ from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.local_pool import LocalPool
 from raysteps.classroom.merge import merge
-from raysteps.classroom.run_plan import Order, Plan, make_plan
+from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan
 from raysteps.classroom.session import Runner, Session, terminated_as_interrupted
-from raysteps.classroom.summary import Meter, print_summary
+from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import try_lock, usable_folder
 from raysteps.common.platform import refuse_on_windows
@@ -76,7 +76,7 @@ def _file(word: str | None) -> Path | None:
     return None if word is None or word == _NONE else Path(word)
 
 
-def read_order(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> Order:
+def read_order(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> ClassOptions:
     """What is not said is as course.toml says."""
     if arguments.folder is None:
         raise UsageError("grade-class: expected a folder of submissions (or --merge)")
@@ -87,7 +87,7 @@ def read_order(arguments: argparse.Namespace, grader: str, course: Course = _NO_
         jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if not 1 <= jobs <= 1024:
         raise UsageError(f"--jobs {jobs}: expected a number from 1 to 1024")
-    return Order(
+    return ClassOptions(
         arguments.folder,
         arguments.out,
         _file(arguments.roster),
@@ -112,7 +112,7 @@ def _plain(value: float) -> str:
     return format(Decimal(repr(value)), "f").removesuffix(".0")
 
 
-def line_to_go_on(order: Order) -> str:
+def line_to_go_on(order: ClassOptions) -> str:
     """The line that goes on with the same run."""
     words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
     for option, path, dropped in (
@@ -161,7 +161,7 @@ def _finish(console: Console, database: ClassDatabase, out: Path, done: Containe
     return document
 
 
-def _runner(plan: Plan, kit: str, meter: Meter) -> Runner:
+def _runner(plan: Plan, kit: str, meter: ProgressMeter) -> Runner:
     order = plan.order
     if not order.scheduler:
         return LocalPool(order.jobs)
@@ -169,7 +169,7 @@ def _runner(plan: Plan, kit: str, meter: Meter) -> Runner:
     return Cluster(order.scheduler, plan.uid, kit, order.grader, require_sandbox=sandbox, say=meter.say)
 
 
-def _prepare(order: Order, meter: Meter) -> Grader:
+def _prepare(order: ClassOptions, meter: ProgressMeter) -> Grader:
     """The kit of this machine: its fingerprint is what every result is held against."""
     sandbox = order.require_sandbox and not order.scheduler
     grader = make_grader(order.grader, require_sandbox=sandbox, say=meter.say)
@@ -178,7 +178,7 @@ def _prepare(order: Order, meter: Meter) -> Grader:
     return grader
 
 
-def _again(order: Order) -> str:
+def _again(order: ClassOptions) -> str:
     return f"To go on:\n  {line_to_go_on(order)}"
 
 
@@ -187,7 +187,7 @@ def _interrupted(console: Console, again: str) -> int:
     return 130
 
 
-def _grade(console: Console, plan: Plan, grader: Grader, meter: Meter) -> int:
+def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -> int:
     order = plan.order
     again = _again(order)
     runner = _runner(plan, grader.fingerprint, meter)
@@ -230,7 +230,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
         return _merge(console, arguments.merge, arguments.out)
     plan = make_plan(project, read_order(arguments, grader, read_course(project)))
     with _only_one(plan.order.out):
-        meter = Meter(console, len(plan.mine()))
+        meter = ProgressMeter(console, len(plan.mine()))
         for words in plan.given.said:
             meter.say(words)
         try:

@@ -11,12 +11,12 @@ from rich.markup import escape
 from raysteps.cli.render import build_program, whose
 from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.exports.formats import encoded, write_out
 from raysteps.inspector.pixel_page import write_page
-from raysteps.inspector.programs import Inspected, Wish, inspect, last_good_step
+from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
 from raysteps.inspector.records import Difference, Record
 from raysteps.toolchain.cmake import release_tree
 
@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")
 
 
-def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
+def _wish(project: Project, arguments: argparse.Namespace) -> InspectOptions:
     steps = read_steps(project)
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
@@ -58,10 +58,10 @@ def _wish(project: Project, arguments: argparse.Namespace) -> Wish:
         words += as_far_as_written(project, words)
     at = words.index("--step") if "--step" in words else len(words)
     (step,) = choose(steps, words[at + 1 : at + 2] or [str(usual_step(project))])
-    return Wish(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
+    return InspectOptions(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
 
 
-def _say_unfinished(project: Project, wish: Wish) -> None:
+def _say_unfinished(project: Project, wish: InspectOptions) -> None:
     left = unfinished(project, wish.step)
     if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
         file = f"steps/{left[0][0].path.as_posix()}"
@@ -70,16 +70,16 @@ def _say_unfinished(project: Project, wish: Wish) -> None:
             f"your steps are not started: expected a camera in {file}, found the stub. Write it first{other}"
         )
     for step, functions in left:
-        print(f"raysteps: step {step.number}: {listed(functions)} not written yet", file=sys.stderr)
+        print(f"raysteps: step {step.number}: {join_and(functions)} not written yet", file=sys.stderr)
 
 
-def _tell_problem(inspected: Inspected, program: Path, wish: Wish) -> None:
+def _tell_problem(inspected: InspectResult, program: Path, wish: InspectOptions) -> None:
     good = last_good_step(program, wish)
     up_to = f" With --step {good} it comes to its end." if 0 < good < wish.step else ""
     print(f"raysteps: {whose(program)} {inspected.problem}{up_to}", file=sys.stderr)
 
 
-def _write_json(arguments: argparse.Namespace, inspected: Inspected, console: Console) -> None:
+def _write_json(arguments: argparse.Namespace, inspected: InspectResult, console: Console) -> None:
     if arguments.json is not None and inspected.record is not None:
         write_out(arguments.json, encoded(inspected.record))
         console.print(f"Record: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
@@ -125,16 +125,18 @@ def _write_html(
         console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
 
 
-def compare(project: Project, mine: Inspected, reference: Inspected, console: Console, html: Path | None = None) -> int:
+def compare(
+    project: Project, mine: InspectResult, reference: InspectResult, console: Console, html: Path | None = None
+) -> int:
     """Both trees, and the first place where they part."""
     # What knows the formulas of the steps is not for students.
-    from raysteps.inspector.divergence import find_parting
+    from raysteps.inspector.divergence import find_divergence
     from raysteps.inspector.side_by_side import print_trees, print_verdict
 
     assert mine.record is not None
     if reference.record is None:
         raise UsageError(f"the reference's program {reference.problem}")
-    parting = find_parting(mine.record, reference.record)
+    parting = find_divergence(mine.record, reference.record)
     print_trees(console, mine.record, reference.record, parting)
     print_verdict(console, read_steps(project), mine.record, reference.record, parting)
     _write_html(html, console, mine.record, reference.record, parting)

@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from raysteps.classroom.leaderboard import print_board, print_caption, rank, read_entries, to_json
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.exports.formats import encoded, write_out
@@ -36,7 +36,7 @@ def _steps(project: Project, names: list[str]) -> list[Step]:
     chosen = choose(steps, names or counted)
     for step in chosen:
         if step.id not in counted:
-            raise UsageError(f"--step: in {step.id} no work is counted; expected {listed(counted)}")
+            raise UsageError(f"--step: in {step.id} no work is counted; expected {join_and(counted)}")
     return chosen
 
 

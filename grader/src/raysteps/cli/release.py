@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count, listed
+from raysteps.common.text import count, join_and
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.release.build_release import first_steps, release, usable, written_files
@@ -17,7 +17,7 @@ from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.updater.generated_files import FOLDERS
 
-_MOST_SHOWN = 20
+_MAX_SHOWN = 20
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,10 +30,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _tell(console: Console, leaks: list[Leak]) -> bool:
-    for leak in leaks[:_MOST_SHOWN]:
+    for leak in leaks[:_MAX_SHOWN]:
         console.print(f"[red]leak[/red]  {escape(str(leak))}", highlight=False, soft_wrap=True)
-    if len(leaks) > _MOST_SHOWN:
-        console.print(f"      and {count(len(leaks) - _MOST_SHOWN, 'more')}", highlight=False)
+    if len(leaks) > _MAX_SHOWN:
+        console.print(f"      and {count(len(leaks) - _MAX_SHOWN, 'more')}", highlight=False)
     return bool(leaks)
 
 
@@ -103,5 +103,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
     kept = [name for name in FOLDERS if (out / name).is_dir()]
     if kept:
-        _say(console, f"Kept from before, and not searched: {listed(kept)}")
+        _say(console, f"Kept from before, and not searched: {join_and(kept)}")
     return 0

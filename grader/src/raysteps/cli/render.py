@@ -23,7 +23,7 @@ from raysteps.grading.build_messages import (
     undefined_message,
 )
 from raysteps.images.compare import PictureError, read_ppm, write_png
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
 
@@ -42,7 +42,7 @@ def _failed_step(steps: list[Step], said: str) -> Step | None:
     return next(iter(with_errors or ([] if None in stopped else stopped)), None)
 
 
-def _not_linked(steps: list[Step], said: str, ran: Ran) -> str:
+def _not_linked(steps: list[Step], said: str, ran: TaskResult) -> str:
     """Something that a header asks for, or a helper that was declared and forgotten."""
     missing = missing_name(said)
     if missing is None:
@@ -60,7 +60,7 @@ def why_own_steps_do_not_build(project: Project, outcome: Outcome) -> str:
     if outcome.timed_out:
         return f"your steps do not build: it was stopped after {outcome.seconds:.0f} s"
     said = printable(outcome.stdout + outcome.stderr)
-    ran = Ran(Outcome(outcome.code, outcome.timed_out, "", said, outcome.seconds), {}, outcome.seconds, "")
+    ran = TaskResult(Outcome(outcome.code, outcome.timed_out, "", said, outcome.seconds), {}, outcome.seconds, "")
     steps = read_steps(project)
     step = _failed_step(steps, said)
     if step is not None:

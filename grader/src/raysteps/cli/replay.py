@@ -14,14 +14,14 @@ from raysteps.course.project import Project
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.judge.cases import functions_of
 from raysteps.judge.counterexamples import LONGEST, CaseFile, read_case
-from raysteps.judge.decode_case import read_inputs
+from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.protocol import Garbled
-from raysteps.judge.worker import Ask, Judged, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
+from raysteps.judge.protocol import ProtocolError
+from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.compile import StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -43,8 +43,8 @@ def _read(project: Project, path: Path) -> tuple[CaseFile, Step, Case]:
     if file.function not in step.functions:
         raise UsageError(f"{path}: function: expected one of {', '.join(step.functions)}, found '{file.function}'")
     try:
-        return file, step, Case(file.function, file.kind, read_inputs(_function(step, file), file.line))
-    except Garbled as error:
+        return file, step, Case(file.function, file.kind, decode_inputs(_function(step, file), file.line))
+    except ProtocolError as error:
         raise UsageError(f"{path}: line: {error}") from error
 
 
@@ -64,7 +64,7 @@ def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder:
     return ask_student(sandbox, program, limits)
 
 
-def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> Judged:
+def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> JudgedCase:
     """The reference is asked as well: a case may have been written by hand."""
     reply = ask_worker(student, [case], TimeBudget(step.seconds, 1)).replies[0]
     expected = ask_worker(lambda cases, _: reference_unkept(kit, cases), [case], TimeBudget(60, 1)).replies[0]
@@ -74,7 +74,7 @@ def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> Jud
         raise UsageError(f"{path}: line: the reference has no right answer to it: {error}") from error
 
 
-def _print(console: Console, file: CaseFile, judged: Judged) -> int:
+def _print(console: Console, file: CaseFile, judged: JudgedCase) -> int:
     verdict = judged.verdict
     console.print(f"[bold]{escape(file.step)}[/bold] {escape(file.function)}, a case of '{escape(file.kind)}'")
     words = (("given", judged.case.given()), ("expected", verdict.expected), ("actual", verdict.actual))
@@ -103,8 +103,8 @@ def replay(project: Project, path: Path, submission: Path | None, console: Conso
     """One's own steps run in the open, as for `check`; a submission in the sandbox, as for `grade`."""
     path = _find(project, path)
     file, step, case = _read(project, path)
-    sandbox = OpenAir() if submission is None else find_sandbox()
-    taken = take_in(submission or project.steps, read_steps(project))
+    sandbox = LimitsOnly() if submission is None else find_sandbox()
+    taken = load_submission(submission or project.steps, read_steps(project))
     if step.id not in taken.sources:
         raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
     with console.status("building") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:

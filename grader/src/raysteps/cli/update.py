@@ -7,13 +7,14 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count, listed
+from raysteps.common.files import content_hash
+from raysteps.common.text import count, join_and
 from raysteps.course.project import Project
-from raysteps.updater.release_list import PLACE, Release, mark, own_files, read_release
+from raysteps.updater.release_list import PLACE, Release, own_files, read_release
 from raysteps.updater.source import Source, open_source
 from raysteps.updater.update import Changes, Update
 
-_MOST_NAMED = 5
+_MAX_NAMED = 5
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -48,8 +49,8 @@ def _tell_own(console: Console, changes: Changes) -> None:
 
 def _tell_kept(console: Console, names: list[str]) -> None:
     """The student's own, by name as far as there is room."""
-    shown, more = names[:_MOST_NAMED], len(names) - _MOST_NAMED
-    words = listed([*shown, f"{more} more"] if more > 0 else shown) if names else "there are none yet"
+    shown, more = names[:_MAX_NAMED], len(names) - _MAX_NAMED
+    words = join_and([*shown, f"{more} more"] if more > 0 else shown) if names else "there are none yet"
     _say(console, f"Your own files are as they were: {words}.")
 
 
@@ -61,15 +62,15 @@ def _tell(console: Console, changes: Changes, old: Release, new: Release) -> Non
         _say(console, "The kit is up to date: nothing had to be changed.")
     added, gone = ([step for step in one.steps if step not in other.steps] for one, other in ((new, old), (old, new)))
     if added:
-        _say(console, f"New: {listed(added)}.")
+        _say(console, f"New: {join_and(added)}.")
     if gone:
-        _say(console, f"This kit has no {listed(gone)}. If it is an older one, update once more with the newest.")
+        _say(console, f"This kit has no {join_and(gone)}. If it is an older one, update once more with the newest.")
     _tell_own(console, changes)
 
 
 def _named(release: Release, listing: bytes) -> str:
     """Two that differ in any file have two names."""
-    return f"release {mark(listing)[:12]} with {count(len(release.steps), 'step')}"
+    return f"release {content_hash(listing)[:12]} with {count(len(release.steps), 'step')}"
 
 
 def _refuse_wrong(root: Path, old: Release, source: Source, *, course_changed: bool) -> None:

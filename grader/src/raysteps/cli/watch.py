@@ -17,14 +17,14 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.progress.standing import chosen_or_next
 from raysteps.watch.events import Event
-from raysteps.watch.file_watcher import Saves, why_poll
+from raysteps.watch.file_watcher import FileWatcher, why_poll
 from raysteps.watch.keyboard import find_keyboard
-from raysteps.watch.page_state import Board, page_of, state_of
+from raysteps.watch.page_state import PageState, page_of, state_of
 from raysteps.watch.runner import WORKER, Runner
 from raysteps.watch.server import PageServer
 from raysteps.watch.session import Session
-from raysteps.watch.step_view import View
-from raysteps.watch.terminal_view import Showing
+from raysteps.watch.step_view import StepView
+from raysteps.watch.terminal_view import TerminalView
 
 _INTERRUPTED = 130
 
@@ -56,16 +56,18 @@ def _end(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _watch(project: Project, step: Step, arguments: argparse.Namespace, showing: Showing, words: Sequence[str]) -> None:
+def _watch(
+    project: Project, step: Step, arguments: argparse.Namespace, showing: TerminalView, words: Sequence[str]
+) -> None:
     events: queue.Queue[Event] = queue.Queue()
     why = "--poll" if arguments.poll else why_poll(project.steps)
     with ExitStack() as stack:
-        board = Board(state_of(View(step)))
+        board = PageState(state_of(StepView(step)))
         server = PageServer(board, page_of, arguments.port)
         stack.callback(server.close)
         runner = Runner(project, events.put, words)
         stack.callback(runner.close)
-        saves = Saves(project, step, events.put, poll=bool(why))
+        saves = FileWatcher(project, step, events.put, poll=bool(why))
         stack.callback(saves.close)
         keyboard = find_keyboard(events.put)
         stack.callback(keyboard.close)
@@ -84,7 +86,7 @@ def _watch(project: Project, step: Step, arguments: argparse.Namespace, showing:
 def run(project: Project, arguments: argparse.Namespace, console: Console, worker: Sequence[str] = WORKER) -> int:
     """Watches until somebody quits. `worker` is the program that does the jobs."""
     step = chosen_or_next(project, arguments.step)
-    showing = Showing(console)
+    showing = TerminalView(console)
     if step is None:
         showing.line("All steps are done. Name the one that you want to watch, such as: ./raysteps watch 03")
         return 0

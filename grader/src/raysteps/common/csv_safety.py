@@ -8,7 +8,7 @@ FORMULA_SIGNS = "=+-@＝＋－＠﹦﹢﹣﹫⁼⁺⁻₌₊₋﬩⩵⩶"  # noq
 _AFTER_SEPARATOR = re.compile(rf"([;\t][^\S\t]*)(?=[{re.escape(FORMULA_SIGNS)}])")
 
 
-def harmless_cell(text: str) -> str:
+def escape_formula(text: str) -> str:
     """Text that a spreadsheet would take for a formula, or that begins with a control character, gets a `'`.
 
     So does what follows a semicolon or a tab: where these separate cells, another cell begins there."""

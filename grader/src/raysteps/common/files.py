@@ -133,11 +133,11 @@ def write_if_changed(path: Path, data: bytes) -> bool:
 # A fingerprint that stays the same when git ends the lines of a text otherwise, as it may on Windows.
 
 
-def with_plain_ends(data: bytes) -> bytes:
+def normalized_line_ends(data: bytes) -> bytes:
     """A text with LF; anything else as it is."""
     return data if b"\0" in data else data.replace(b"\r\n", b"\n")
 
 
-def mark(data: bytes) -> str:
+def content_hash(data: bytes) -> str:
     """SHA-256."""
-    return hashlib.sha256(with_plain_ends(data)).hexdigest()
+    return hashlib.sha256(normalized_line_ends(data)).hexdigest()

@@ -24,7 +24,7 @@ def own_command() -> str:
     return "python raysteps" if is_windows() else "./raysteps"
 
 
-def typed(words: Sequence[str]) -> str:
+def quote_command(words: Sequence[str]) -> str:
     """The words as a person types them into the command line of this system."""
     return subprocess.list2cmdline(words) if is_windows() else shlex.join(words)
 

@@ -15,14 +15,14 @@ from typing import IO, Any
 # A program and all that it starts, to be ended together: as a process group, or as a job on Windows.
 
 
-def apart() -> dict[str, Any]:
+def new_session() -> dict[str, Any]:
     """For Popen: Ctrl-C on the terminal is for whoever starts the program, not for the program."""
     if sys.platform == "win32":
         return {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP | subprocess.CREATE_NO_WINDOW}
     return {"start_new_session": True}
 
 
-def end_all(process: "subprocess.Popen[bytes]") -> None:
+def kill_process_group(process: "subprocess.Popen[bytes]") -> None:
     """The program, and what it started. On Windows what a program leaves behind that has ended by itself is not found
     again."""
     if sys.platform == "win32":
@@ -149,13 +149,13 @@ def run(
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        **apart(),
+        **new_session(),
     )
     pipes = [PipeReader(process.stdout, cap), PipeReader(process.stderr, cap)]
     try:
         in_time = _has_ended_in_time(process, pipes, start + seconds)
     finally:
-        end_all(process)
+        kill_process_group(process)
         code = process.wait()
     until = time.monotonic() + _LEFT_BEHIND_SECONDS
     for pipe in pipes:

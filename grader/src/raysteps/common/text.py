@@ -23,7 +23,7 @@ def clean(text: str, limit: int = 4000) -> str:
     return shorten(_UNSEEN.sub("", printable(whole)), limit)
 
 
-def listed(words: Sequence[str]) -> str:
+def join_and(words: Sequence[str]) -> str:
     """`a`, `a and b` or `a, b and c`."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 

@@ -59,7 +59,7 @@ def here() -> Project:
 # Which files of the kit git knows; without git, all that lie there.
 
 _SECONDS = 60
-_MOST_OUTPUT = 16 << 20
+_MAX_OUTPUT = 16 << 20
 
 
 def _listed(root: Path, *which: str) -> list[PurePosixPath] | None:
@@ -67,7 +67,7 @@ def _listed(root: Path, *which: str) -> list[PurePosixPath] | None:
         return None
     command: list[str | Path] = ["git", "-C", root, "ls-files", "-z", "--exclude-standard", *which]
     try:
-        outcome = run(command, seconds=_SECONDS, cap=_MOST_OUTPUT)
+        outcome = run(command, seconds=_SECONDS, cap=_MAX_OUTPUT)
     except OSError:
         return None
     if outcome.code != 0:

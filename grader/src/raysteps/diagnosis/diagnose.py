@@ -8,15 +8,15 @@ from raysteps.course.mutants import read_mutants
 from raysteps.diagnosis.evidence import Evidence, Picture, Questions, listen, questions_of
 from raysteps.diagnosis.findings import findings, transformations
 from raysteps.diagnosis.matching import match, name_mistakes, spoils
-from raysteps.diagnosis.mutant_fingerprints import known_mistakes
+from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
 from raysteps.images.compare import Pixels
 from raysteps.images.render import reference_picture
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker import Ask
 from raysteps.results.model import Diagnosis, StepResult
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
-_MOST_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
+_MAX_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
 
 
 @dataclass(frozen=True)
@@ -27,13 +27,13 @@ class Diagnostician:
     step: Step
     plan: Plan | None
     ask: Ask | None
-    say: Say = lambda text: None
+    say: ProgressCallback = lambda text: None
 
     def diagnose(self, result: StepResult, mine: Mapping[str, Pixels], unfinished: Collection[str]) -> list[Diagnosis]:
         """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs."""
         pictures = self._pictures(mine) if not unfinished else {}
         questions = self._questions(result, unfinished)
-        answers = listen(questions, self.ask, _MOST_SECONDS) if self.ask is not None else {}
+        answers = listen(questions, self.ask, _MAX_SECONDS) if self.ask is not None else {}
         named, spoilt = self._mistakes(Evidence(questions, answers, pictures))
         open_ = {
             name: picture
@@ -50,7 +50,7 @@ class Diagnostician:
         mutants = read_mutants(self.kit.project, self.step)
         if not mutants or not evidence.is_wrong:
             return [], set()
-        known = known_mistakes(self.kit, self.step, self.plan, mutants, self.say)
+        known = mutant_fingerprints(self.kit, self.step, self.plan, mutants, self.say)
         forms = [(name, form) for mutant in mutants for name, form in mutant.choices().items()]
         matches = [match(form, known[name], evidence) for name, form in forms]
         named = name_mistakes(matches)

@@ -18,9 +18,9 @@ from raysteps.judge.functions import Case, Function
 from raysteps.judge.hidden_tests import make_cases, reference_lines
 from raysteps.judge.octrees import TREE
 from raysteps.judge.plan import Plan
-from raysteps.judge.protocol import Garbled
+from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import Ask, Reply, TimeBudget, ask_worker, reference_answers
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # What a program answers to the fixed cases of a step. They are drawn from a word of their own: so they say nothing
@@ -31,7 +31,7 @@ _LONGEST = 6000  # characters; of a longer answer its hash will do
 
 
 @dataclass(frozen=True)
-class Said:
+class ObservedAnswers:
     """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked."""
 
     line: str
@@ -39,7 +39,9 @@ class Said:
     known: bool = True
 
 
-Answers: TypeAlias = Mapping[str, Mapping[int, Said]]  # by function, then by number of the case; only what is not right
+Answers: TypeAlias = Mapping[
+    str, Mapping[int, ObservedAnswers]
+]  # by function, then by number of the case; only what is not right
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ class Questions:
 
 
 def _right_answers(kit: BuiltKit, function: str, cases: Sequence[Case]) -> list[str]:
-    def ask(stdin: bytes, _seconds: float) -> Ran:
+    def ask(stdin: bytes, _seconds: float) -> TaskResult:
         return reference_answers(kit, stdin)
 
     return reference_lines(ask, cases, function)
@@ -69,25 +71,27 @@ def questions_of(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str]) 
     return found
 
 
-def _said(function: Function, case: Case, right: str, reply: Reply) -> Said | None:
+def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedAnswers | None:
     """None for a right answer."""
     if not reply.asked:
-        return Said("", "", known=False)
+        return ObservedAnswers("", "", known=False)
     if reply.outcome != "ok":
-        return Said("", reply.outcome)
+        return ObservedAnswers("", reply.outcome)
     if reply.line == right:
         return None
     problem = function.answer.verdict(case.function, case.inputs, right, reply.line).problem
     if not problem:
         return None
     long = len(reply.line) > _LONGEST
-    return Said("#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line, str(problem))
+    return ObservedAnswers(
+        "#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line, str(problem)
+    )
 
 
 def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float) -> Answers:
     """Asks a program. `seconds`: the limit of one run of its worker."""
     budget = TimeBudget(seconds, len(questions))
-    heard: dict[str, dict[int, Said]] = {}
+    heard: dict[str, dict[int, ObservedAnswers]] = {}
     for name, known in questions.items():
         replies = ask_worker(ask, known.cases, budget).replies
         said = [_said(known.function, *three) for three in zip(known.cases, known.right, replies, strict=True)]
@@ -144,7 +148,7 @@ class Evidence:
 
 _ABSOLUTE = 2e-4
 _RELATIVE = 2e-3
-_MOST_WORDS = 2000
+_MAX_WORDS = 2000
 _WORDS_ONLY = 0.25  # of the weight of an answer with the same numbers
 _TURNED = 0.8  # of the weight of the same number
 _MOSTLY = 0.6
@@ -168,7 +172,7 @@ def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
     who takes the wrong end of a sphere turns its normal in one way or the other. Without any word that is the same they
     count nothing: light that is taken away is not light that is added."""
     rights, mistakes, mines = right_line.split(), mistake_line.split(), my_line.split()
-    if not len(mistakes) == len(mines) <= _MOST_WORDS:
+    if not len(mistakes) == len(mines) <= _MAX_WORDS:
         return 0.0
     rights = rights if len(rights) == len(mines) else [""] * len(mines)
     pairs = [
@@ -194,11 +198,13 @@ def _fits(function: Function, case: Case, mistake: str, mine: str) -> bool:
     try:
         expected, actual = function.answer.parse(mistake), function.answer.parse(mine)
         return not function.answer.problem(case.inputs, expected, actual)
-    except (Garbled, ArithmeticError, ValueError):
+    except (ProtocolError, ArithmeticError, ValueError):
         return False
 
 
-def likeness(function: Function, case: Case, right: str, mistake: Said, mine: Said) -> float:
+def answer_similarity(
+    function: Function, case: Case, right: str, mistake: ObservedAnswers, mine: ObservedAnswers
+) -> float:
     """From 0 to 1, for two answers that are both wrong. `right`: what the reference answers."""
     if mistake.line == mine.line and mistake.problem == mine.problem:
         return 1.0

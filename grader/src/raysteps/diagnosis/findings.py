@@ -8,7 +8,7 @@ import numpy as np
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.evidence import Mask, Picture, differing
 from raysteps.diagnosis.pixel_regions import object_map, place_of, read_scene, render_text, size_of, without_highlights
-from raysteps.diagnosis.transforms import BEFORE, Changed, in_words, transformation_of
+from raysteps.diagnosis.transforms import BEFORE, Transformed, in_words, transformation_of
 from raysteps.images.compare import Pixels
 from raysteps.images.render import reference_picture
 from raysteps.results.model import Diagnosis
@@ -94,7 +94,7 @@ class Terms:
         return terms
 
 
-_MOST = 2
+_MAX = 2
 _NEARLY_ALL = 0.9  # of the picture: where it is wrong says nothing
 
 
@@ -113,7 +113,7 @@ _OF_VECTORS = {
 }
 
 
-def _name(changed: Changed, step: Step, picture: Picture) -> str:
+def _name(changed: Transformed, step: Step, picture: Picture) -> str:
     """Where colours are directions, another order of the channels is another order of the axes."""
     shows_vectors = step.index == 1 or "normals" in picture.case.args
     return _OF_VECTORS.get(changed.id, changed.id) if shows_vectors else changed.id
@@ -126,14 +126,14 @@ def transformations(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) 
         changed = transformation_of(picture, _before(kit, step, picture))
         if changed is not None:
             found.setdefault((_name(changed, step, picture), changed.detail), []).append(name)
-    for (name, detail), seen_in in sorted(found.items(), key=lambda item: -len(item[1]))[:_MOST]:
+    for (name, detail), seen_in in sorted(found.items(), key=lambda item: -len(item[1]))[:_MAX]:
         yield in_words(name, detail, seen_in)
 
 
 def findings(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iterator[Diagnosis]:
     """Where the pictures are wrong; those with the fewest wrong pixels say most."""
     telling = sorted(pictures.items(), key=lambda item: float(item[1].wrong.mean()))
-    for name, picture in telling[:_MOST]:
+    for name, picture in telling[:_MAX]:
         terms = Terms(kit, step.index, picture).found() if picture.wrong.mean() < _NEARLY_ALL else []
         objects = object_map(kit, kit.project.root / picture.case.scene, picture.case.args)
         sentence = place_of(picture, objects, [term.where for term in terms[:2]])

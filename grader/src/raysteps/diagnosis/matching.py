@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from raysteps.course.mutants import Mutant
-from raysteps.diagnosis.evidence import Evidence, Picture, Questions, Said, differing, likeness
-from raysteps.diagnosis.mutant_fingerprints import Fingerprint
+from raysteps.diagnosis.evidence import Evidence, ObservedAnswers, Picture, Questions, answer_similarity, differing
+from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint
 from raysteps.images.compare import Pixels
 from raysteps.judge.bvhs import BVH
 from raysteps.judge.octrees import TREE
@@ -88,13 +88,15 @@ class Match:
         return not self.functions or (own is not None and own.score >= _NOT_AGAINST)
 
 
-def agreement(questions: Questions, mistake: Mapping[int, Said], mine: Mapping[int, Said]) -> Agreement:
+def agreement(
+    questions: Questions, mistake: Mapping[int, ObservedAnswers], mine: Mapping[int, ObservedAnswers]
+) -> Agreement:
     """Cases of which nobody knows the answer are left out."""
     unknown = {number for said in (mistake, mine) for number, one in said.items() if not one.known}
     both = (mistake.keys() & mine.keys()) - unknown
     cases, right = questions.cases, questions.right
     alike = {
-        number: likeness(questions.function, cases[number], right[number], mistake[number], mine[number])
+        number: answer_similarity(questions.function, cases[number], right[number], mistake[number], mine[number])
         for number in both
     }
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
@@ -119,7 +121,7 @@ def spoils(mistake: Pixels | None, picture: Picture) -> bool:
     return float(differing(mistake, picture.reference).mean()) > 2 * picture.case.max_wrong
 
 
-def match(mutant: Mutant, fingerprint: Fingerprint, evidence: Evidence) -> Match:
+def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) -> Match:
     """One mistake against everything that was seen."""
     found = Match(mutant)
     for name, mine in evidence.answers.items():
@@ -174,7 +176,7 @@ def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | 
 
 # The fewest known mistakes that explain what is wrong.
 
-_MOST = 3
+_MAX = 3
 _HAIR = 0.01  # mistakes whose worth differs by less cannot be told apart
 _PICTURE = 0.5  # what a picture counts beside a function
 _AGAINST = 0.25
@@ -182,7 +184,7 @@ _NOT_ITS_OWN = 0.3  # the function in which the mistake sits is right here
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedMistake:
     """A mistake with what it explains, and those that explain it as well."""
 
     mutant: Mutant
@@ -217,11 +219,11 @@ class _Open:
         return worth - (_NOT_ITS_OWN if match.functions and match.mutant.function not in functions else 0.0)
 
 
-def name_mistakes(matches: Sequence[Match]) -> list[Named]:
+def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
     """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
     open_ = _Open({name for match in matches for name in (*match.functions, *match.pictures)}, set())
-    named: list[Named] = []
-    while len(named) < _MOST:
+    named: list[NamedMistake] = []
+    while len(named) < _MAX:
         worths = [(match, open_.worth(match)) for match in matches]
         best, most = max(worths, key=lambda pair: pair[1], default=(None, 0.0))
         if best is None or most <= 0:
@@ -232,16 +234,16 @@ def name_mistakes(matches: Sequence[Match]) -> list[Named]:
             for match, worth in worths
             if match is not best and most - worth <= _HAIR and open_.explained_by(match).keys() == explained.keys()
         ]
-        named.append(Named(best.mutant, tuple(explained), tuple(alike)))
+        named.append(NamedMistake(best.mutant, tuple(explained), tuple(alike)))
         open_.names -= explained.keys()
         open_.told |= best.spoilt
-    return named + _pairs(matches, open_.names)[: _MOST - len(named)]
+    return named + _pairs(matches, open_.names)[: _MAX - len(named)]
 
 
-def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[Named]:
+def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[NamedMistake]:
     """For functions that no single mistake explains."""
-    found: list[Named] = []
+    found: list[NamedMistake] = []
     for function in dict.fromkeys(name for match in matches for name in match.functions if name in open_):
         pair = best_pair(function, matches)
-        found += [Named(match.mutant, (function,), ()) for match in pair or ()]
+        found += [NamedMistake(match.mutant, (function,), ()) for match in pair or ()]
     return found

@@ -18,28 +18,28 @@ from raysteps.common.files import one_at_a_time, write_bytes
 from raysteps.common.text import shorten
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import Mutant, reference_source
-from raysteps.diagnosis.evidence import Answers, Said, listen, questions_of
+from raysteps.diagnosis.evidence import Answers, ObservedAnswers, listen, questions_of
 from raysteps.images.compare import Pixels
 from raysteps.images.render import render
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker import ask_student
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.toolchain.compile import Program, StudentBuild
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import limits_of
 
 _FACTS = "answers"
 
 
 @dataclass(frozen=True)
-class Fingerprint:
+class MutantFingerprint:
     """Of one mistake: its wrong answers, and its pictures by name where it makes any."""
 
     answers: Answers
     pictures: Mapping[str, Pixels]
 
 
-Known: TypeAlias = Mapping[str, Fingerprint]  # by the name of the form of a mistake
+Known: TypeAlias = Mapping[str, MutantFingerprint]  # by the name of the form of a mistake
 
 
 def write_known(path: Path, known: Known) -> None:
@@ -68,9 +68,9 @@ def read_known(path: Path) -> Known | None:
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
     return {
-        mistake: Fingerprint(
+        mistake: MutantFingerprint(
             {
-                function: {int(number): Said(**said) for number, said in wrong.items()}
+                function: {int(number): ObservedAnswers(**said) for number, said in wrong.items()}
                 for function, wrong in functions.items()
             },
             {name: pixels for (owner, name), pixels in pictures.items() if owner == mistake},
@@ -94,11 +94,11 @@ class _Learner:
         self._step = step
         self._questions = {} if plan is None else questions_of(kit, step, plan, step.functions)
         self._folder = folder
-        self._air = OpenAir()
+        self._air = LimitsOnly()
         self._limits = replace(limits_of(step, {}), seconds=_SECONDS, compile_seconds=_COMPILE_SECONDS)
         self._reference = reference_source(kit.project, step)
 
-    def learn(self, name: str, mutant: Mutant) -> Fingerprint:
+    def learn(self, name: str, mutant: Mutant) -> MutantFingerprint:
         build = StudentBuild(self._kit, self._air, self._folder / name)
         compiled = build.compile(self._step, mutant.applied(self._reference).encode(), self._limits)
         if compiled.binary is None:
@@ -113,7 +113,7 @@ class _Learner:
             return found
 
         answers = self._answers(program("worker")) if self._questions else {}
-        return Fingerprint(answers, self._pictures(program("raytrace")))
+        return MutantFingerprint(answers, self._pictures(program("raytrace")))
 
     def _answers(self, worker: Program) -> Answers:
         return listen(self._questions, ask_student(self._air, worker, self._limits), _SECONDS)
@@ -141,7 +141,9 @@ def _found(path: Path) -> Known | None:
         return None
 
 
-def known_mistakes(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], say: Say) -> Known:
+def mutant_fingerprints(
+    kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], say: ProgressCallback
+) -> Known:
     """By the names of their forms. A mistake of the catalogue that does not build is the kit's fault."""
     path = kit.folder / "mistakes" / f"{step.number}.npz"
     known = _found(path)

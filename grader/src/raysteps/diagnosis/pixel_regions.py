@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.diagnosis.evidence import Mask, Picture
 from raysteps.images.compare import Pixels
 from raysteps.images.render import reference_picture
@@ -95,7 +95,7 @@ def object_map(kit: BuiltKit, scene: Path, args: Sequence[str]) -> ObjectMap:
 
 _ALL_BUT_FEW = 0.95  # of the wrong pixels count for all
 _NEARLY_ALL = 0.9  # of the picture
-_MOST_OBJECTS = 3
+_MAX_OBJECTS = 3
 _EDGES = 0.9
 _SMALL = 0.5  # of the picture: a part that is worth its numbers
 
@@ -126,10 +126,10 @@ def _on_objects(wrong: Mask, objects: ObjectMap, scene: str) -> str:
     reached = np.cumsum(counts[order]) >= _ALL_BUT_FEW * counts.sum()
     chosen = sorted(int(number) for number in numbers[order][: int(np.argmax(reached)) + 1])
     seen = np.unique(objects.numbers)
-    if len(chosen) > _MOST_OBJECTS or len(chosen) >= max(2, len(seen) - 1):
+    if len(chosen) > _MAX_OBJECTS or len(chosen) >= max(2, len(seen) - 1):
         return ""
     words = [_name(number, objects) for number in chosen]
-    return f"on {listed(words)}" + (f" of {scene}" if any(chosen) else "")
+    return f"on {join_and(words)}" + (f" of {scene}" if any(chosen) else "")
 
 
 def _name(number: int, objects: ObjectMap) -> str:

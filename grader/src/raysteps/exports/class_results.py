@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.classroom.entry_names import folded, platform_identity
-from raysteps.common.csv_safety import FORMULA_SIGNS, harmless_cell
+from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed, number
+from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step
 from raysteps.exports.items import Document, as_html, summary
 from raysteps.results.store import read_results
@@ -21,7 +21,7 @@ _NEEDED = ("submission", "id", "name", "email", "points", "max")
 
 
 @dataclass(frozen=True)
-class Graded:
+class GradedStudent:
     """One row of results.csv; no points where there is no grade, no submission where nothing was handed in."""
 
     submission: str
@@ -68,15 +68,15 @@ def _number(path: Path, line: int, column: str, text: str) -> float | None:
 
 def _unmarked(text: str) -> str:
     """Without the sign that keeps a spreadsheet from taking a text for a formula."""
-    return text[1:] if text.startswith("'") and harmless_cell(text[1:]) == text else text
+    return text[1:] if text.startswith("'") and escape_formula(text[1:]) == text else text
 
 
-def _graded(path: Path, line: int, row: dict[str, str]) -> Graded:
+def _graded(path: Path, line: int, row: dict[str, str]) -> GradedStudent:
     points = _number(path, line, "points", row["points"])
     late = _number(path, line, "late_points", row.get("late_points") or "")
     most = _number(path, line, "max", row["max"])
     who = {name: _unmarked(row[name].strip()) for name in ("submission", "id", "name", "email")}
-    return Graded(**who, in_time=points, points=points if late is None else late, most=most or 0.0)
+    return GradedStudent(**who, in_time=points, points=points if late is None else late, most=most or 0.0)
 
 
 def _why_not(folder: Path, error: OSError) -> str:
@@ -90,7 +90,7 @@ def _why_not(folder: Path, error: OSError) -> str:
     return f"{folder / 'results.csv'}: cannot be read: {error.strerror}; {wanted}"
 
 
-def read_class(folder: Path) -> list[Graded]:
+def read_class(folder: Path) -> list[GradedStudent]:
     """The rows of FOLDER/results.csv."""
     path = folder / "results.csv"
     try:
@@ -115,7 +115,7 @@ def read_class(folder: Path) -> list[Graded]:
     return rows
 
 
-def results_of(folder: Path, graded: Graded) -> Document | None:
+def results_of(folder: Path, graded: GradedStudent) -> Document | None:
     """The results.json of a submission, or None where there is none; it must be what the row was made from."""
     home = (folder / "submissions").resolve()
     path = (home / graded.submission / "results.json").resolve()
@@ -166,11 +166,11 @@ def number_at_end(text: str) -> str:
     return found.group() if found else ""
 
 
-def _emails(graded: Graded) -> frozenset[str]:
+def _emails(graded: GradedStudent) -> frozenset[str]:
     return frozenset(word for word in map(folded, (graded.email, *graded.ids)) if "@" in word)
 
 
-def _is_another(graded: Graded, person: Person) -> bool:
+def _is_another(graded: GradedStudent, person: Person) -> bool:
     """Whether a name or an email says so: numbers of different kinds may be alike by chance."""
     words, theirs = set(spoken_name(graded.name).split()), set(person.name.split())
     if words and theirs:
@@ -179,7 +179,7 @@ def _is_another(graded: Graded, person: Person) -> bool:
     return bool(emails and person.emails and not emails & person.emails)
 
 
-def _sure(graded: Graded, people: Sequence[Person]) -> tuple[list[int], list[int]]:
+def _sure(graded: GradedStudent, people: Sequence[Person]) -> tuple[list[int], list[int]]:
     """The rows that an email address or a number speaks for, and those that a number alone does against the rest."""
     emails, ids, numbers = _emails(graded), set(map(folded, graded.ids)), set(map(folded, graded.numbers))
     by_email = [at for at, one in enumerate(people) if emails & one.emails]
@@ -191,7 +191,7 @@ def _sure(graded: Graded, people: Sequence[Person]) -> tuple[list[int], list[int
     return sorted({*by_email, *by_id, *by_number} - set(doubtful)), doubtful
 
 
-def match(graded: Sequence[Graded], people: Sequence[Person]) -> Rows:
+def match(graded: Sequence[GradedStudent], people: Sequence[Person]) -> Rows:
     """One that fits no row is left out. Whatever fits twice is an error."""
     rows = Rows()
     taken: dict[int, int] = {}
@@ -200,14 +200,14 @@ def match(graded: Sequence[Graded], people: Sequence[Person]) -> Rows:
         name = spoken_name(one.name)
         fits = fits or [row for row, person in enumerate(people) if name and person.name == name]
         if len(fits) > 1:
-            which = listed([people[row].label for row in fits])
+            which = join_and([people[row].label for row in fits])
             raise UsageError(f"{one.label} fits more than one row: {which}; make their identities differ")
         if not fits:
             if doubtful:
                 rows.doubts[at] = f"{people[doubtful[0]].label} has that number, but another name or email address"
             continue
         if fits[0] in taken:
-            both = listed([graded[taken[fits[0]]].label, one.label])
+            both = join_and([graded[taken[fits[0]]].label, one.label])
             raise UsageError(f"{both} both fit {people[fits[0]].label}; remove one of them from results.csv")
         rows.found[at] = fits[0]
         taken[fits[0]] = at
@@ -226,11 +226,11 @@ def _plain_signs(html: str) -> str:
     return _SIGNS.sub(lambda found: found[0].translate(signs), html)
 
 
-def moodle_cell(document: Document | None, graded: Graded, steps: Mapping[str, Step]) -> str | None:
+def moodle_cell(document: Document | None, graded: GradedStudent, steps: Mapping[str, Step]) -> str | None:
     """What the results say, as HTML on one line: Moodle shows comments as HTML. None where there are none."""
     if document is None:
         return None
     lines = [summary(document, steps, checks=True)]
     if graded.points is not None and graded.in_time is not None and graded.points != graded.in_time:
         lines.insert(0, f"{number(graded.in_time)} points, {number(graded.points)} after lateness.")
-    return harmless_cell(_plain_signs(as_html("\n".join(lines), _LIMIT)))
+    return escape_formula(_plain_signs(as_html("\n".join(lines), _LIMIT)))

@@ -10,7 +10,7 @@ from raysteps.classroom.entry_names import folded
 from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError
 from raysteps.common.text import number
-from raysteps.exports.class_results import Graded, Person, match, number_at_end, spoken_name
+from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, spoken_name
 
 # A CSV file in which single cells can be replaced while every other byte stays as it is.
 
@@ -291,7 +291,7 @@ _COMMA = re.compile(r"^[0-9]+,[0-9]{1,5}$")
 
 
 @dataclass
-class Filled:
+class FilledGradebook:
     """The new cells, and what the person at the keyboard must know."""
 
     changes: dict[Cell, str] = field(default_factory=dict)
@@ -314,7 +314,7 @@ def _has_decimal_comma(book: Gradebook) -> bool:
     return any(_COMMA.match(text) for text in texts)
 
 
-def _points(one: Graded, most: float | None, how: Points | None) -> float:
+def _points(one: GradedStudent, most: float | None, how: Points | None) -> float:
     assert one.points is not None
     points = one.points
     if most is None:
@@ -335,7 +335,7 @@ def _points(one: Graded, most: float | None, how: Points | None) -> float:
     return round(points, 2)
 
 
-def _clipped(points: float, one: Graded, most: float | None, notes: list[str]) -> float:
+def _clipped(points: float, one: GradedStudent, most: float | None, notes: list[str]) -> float:
     if most is None or points <= most:
         return points
     notes.append(f"{one.label}: {number(points)} points are above the maximum; {number(most)} entered")
@@ -345,15 +345,15 @@ def _clipped(points: float, one: Graded, most: float | None, notes: list[str]) -
 def fill(
     sheet: Sheet,
     book: Gradebook,
-    graded: Sequence[Graded],
-    feedback: Callable[[Graded], str | None],
+    graded: Sequence[GradedStudent],
+    feedback: Callable[[GradedStudent], str | None],
     *,
     points: Points | None = None,
     clip: bool = False,
-) -> Filled:
+) -> FilledGradebook:
     """Grades and feedback for whom a row was found; everybody else is only talked about."""
     rows = match(graded, [student.person for student in book.students])
-    filled = Filled()
+    filled = FilledGradebook()
     comma = _has_decimal_comma(book)
     for at, one in enumerate(graded):
         if at not in rows.found:

@@ -23,12 +23,12 @@ from raysteps.exports.items import harmless_log, summary
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results
-from raysteps.submission.load import ARCHIVE_ENDINGS, take_in
+from raysteps.submission.load import ARCHIVE_ENDINGS, load_submission
 
 # Grades one submission on the machine of another system.
 
 _GRADED = (0, 1, 3)  # all passed, checks failed, some step does not build
-_MOST_FILES = 200
+_MAX_FILES = 200
 
 
 class NotGraded(Exception):
@@ -47,7 +47,7 @@ class Options:
 
 def _one_archive(folder: Path) -> Path | None:
     """The archive in a folder that holds one and no steps: a student who zipped what was to be dropped in."""
-    files = [path for path, _ in zip(sorted(folder.iterdir()), range(_MOST_FILES), strict=False)]
+    files = [path for path, _ in zip(sorted(folder.iterdir()), range(_MAX_FILES), strict=False)]
     archives = [path for path in files if path.name.lower().endswith(ARCHIVE_ENDINGS) and path.is_file()]
     return archives[0] if len(archives) == 1 and not archives[0].is_symlink() else None
 
@@ -57,12 +57,12 @@ def find_submission(path: Path, steps: list[Step]) -> Path:
     if not os.access(path, os.R_OK):
         raise NotGraded(f"there is no submission at {path}, or it cannot be read")
     try:
-        take_in(path, steps)
+        load_submission(path, steps)
     except UsageError:
         archive = _one_archive(path) if path.is_dir() else None
         if archive is None:
             raise
-        take_in(archive, steps)
+        load_submission(archive, steps)
         return archive
     return path
 

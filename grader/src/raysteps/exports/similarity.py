@@ -15,7 +15,7 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.exports.autograders import Member, as_zip, into_folder
 from raysteps.exports.formats import write_out
-from raysteps.submission.load import Submission, take_in
+from raysteps.submission.load import Submission, load_submission
 
 BASE, ROOM = "base-code", "submissions"
 _REFERENCE = "_kit-reference"  # no submission's name begins with `_` and a letter
@@ -48,7 +48,7 @@ def _of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out:
     members = []
     for entry in entries:
         try:
-            started = _started(take_in(entry.path, every), stubs)
+            started = _started(load_submission(entry.path, every), stubs)
             note = "" if started else "holds no step that was begun"
         except UsageError as error:
             started, note = {}, str(error).removeprefix(f"{entry.path}: ")

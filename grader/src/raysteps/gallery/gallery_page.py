@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from raysteps.course.manifest import Step
-from raysteps.gallery.scenes import Shown, what_is_new
+from raysteps.gallery.scenes import GalleryScene, what_is_new
 from raysteps.gallery.shots import Effort, Shot
 from raysteps.images.compare import Pixels
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, pixel_data, render_page
@@ -33,10 +33,10 @@ _TITLE = "From ray directions to glass"
 
 
 @dataclass(frozen=True)
-class Hung:
+class GalleryEntry:
     """A scene with all its pictures: after each step, and the work of those that save some."""
 
-    scene: Shown
+    scene: GalleryScene
     reference: Sequence[Shot]
     efforts: Mapping[int, Sequence[Effort]]
     mine: Sequence[Shot] = field(default_factory=list)  # empty where nobody asked for them
@@ -59,7 +59,7 @@ def _effort(effort: Effort, album: Album) -> dict[str, object]:
     }
 
 
-def _scene(hung: Hung, album: Album) -> dict[str, object]:
+def _scene(hung: GalleryEntry, album: Album) -> dict[str, object]:
     efforts = {
         step: [*before_and_after, *filter(None, [hung.my_efforts.get(step)])]
         for step, before_and_after in hung.efforts.items()
@@ -77,7 +77,7 @@ def _scene(hung: Hung, album: Album) -> dict[str, object]:
     }
 
 
-def gallery_page(steps: Sequence[Step], scenes: Sequence[Hung]) -> str:
+def gallery_page(steps: Sequence[Step], scenes: Sequence[GalleryEntry]) -> str:
     """The document. Its pictures lie in its data and are read when their scene is chosen."""
     album = Album()
     hung = [_scene(one, album) for one in scenes]

@@ -92,7 +92,7 @@ _FLAKE = 3  # generations: enough surfaces for the boxes to pay, few enough to b
 
 
 @dataclass(frozen=True)
-class Shown:
+class GalleryScene:
     """One scene of the gallery."""
 
     name: str
@@ -120,11 +120,11 @@ def _find(project: Project, word: str) -> Path:
     return path
 
 
-def shown_scenes(project: Project, words: Sequence[str]) -> list[Shown]:
+def gallery_scenes(project: Project, words: Sequence[str]) -> list[GalleryScene]:
     """Those that were asked for, each once; those that show the steps best when none was."""
     paths = {_find(project, word).resolve(): word for word in words or CHOSEN}
     shown = []
     for path, word in paths.items():
         name = word if word in CHOSEN else path.stem
-        shown.append(Shown(name, *about_scene(name, path), path))
+        shown.append(GalleryScene(name, *about_scene(name, path), path))
     return shown

@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.text import listed, shorten
+from raysteps.common.text import join_and, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import unfinished_functions
-from raysteps.gallery.scenes import Shown
+from raysteps.gallery.scenes import GalleryScene
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import trouble
 from raysteps.grading.step import GradingContext
 from raysteps.images.compare import Pixels
 from raysteps.images.render import Rendered, reference_picture, reference_work, render
 from raysteps.results.work_ratio import Work
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.submission.load import Submission, take_in
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.compile import Program, StudentBuild
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from raysteps.toolchain.limits import StepLimits, limits_of
 
 _TREE = 6  # the step from which on pictures are made with a tree
@@ -80,9 +80,9 @@ class MySteps:
     """A student's steps, each built by itself. After step N the steps up to N are the student's; where one of
     these is not there, the reference stands in, and a note says so."""
 
-    def __init__(self, kit: BuiltKit, submission: Submission, folder: Path, say: Say) -> None:
+    def __init__(self, kit: BuiltKit, submission: Submission, folder: Path, say: ProgressCallback) -> None:
         self._kit = kit
-        self._sandbox = OpenAir()
+        self._sandbox = LimitsOnly()
         self._build = StudentBuild(kit, self._sandbox, folder)
         work = GradingContext(kit, submission, self._sandbox, folder, folder)
         self._limits: dict[str, StepLimits] = {}
@@ -104,7 +104,7 @@ class MySteps:
             return
         self._binaries[step.id] = compiled.binary
         left = unfinished_functions(source, step)
-        self._notes[step.id] = f"Unfinished: {listed(left)}." if left else ""
+        self._notes[step.id] = f"Unfinished: {join_and(left)}." if left else ""
 
     def _program(self, step: Step) -> tuple[Program | None, str]:
         if step.id not in self._programs:
@@ -114,7 +114,7 @@ class MySteps:
             self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _LONGEST))
         return self._programs[step.id]
 
-    def _render(self, program: Program, step: Step, scene: Shown, args: tuple[str, ...]) -> Rendered:
+    def _render(self, program: Program, step: Step, scene: GalleryScene, args: tuple[str, ...]) -> Rendered:
         rendered = render(self._sandbox, program, scene.path, args, self._limits[step.id].of_program())
         if rendered.ran.stopped in ("wall", "cpu"):
             self._limits[step.id] = self._limits[step.id].after_a_timeout()
@@ -124,10 +124,10 @@ class MySteps:
         missing = [
             other.number for other in self._kit.steps if other.index < step.index and other.id not in self._binaries
         ]
-        stand_in = f"The reference stands in for {listed(missing)}." if missing else ""
+        stand_in = f"The reference stands in for {join_and(missing)}." if missing else ""
         return " ".join(filter(None, [self._notes[step.id], stand_in]))
 
-    def shot(self, step: Step, scene: Shown, size: str) -> Shot:
+    def shot(self, step: Step, scene: GalleryScene, size: str) -> Shot:
         """After one step."""
         if step.id not in self._binaries:
             return Shot(None, self._notes[step.id])
@@ -139,7 +139,7 @@ class MySteps:
             return Shot(None, trouble(rendered)[1])
         return Shot(rendered.pixels, self._remarks(step))
 
-    def efforts(self, scene: Shown) -> dict[int, Effort]:
+    def efforts(self, scene: GalleryScene) -> dict[int, Effort]:
         """By step, of those that save work and can be run."""
         found = {}
         for tree in TREES:
@@ -156,21 +156,21 @@ class MySteps:
 
 
 @contextmanager
-def my_steps(kit: BuiltKit, say: Say) -> Iterator[MySteps]:
+def my_steps(kit: BuiltKit, say: ProgressCallback) -> Iterator[MySteps]:
     """Built into a folder that is deleted in the end."""
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        yield MySteps(kit, take_in(kit.project.steps, kit.steps), Path(folder), say)
+        yield MySteps(kit, load_submission(kit.project.steps, kit.steps), Path(folder), say)
 
 
 # The reference's pictures, which are kept from run to run.
 
 
-def _of_the_kit(kit: BuiltKit, scene: Shown) -> bool:
+def _of_the_kit(kit: BuiltKit, scene: GalleryScene) -> bool:
     """Else it is a file of the user's."""
     return scene.path.is_relative_to(kit.project.root)
 
 
-def reference_shots(kit: BuiltKit, scene: Shown, size: str, say: Say) -> list[Shot]:
+def reference_shots(kit: BuiltKit, scene: GalleryScene, size: str, say: ProgressCallback) -> list[Shot]:
     """After every step."""
     shots = []
     for step in kit.steps:
@@ -184,7 +184,7 @@ def reference_shots(kit: BuiltKit, scene: Shown, size: str, say: Say) -> list[Sh
     return shots
 
 
-def reference_efforts(kit: BuiltKit, scene: Shown, say: Say) -> dict[int, list[Effort]]:
+def reference_efforts(kit: BuiltKit, scene: GalleryScene, say: ProgressCallback) -> dict[int, list[Effort]]:
     """By step: before and after. A scene of the user's has none when it is too large to be traced without a tree."""
     efforts = {}
     for tree in TREES:

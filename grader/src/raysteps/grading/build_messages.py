@@ -3,9 +3,9 @@
 import re
 from dataclasses import dataclass
 
-from raysteps.common.text import listed, printable, shorten
+from raysteps.common.text import join_and, printable, shorten
 from raysteps.course.manifest import Step
-from raysteps.sandbox.task import Ran
+from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -24,7 +24,7 @@ _TWICE = re.compile(
     r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"
     r"|LNK2005: \"?(?P<theirs>[^\"\n]+?)\"?(?: \([^)\n]*\))? already defined"
 )
-_MOST_LOG = 64_000
+_MAX_LOG = 64_000
 _DRIVE, _PART = r"(?:\b[A-Za-z]:)?", r"[/\\][^\s:/\\]+"
 
 
@@ -36,11 +36,11 @@ class _Error:
     text: str
 
 
-def build_log(ran: Ran) -> str:
+def build_log(ran: TaskResult) -> str:
     """All that the compiler said, as text that cannot steer a terminal, and without the grader's folders."""
     text = printable(ran.outcome.stderr + ran.outcome.stdout)
     text = re.sub(rf"{_DRIVE}(?:{_PART})*[/\\]include[/\\](core|steps)[/\\]", r"\1/", text)
-    return shorten(re.sub(rf"{_DRIVE}(?:{_PART})+[/\\](\w+\.cpp\b)", r"\1", text).strip(), _MOST_LOG)
+    return shorten(re.sub(rf"{_DRIVE}(?:{_PART})+[/\\](\w+\.cpp\b)", r"\1", text).strip(), _MAX_LOG)
 
 
 def _errors(output: str) -> list[_Error]:
@@ -68,7 +68,7 @@ def _context(source: str, line: int, column: int) -> str:
     return "\n".join(shown)
 
 
-def compile_message(step: Step, source: str, ran: Ran) -> str:
+def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     """One sentence, the place, and the lines."""
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
         return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
@@ -98,14 +98,14 @@ def forbidden_message(names: tuple[str, ...], owners: dict[str, str]) -> str:
 
 def missing_message(names: tuple[str, ...]) -> str:
     """Functions that the contract asks for and the file lacks."""
-    shown = listed([name.replace("raysteps::", "") for name in names])
+    shown = join_and([name.replace("raysteps::", "") for name in names])
     which = "is missing. The file must define it" if len(names) == 1 else "are missing. The file must define them"
     return f"It does not build: {shown} {which} exactly as the header declares."
 
 
 def undefined_message(names: tuple[str, ...]) -> str:
     """A helper that was declared and forgotten, or has another signature where it is defined."""
-    shown = listed([shorten(name, 200) for name in names[:5]])
+    shown = join_and([shorten(name, 200) for name in names[:5]])
     return f"It does not build: {shown} is called, but defined nowhere. Is the signature the same in both places?"
 
 
@@ -123,7 +123,7 @@ def missing_name(output: str) -> tuple[str, str] | None:
     return missing["name"] or missing["other"], output[start : end if end >= 0 else len(output)]
 
 
-def link_message(ran: Ran) -> str:
+def link_message(ran: TaskResult) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:
         return "It does not build: the linker took too long."

@@ -8,7 +8,7 @@ from raysteps.common.files import write_bytes
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.grading.build_messages import link_message
-from raysteps.grading.images import Gallery, judge_together, too_many_tests, trouble
+from raysteps.grading.images import ImageGrader, grade_integration, too_many_tests, trouble
 from raysteps.grading.options import Settings
 from raysteps.grading.scoring import status_and_points
 from raysteps.grading.step import GradingContext, Programs, StepGrader
@@ -17,36 +17,36 @@ from raysteps.images.render import reference_picture
 from raysteps.judge.claims import contradictions
 from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
-from raysteps.judge.hidden_tests import judge_functions
+from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
-from raysteps.results.model import Cumulative, HiddenResult, StepResult
-from raysteps.sandbox.task import Ran
+from raysteps.results.model import HiddenResult, Integration, StepResult
+from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled, Program
-from raysteps.toolchain.kit_artifacts import Say
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 from raysteps.toolchain.limits import StepLimits
 
 # The hidden part of a step: the judge's cases, and scenes that nobody has seen.
 
 
 def ask_functions(
-    gallery: Gallery, worker: Program, step: Step, plan: Plan, settings: Settings, say: Say
+    gallery: ImageGrader, worker: Program, step: Step, plan: Plan, settings: Settings, say: ProgressCallback
 ) -> list[HiddenResult]:
     """All functions of a step."""
     student = ask_student(gallery.sandbox, worker, gallery.limits)
 
-    def reference(cases: bytes, _seconds: float) -> Ran:
+    def reference(cases: bytes, _seconds: float) -> TaskResult:
         return reference_answers(gallery.kit, cases)
 
-    def unkept(cases: bytes, _seconds: float) -> Ran:
+    def unkept(cases: bytes, _seconds: float) -> TaskResult:
         return reference_unkept(gallery.kit, cases)
 
     shown = settings.feedback == "full"  # else the cases are withheld, and nobody needs a small one
     examples = Examples(student, unkept, gallery.out, say) if shown else None
-    return judge_functions(step, plan, student, reference, settings.seed, gallery.limits.seconds, examples)
+    return run_hidden_tests(step, plan, student, reference, settings.seed, gallery.limits.seconds, examples)
 
 
-def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
+def _judge_scene(gallery: ImageGrader, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
     path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
     write_bytes(path, scene.nff.encode())
     reference = reference_picture(gallery.kit, path, scene.args)
@@ -67,14 +67,14 @@ def _judge_scene(gallery: Gallery, program: Program, scene: HiddenScene, folder:
 
 
 def render_scenes(
-    gallery: Gallery, program: Program, step: Step, plan: Plan, seed: int, folder: Path
+    gallery: ImageGrader, program: Program, step: Step, plan: Plan, seed: int, folder: Path
 ) -> list[HiddenResult]:
     """Scenes made for this seed. The file's name says nothing about what it is for."""
     scenes = hidden_scenes(gallery.kit.project, step, plan, seed)
     return [_judge_scene(gallery, program, scene, folder) for scene in scenes]
 
 
-class JudgedGrader(StepGrader):
+class HiddenStepGrader(StepGrader):
     """One step between steps of the reference."""
 
     def __init__(
@@ -112,11 +112,11 @@ class JudgedGrader(StepGrader):
             self._result.status, self._result.points = status_and_points(self._result, self.step)
         return self._result
 
-    def _together(self, right: Collection[str]) -> Cumulative:
+    def _together(self, right: Collection[str]) -> Integration:
         """A step that is not right is replaced by the reference's: its mistake costs its own step only."""
         step, work = self.step, self._work
         if not all(image.passed for image in self._result.images[:1]):
-            return Cumulative(False, "This step itself is not right yet.")
+            return Integration(False, "This step itself is not right yet.")
         earlier = [other for other in work.kit.steps if other.index < step.index]
         replaced = [other.id for other in earlier if other.id not in right]
         mine = [self._compiled[other.id].binary for other in (*earlier, step) if other.id in right or other is step]
@@ -125,7 +125,7 @@ class JudgedGrader(StepGrader):
         program, ran = self._build.program("raytrace", step, objects, self._limits, together=True)
         if ran is not None:
             self._expect_room()
-            return Cumulative(False, f"The steps do not build together. {link_message(ran)}")
+            return Integration(False, f"The steps do not build together. {link_message(ran)}")
         assert program is not None
         own = [other for other in (*earlier, step) if other.id not in replaced]
-        return judge_together(self._gallery, program, step, own, replaced)
+        return grade_integration(self._gallery, program, step, own, replaced)

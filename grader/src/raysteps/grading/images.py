@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, write_png
-from raysteps.images.render import Rendered, ending_of, reference_picture, reference_work, render
-from raysteps.results.model import Cumulative, Ending, ImageResult
+from raysteps.images.render import Rendered, describe_exit, reference_picture, reference_work, render
+from raysteps.results.model import ImageResult, Integration, Termination
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -18,7 +18,7 @@ _TREE, _NO_TREE = "--accel", "none"
 
 
 @dataclass
-class Gallery:
+class ImageGrader:
     """What pictures are made and judged with, and where they go. Patience ends with the first program that hangs."""
 
     kit: BuiltKit
@@ -41,9 +41,9 @@ class Gallery:
         return rendered
 
 
-def trouble(rendered: Rendered) -> tuple[Ending, str]:
+def trouble(rendered: Rendered) -> tuple[Termination, str]:
     """What kept a picture from being made."""
-    outcome, message = ending_of(rendered.ran, "The picture")
+    outcome, message = describe_exit(rendered.ran, "The picture")
     return outcome, message or f"{rendered.problem.capitalize()}."
 
 
@@ -59,7 +59,7 @@ def too_many_tests(share: float | None, most: float) -> str:
     )
 
 
-def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> ImageResult:
+def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
     reference = reference_picture(gallery.kit, scene, case.args)
@@ -94,7 +94,7 @@ def judge(gallery: Gallery, program: Program, step: Step, case: ImageCase) -> Im
 
 
 def _beside_no_tree(
-    gallery: Gallery, program: Program, scene: Path, case: ImageCase, pixels: Pixels
+    gallery: ImageGrader, program: Program, scene: Path, case: ImageCase, pixels: Pixels
 ) -> Comparison | None:
     """A tree must change no pixel. So where earlier steps are the student's, too, a picture is right if it is the one
     that the same program draws without a tree; none where it is not, or shows nothing."""
@@ -107,21 +107,23 @@ def _beside_no_tree(
     return replace(verdict, message=words) if verdict.passed else None
 
 
-def judge_together(
-    gallery: Gallery, program: Program, step: Step, own: Sequence[Step], replaced: Sequence[str]
-) -> Cumulative:
+def grade_integration(
+    gallery: ImageGrader, program: Program, step: Step, own: Sequence[Step], replaced: Sequence[str]
+) -> Integration:
     """The step's first picture with the student's steps up to this one, `own`; `replaced` are the reference's among
     them. Each step may differ by as much as its own pictures may, and in one picture the differences add up."""
     case = step.images[0]
     scene = gallery.kit.project.root / case.scene
     rendered = gallery.render(program, scene, case.args)
     if rendered.pixels is None:
-        return Cumulative(False, f"{case.name}: {trouble(rendered)[1]}")
+        return Integration(False, f"{case.name}: {trouble(rendered)[1]}")
     most_wrong = sum(max(image.max_wrong for image in other.images) for other in own)
     verdict = compare(rendered.pixels, reference_picture(gallery.kit, scene, case.args), most_wrong)
     if not verdict.passed:
-        return Cumulative(False, f"{case.name}: {verdict.message}")
+        return Integration(False, f"{case.name}: {verdict.message}")
     why = (
-        f"The reference stood in for {listed(replaced)}: not graded in this run, or not right yet." if replaced else ""
+        f"The reference stood in for {join_and(replaced)}: not graded in this run, or not right yet."
+        if replaced
+        else ""
     )
-    return Cumulative(True, why)
+    return Integration(True, why)

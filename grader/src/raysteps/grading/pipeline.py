@@ -8,10 +8,10 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
-from raysteps.grading.hidden import JudgedGrader
+from raysteps.grading.hidden import HiddenStepGrader
 from raysteps.grading.options import Settings, withhold
 from raysteps.grading.scoring import is_right
-from raysteps.grading.self_check import Counted
+from raysteps.grading.self_check import AccountingSandbox
 from raysteps.grading.step import GradingContext, StepGrader, compile_steps
 from raysteps.results.model import Results, StepResult, Timing
 from raysteps.results.store import write_document
@@ -25,7 +25,7 @@ def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
 
-def grade_one(
+def grade_submission(
     kit: BuiltKit,
     submission: Submission,
     settings: Settings,
@@ -35,7 +35,7 @@ def grade_one(
 ) -> Results:
     """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only."""
     start = time.monotonic()
-    counted = Counted(sandbox)
+    counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
@@ -48,7 +48,7 @@ def grade_one(
                 return grader.grade()
 
             graders = [
-                JudgedGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
+                HiddenStepGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
             ]
             right = {result.id for result in pool.map(grade, graders) if is_right(result)}
             steps = list(pool.map(lambda grader: grader.finish(right), graders))

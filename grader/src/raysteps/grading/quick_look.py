@@ -6,11 +6,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.images import Gallery, judge
+from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.self_check import own_steps
 from raysteps.grading.step import GradingContext, compile_steps
 from raysteps.grading.unit_tests import run_tests
@@ -18,12 +18,12 @@ from raysteps.images.compare import write_png
 from raysteps.images.render import reference_picture
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.task import Sandbox
-from raysteps.submission.load import take_in
+from raysteps.submission.load import load_submission
 from raysteps.toolchain.compile import Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
 from raysteps.toolchain.limits import limits_of
 
-Tell = Callable[[StepResult], None]
+ReportCallback = Callable[[StepResult], None]
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class QuickLook:
     step: Step
     sandbox: Sandbox
     out: Path
-    tell: Tell = lambda result: None
+    tell: ReportCallback = lambda result: None
 
     def look(self, source: str) -> StepResult:
         """No points: they are for a check to say."""
@@ -44,7 +44,7 @@ class QuickLook:
             return self._not_started(result)
         left = unfinished_functions(source, self.step)
         if left:
-            result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
+            result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(left)}.")
         with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
             build = StudentBuild(self.kit, self.sandbox, Path(folder))
             compiled = build.compile(self.step, source.encode(), limits_of(self.step, {}))
@@ -69,7 +69,9 @@ class QuickLook:
         """In a students' kit the student's own steps stand before this one."""
         if self.kit.has_reference:
             return [binary]
-        work = GradingContext(self.kit, take_in(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out)
+        work = GradingContext(
+            self.kit, load_submission(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out
+        )
         with ThreadPoolExecutor() as pool:
             earlier = [step for step in self.kit.steps if step.index < self.step.index]
             return [*own_steps(work, self.step, compile_steps(work, earlier, pool, {})), binary]
@@ -88,7 +90,7 @@ class QuickLook:
         tests, raytrace = program("test"), program("raytrace")
         if tests is None or raytrace is None:
             return result
-        gallery = Gallery(self.kit, self.sandbox, limits, self.out)
+        gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
         if any(test.outcome == "timeout" for test in result.tests):

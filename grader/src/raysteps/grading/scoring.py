@@ -7,7 +7,7 @@ from raysteps.course.manifest import Step
 from raysteps.results.model import Status, StepResult
 
 
-def most_points(step: Step, *, judged: bool) -> float:
+def max_points(step: Step, *, judged: bool) -> float:
     """What the step is worth: without the judge's plan, as in a student's kit, the visible part."""
     share = 1.0 if judged else 1.0 - step.weight_hidden
     return round(step.points * share, 2)

@@ -9,17 +9,17 @@ from dataclasses import replace
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.grading.scoring import is_right, status_and_points
 from raysteps.grading.step import GradingContext, StepGrader, compile_steps
-from raysteps.images.render import given_path
-from raysteps.results.model import Cumulative, Results, StepResult, Timing
+from raysteps.images.render import reference_image_path
+from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_document
-from raysteps.sandbox.task import Isolation, Limits, Ran, Sandbox, Task
+from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import limits_of
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
@@ -36,7 +36,7 @@ def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -
     return found
 
 
-class OwnGrader(StepGrader):
+class SelfCheckGrader(StepGrader):
     """What a student can be told at home."""
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
@@ -46,7 +46,7 @@ class OwnGrader(StepGrader):
         """The visible part, with its points. The pictures are made with the student's own steps already."""
         result = self.grade()
         if self._ran:
-            result.cumulative = Cumulative(all(image.passed for image in result.images[:1]))
+            result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
 
@@ -54,7 +54,7 @@ class OwnGrader(StepGrader):
 # A sandbox that adds up what its tasks cost, and tells of limits in round numbers.
 
 
-def _as_limited(ran: Ran, limits: Limits) -> Ran:
+def _as_limited(ran: TaskResult, limits: Limits) -> TaskResult:
     """A task that was stopped took as long as it may, however late the grader looked: so the same submission always
     gets the same words."""
     if ran.stopped not in ("wall", "cpu"):
@@ -63,7 +63,7 @@ def _as_limited(ran: Ran, limits: Limits) -> Ran:
     return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
 
 
-class Counted:
+class AccountingSandbox:
     """Hands each task on and keeps the sum of processor seconds. Safe for several threads."""
 
     def __init__(self, sandbox: Sandbox) -> None:
@@ -75,7 +75,7 @@ class Counted:
     def isolation(self) -> Isolation:
         return self._sandbox.isolation
 
-    def run(self, task: Task) -> Ran:
+    def run(self, task: Task) -> TaskResult:
         """Runs the task in the sandbox."""
         ran = self._sandbox.run(task)
         with self._lock:
@@ -100,11 +100,11 @@ def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> 
         f"Step {first.number} {_TROUBLE.get(found[first.id].status, 'is not right yet: its mistakes show here too')}."
     ]
     if others:
-        named = listed([other.number for other in others])
+        named = join_and([other.number for other in others])
         lines.append(f"Not right either, perhaps only because of it: {named}. Mend {first.number} first.")
     root = work.kit.project.root
-    pictures = [given_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
-    lines.append(f"Compare with the reference's picture{'s' if len(pictures) > 1 else ''}: {listed(pictures)}.")
+    pictures = [reference_image_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
+    lines.append(f"Compare with the reference's picture{'s' if len(pictures) > 1 else ''}: {join_and(pictures)}.")
     return lines
 
 
@@ -120,7 +120,7 @@ def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Seque
             if shown:
                 work.say(f"checking {step.id}")
             here = work if shown else replace(work, out=work.folder / "unseen")
-            return OwnGrader(here, step, limits_of(step, {}), compiled).check()
+            return SelfCheckGrader(here, step, limits_of(step, {}), compiled).check()
 
         found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))
         wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
@@ -131,12 +131,18 @@ def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Seque
     return found
 
 
-def check_own(
-    kit: BuiltKit, submission: Submission, chosen: list[Step], jobs: int, sandbox: Sandbox, out: Path, say: Say
+def self_check(
+    kit: BuiltKit,
+    submission: Submission,
+    chosen: list[Step],
+    jobs: int,
+    sandbox: Sandbox,
+    out: Path,
+    say: ProgressCallback,
 ) -> Results:
     """Writes out/results.json and out/pictures/. Points are those of the visible part."""
     start = time.monotonic()
-    counted = Counted(sandbox)
+    counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]

@@ -7,18 +7,18 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.images import Gallery, judge
-from raysteps.grading.scoring import is_right, most_points, sum_up
+from raysteps.grading.images import ImageGrader, judge
+from raysteps.grading.scoring import is_right, max_points, sum_up
 from raysteps.grading.unit_tests import run_tests
-from raysteps.results.model import Cumulative, StepResult
+from raysteps.results.model import Integration, StepResult
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program, StudentBuild
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits, limits_of
 
 Programs = dict[Kind, Program]
@@ -35,7 +35,7 @@ class GradingContext:
     sandbox: Sandbox
     folder: Path
     out: Path
-    say: Say = lambda text: None
+    say: ProgressCallback = lambda text: None
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
@@ -65,9 +65,9 @@ class StepGrader:
         self._limits = limits
         self._compiled = compiled
         self._build = StudentBuild(work.kit, work.sandbox, work.folder)
-        self._gallery = Gallery(work.kit, work.sandbox, limits, work.out)
+        self._gallery = ImageGrader(work.kit, work.sandbox, limits, work.out)
         self._unfinished: list[str] = []
-        self._result = StepResult(step.id, "not-started", 0.0, most_points(step, judged=judged), step.bonus)
+        self._result = StepResult(step.id, "not-started", 0.0, max_points(step, judged=judged), step.bonus)
         self._ran = False
 
     def grade(self) -> StepResult:
@@ -80,13 +80,13 @@ class StepGrader:
             if handed_in:
                 missing = f"{step.file} is still the stub. What to do stands in steps/{step.id}/README.md."
             result.messages = [self._work.submission.notes.get(step.id) or missing]
-            result.cumulative = Cumulative(False, "This step was not started.")
+            result.cumulative = Integration(False, "This step was not started.")
             return result
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
         left = self._unfinished = unfinished_functions(source, step)
         if left:
-            result.messages.append(f"RAYSTEPS_TODO is still in: {listed(left)}.")
+            result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(left)}.")
         compiled = self._compiled[step.id]
         result.build_log = build_log(compiled.ran)
         if compiled.binary is None:
@@ -106,7 +106,7 @@ class StepGrader:
     def _does_not_build(self, message: str) -> StepResult:
         self._result.status = "does-not-build"
         self._result.messages.append(message)
-        self._result.cumulative = Cumulative(False, "This step does not build.")
+        self._result.cumulative = Integration(False, "This step does not build.")
         return self._result
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:

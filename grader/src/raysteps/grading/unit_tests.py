@@ -4,25 +4,25 @@ import re
 from collections.abc import Iterable
 
 from raysteps.common.text import in_seconds
-from raysteps.images.render import ENDLESS, ending_of
+from raysteps.images.render import ENDLESS, describe_exit
 from raysteps.results.model import TestResult
-from raysteps.sandbox.task import Output, Ran, Sandbox, Task, Word
+from raysteps.sandbox.task import Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.catch2 import TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
-_MOST_HANGS = 6  # tests that are waited for; a clock would say something else each time
+_MAX_HANGS = 6  # tests that are waited for; a clock would say something else each time
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
-def _run(sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None) -> Ran:
+def _run(sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None) -> TaskResult:
     command: tuple[Word, ...] = (*program.words, "-r", "xml", "-o", Output("report"))
     if only is not None:
         command += (_SPECIAL.sub(r"\\\1", only),)
     return sandbox.run(Task(command, limits.of_program(most)))
 
 
-def _complete(ran: Ran, names: Iterable[str]) -> list[TestOutcome] | None:
+def _complete(ran: TaskResult, names: Iterable[str]) -> list[TestOutcome] | None:
     """A report that holds exactly the expected test cases, from a program that ended as reports do."""
     cases = parse_report(ran.outputs.get("report", b""))
     ended = not (ran.outcome.timed_out or ran.stopped or ran.outcome.code < 0)
@@ -48,7 +48,7 @@ def _result(case: TestOutcome) -> TestResult:
     )
 
 
-def _result_alone(ran: Ran, name: str) -> TestResult:
+def _result_alone(ran: TaskResult, name: str) -> TestResult:
     cases = _complete(ran, [name])
     if cases is not None:
         return _result(cases[0])
@@ -56,7 +56,7 @@ def _result_alone(ran: Ran, name: str) -> TestResult:
         message = f"The test was stopped after {in_seconds(ran.outcome.seconds)}. {ENDLESS}"
         return TestResult(name, False, message, outcome="timeout")
     if ran.outcome.signal_name is not None or ran.stopped:
-        return TestResult(name, False, ending_of(ran, "The test's report")[1], outcome="crashed")
+        return TestResult(name, False, describe_exit(ran, "The test's report")[1], outcome="crashed")
     return TestResult(name, False, "The program ended before the test was over.", outcome="crashed")
 
 
@@ -69,7 +69,7 @@ def run_tests(sandbox: Sandbox, program: Program, names: list[str], limits: Step
     each = limits.after_a_timeout().seconds
     results: list[TestResult] = []
     for name in names:
-        if sum(result.outcome == "timeout" for result in results) >= _MOST_HANGS:
+        if sum(result.outcome == "timeout" for result in results) >= _MAX_HANGS:
             results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
         else:
             results.append(_result_alone(_run(sandbox, program, limits, each, name), name))

@@ -73,14 +73,14 @@ def is_flat(pixels: Pixels) -> bool:
     return bool((pixels == pixels[0, 0]).all())
 
 
-def apart(one: Pixels, other: Pixels) -> Gaps:
+def pixels_differ(one: Pixels, other: Pixels) -> Gaps:
     """How far each channel of two pictures of one size is from the other's."""
     return np.abs(one.astype(np.int16) - other.astype(np.int16))
 
 
 def gaps(one: Pixels, other: Pixels) -> Gaps:
     """For each pixel of two pictures of one size, the difference of the channel that differs most."""
-    largest: Gaps = apart(one, other).max(axis=2)
+    largest: Gaps = pixels_differ(one, other).max(axis=2)
     return largest
 
 
@@ -92,7 +92,7 @@ def widest(gap: Gaps) -> tuple[int, int]:
 
 def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
     """The absolute difference of two pictures of one size, made brighter."""
-    bright: Pixels = np.minimum(apart(mine, reference) * factor, 255).astype(np.uint8)
+    bright: Pixels = np.minimum(pixels_differ(mine, reference) * factor, 255).astype(np.uint8)
     return bright
 
 

@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import mark, write_bytes, write_json
+from raysteps.common.files import content_hash, write_bytes, write_json
 from raysteps.common.process import run
 from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, Pixels, parse_ppm, read_png, read_ppm, write_png
-from raysteps.results.model import Ending
+from raysteps.results.model import Termination
 from raysteps.results.work_ratio import Work, read_work
-from raysteps.sandbox.task import Input, Limits, Output, Ran, Sandbox, Task, Word
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -27,17 +27,20 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 _AGAIN = "take it from a fresh copy of the kit, or let ./raysteps update put it back"
 
 
-def given_path(project: Project, step: Step, case: ImageCase) -> Path:
+def reference_image_path(project: Project, step: Step, case: ImageCase) -> Path:
     """Where the picture is."""
     return project.given / step.id / f"{case.name}.png"
 
 
-def write_given(project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None) -> None:
+def write_reference_image(
+    project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None
+) -> None:
     """A picture without a word in it, and beside it what it was made of and what it cost."""
-    path = given_path(project, step, case)
+    path = reference_image_path(project, step, case)
     write_png(pixels, path)
     write_json(
-        path.with_suffix(".json"), {"scene": mark(scene.read_bytes()), "work": None if work is None else asdict(work)}
+        path.with_suffix(".json"),
+        {"scene": content_hash(scene.read_bytes()), "work": None if work is None else asdict(work)},
     )
 
 
@@ -51,10 +54,10 @@ def _find(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> _Given:
     for step in kit.steps:
         for case in step.images:
             if kit.project.root / case.scene == scene and case.args == args:
-                path = given_path(kit.project, step, case)
+                path = reference_image_path(kit.project, step, case)
                 try:
                     facts = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
-                    same = facts["scene"] == mark(scene.read_bytes())
+                    same = facts["scene"] == content_hash(scene.read_bytes())
                 except (OSError, ValueError, KeyError, TypeError) as error:
                     raise UsageError(f"{path.with_suffix('.json')}: cannot be read; {_AGAIN}") from error
                 if not same:
@@ -65,7 +68,7 @@ def _find(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> _Given:
     raise GraderFault(f"{scene}: a students' kit has no picture of it with {' '.join(args)}")
 
 
-def given_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+def stored_reference_image(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
     """The picture of one of the manifests' cases."""
     path = _find(kit, scene, args).path
     try:
@@ -74,7 +77,7 @@ def given_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
         raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
 
 
-def given_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
+def stored_reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
     """What it cost the reference."""
     given = _find(kit, scene, args)
     try:
@@ -90,7 +93,7 @@ _REFERENCE_SECONDS = 600
 class Rendered:
     """A picture, or why there is none."""
 
-    ran: Ran
+    ran: TaskResult
     pixels: Pixels | None
     problem: str = ""
     share_tested: float | None = None
@@ -136,7 +139,7 @@ def _stats_beside(picture: Path) -> Path:
 def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
     """Rendered at the first call; a reference that cannot is the kit's fault. A students' kit has it ready."""
     if not kit.has_reference:
-        return given_picture(kit, scene, args)
+        return stored_reference_image(kit, scene, args)
     path = _kept(kit, scene, args)
     if _stats_beside(path).is_file():
         with contextlib.suppress(PictureError):
@@ -159,7 +162,7 @@ def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixe
 def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
     """What the same picture costs the reference."""
     if not kit.has_reference:
-        return given_work(kit, scene, args)
+        return stored_reference_work(kit, scene, args)
     reference_picture(kit, scene, args)
     path = _stats_beside(_kept(kit, scene, args))
     work = read_work(path.read_bytes())
@@ -173,7 +176,7 @@ def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
 ENDLESS = "Is there an endless loop? Once a program of a step has hung, the next ones get less time."
 
 
-def ending_of(ran: Ran, what: str) -> tuple[Ending, str]:
+def describe_exit(ran: TaskResult, what: str) -> tuple[Termination, str]:
     """`what` is what the program was to make, such as `The picture`. Only for a program that did not make it."""
     outcome = ran.outcome
     if ran.stopped == "memory":

@@ -14,12 +14,12 @@ from raysteps.inspector.records import (
     as_float,
     brief,
     coarser,
+    diverged,
     dot,
     length,
     meets,
     minus,
     not_unit,
-    parted,
     point,
     same_color,
     same_direction,
@@ -113,7 +113,7 @@ def _terms(pair: Pair, mine: Record, reference: Record) -> Iterator[Difference]:
         words = f"light {number}: its mirrored direction is {point(mine['mirrored'])}"
         yield pair.at(item, f"{words}, the reference's {point(reference['mirrored'])}", "mirror")
     for term, right in (("diffuse", expected.diffuse), ("specular", expected.specular)):
-        if parted(mine[term], reference[term], right(hit, mine, source), 10 * CLOSE):
+        if diverged(mine[term], reference[term], right(hit, mine, source), 10 * CLOSE):
             words = f"light {number}: the {term} term is {point(mine[term])}, the reference's {point(reference[term])}"
             yield pair.at(item, words, term)
 
@@ -129,7 +129,7 @@ def light_differences(pair: Pair) -> Iterator[Difference]:
     for light in reference["lights"]:
         if light["light"] in own:
             yield from _terms(pair, own[light["light"]], light)
-    if parted(mine["direct"], reference["direct"], expected.direct(mine["lights"]), 10 * CLOSE):
+    if diverged(mine["direct"], reference["direct"], expected.direct(mine["lights"]), 10 * CLOSE):
         words = f"the sum over the lights is {told(mine['direct'])}, the reference's {told(reference['direct'])}"
         yield pair.at("direct", words, "shade")
 
@@ -217,12 +217,12 @@ def along(pair: Pair) -> Iterator[Difference]:
         yield from light_differences(pair)
     yield from _kind_of_bounces(pair, "refract", "refract", "internal")
     through = expected.brought(mine, "transmittance", "refract", "internal")
-    if parted(mine["transmitted"], reference["transmitted"], through, 10 * CLOSE):
+    if diverged(mine["transmitted"], reference["transmitted"], through, 10 * CLOSE):
         words = f"what shines through is {told(mine['transmitted'])}"
         yield pair.at("transmitted", f"{words}, the reference's {told(reference['transmitted'])}", "transmitted_light")
     yield from _kind_of_bounces(pair, "reflect", "reflect")
     whole = expected.added(mine["local"], expected.brought(mine, "ks", "reflect")) if pair.step >= 5 else None
-    if parted(mine["color"], reference["color"], whole, 10 * CLOSE):
+    if diverged(mine["color"], reference["color"], whole, 10 * CLOSE):
         words = f"the colour of the ray is {told(mine['color'])}, the reference's {told(reference['color'])}"
         yield pair.at("color", words, "trace" if pair.step >= 5 else "")
 
@@ -266,7 +266,7 @@ def _ending(mine: Record, reference: Record) -> Iterator[Difference]:
     """From the colour to the bytes."""
     if mine["mapped"] is not None and reference["mapped"] is not None:
         exact = [tone_mapped(channel) for channel in mine["color"]]
-        if parted(mine["mapped"], reference["mapped"], exact, CLOSE):
+        if diverged(mine["mapped"], reference["mapped"], exact, CLOSE):
             words = f"tone mapping: yours makes {point(mine['mapped'])} of {point(mine['color'])}"
             yield Difference(("mapped",), f"{words}, the reference {point(reference['mapped'])}", "tone_map")
     words = f"the bytes: yours are {mine['bytes']}, the reference's {reference['bytes']}"
@@ -291,7 +291,7 @@ def _differences(mine: Record, reference: Record) -> Iterator[Difference]:
     yield from _ending(mine, reference)
 
 
-def find_parting(mine: Record, reference: Record) -> Difference | None:
+def find_divergence(mine: Record, reference: Record) -> Difference | None:
     """The first difference that rounding does not explain; nothing where the two agree."""
     alike = _as_bright(mine, reference, 1)
     for difference in _differences(mine, reference):

@@ -11,12 +11,12 @@ from raysteps.common.text import in_seconds, printable
 from raysteps.inspector.records import Record
 
 _SECONDS = 30
-_MOST_BYTES = 64 << 20
+_MAX_BYTES = 64 << 20
 _USAGE = 2
 
 
 @dataclass(frozen=True)
-class Wish:
+class InspectOptions:
     """Which pixel of what; `options` are those of the program."""
 
     scene: str
@@ -30,7 +30,7 @@ class Wish:
 
 
 @dataclass(frozen=True)
-class Inspected:
+class InspectResult:
     """What the program said; `problem` is set where it did not come to its end."""
 
     text: str = ""
@@ -56,11 +56,11 @@ def _read(path: Path) -> Record | None:
     return record if is_record else None
 
 
-def inspect(program: Path, wish: Wish, *, seconds: float = _SECONDS) -> Inspected:
+def inspect(program: Path, wish: InspectOptions, *, seconds: float = _SECONDS) -> InspectResult:
     """Runs the program once; bad input is a usage error, whatever the steps are like."""
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         file = Path(folder) / "record.json"
-        outcome = run([program, *wish.words(), "--json", file], seconds=seconds, cap=_MOST_BYTES)
+        outcome = run([program, *wish.words(), "--json", file], seconds=seconds, cap=_MAX_BYTES)
         said = printable(outcome.stderr).strip()
         if outcome.code == _USAGE and not outcome.timed_out:
             raise UsageError(said.removeprefix("raysteps inspect: ") or "inspect gave up without a word")
@@ -68,10 +68,10 @@ def inspect(program: Path, wish: Wish, *, seconds: float = _SECONDS) -> Inspecte
         record = None if problem else _read(file)
     if not problem and record is None:
         problem = "left no record that can be read"
-    return Inspected(printable(outcome.stdout), record, said, problem)
+    return InspectResult(printable(outcome.stdout), record, said, problem)
 
 
-def last_good_step(program: Path, wish: Wish, *, seconds: float = 10) -> int:
+def last_good_step(program: Path, wish: InspectOptions, *, seconds: float = 10) -> int:
     """Up to which step the program comes to its end; 0: not even in the first."""
     for step in range(1, wish.step):
         outcome = run([program, *wish.words(step), "--quiet"], seconds=seconds)

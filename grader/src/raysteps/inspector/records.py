@@ -68,7 +68,7 @@ def coarser(one: Record, other: Record) -> float:
     return min(_COARSEST, CLOSE + 30 * apart) if math.isfinite(apart) else CLOSE
 
 
-def parted(mine: Vector | None, reference: Vector | None, expected: Vector | None, close: float) -> bool:
+def diverged(mine: Vector | None, reference: Vector | None, expected: Vector | None, close: float) -> bool:
     """Whether two colours differ, and mine does not follow from what it was made of."""
     if same_color(mine, reference, close):
         return False

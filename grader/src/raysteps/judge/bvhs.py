@@ -3,20 +3,20 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from raysteps.judge.compare import Answer, TooLarge, Wasteful
-from raysteps.judge.protocol import Box, Garbled, Inputs, Tokens
+from raysteps.judge.compare import Answer, TooLarge, TooMuchWork
+from raysteps.judge.protocol import Box, Inputs, ProtocolError, TokenReader
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
 # Whoever writes an answer by hand may write any tree; framework/apps/worker_bvh.cpp knows the same numbers.
 MOST_NODES = 5000
 MOST_ENTRIES = 50000
-_MOST = {"nodes": f"{MOST_NODES} nodes", "surfaces": f"{MOST_ENTRIES} surfaces"}
+_MAX = {"nodes": f"{MOST_NODES} nodes", "surfaces": f"{MOST_ENTRIES} surfaces"}
 MOST_LEVELS = 64  # as the contract says
 _MARGIN = 1e-4  # of the scene's size: what rounding may do to a box
 _BOX_TESTS = 1.0  # of two boxes, in units of one surface test
 _MANY = 80  # surfaces: so many must be divided well
 MOST_COST = 3.0  # times the reference's
-_MOST_IN_LEAF = 0.5  # of many surfaces, on average
+_MAX_IN_LEAF = 0.5  # of many surfaces, on average
 
 
 @dataclass(frozen=True)
@@ -35,12 +35,12 @@ class Bvh:
     excess: str = ""
 
 
-def read_bvh(tokens: Tokens) -> Bvh:
+def read_bvh(tokens: TokenReader) -> Bvh:
     kind = tokens.word()
-    if kind == "large" and (excess := tokens.word()) in _MOST:
+    if kind == "large" and (excess := tokens.word()) in _MAX:
         return Bvh((), (), excess)
     if kind != "bvh":
-        raise Garbled("the answer is no tree")
+        raise ProtocolError("the answer is no tree")
     nodes = []
     for _ in range(tokens.whole(0, MOST_NODES)):
         box = Box(tokens.vector(), tokens.vector())
@@ -81,7 +81,7 @@ def reached(tree: Bvh) -> Iterator[BvhNode]:
 
 def bvh_words(tree: Bvh) -> str:
     if tree.excess:
-        return f"a tree of more than {_MOST[tree.excess]}"
+        return f"a tree of more than {_MAX[tree.excess]}"
     leaves = sum(node.count > 0 for node in tree.nodes)
     return f"a tree of {len(tree.nodes)} nodes, {leaves} of them leaves; a ray costs {bvh_cost(tree):.3g} surface tests"
 
@@ -158,7 +158,7 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     assert isinstance(given, Surfaces)
     size = len(given.surfaces)
     if actual.excess:
-        return TooLarge(f"the tree has more than {_MOST[actual.excess]} for {size} surfaces")
+        return TooLarge(f"the tree has more than {_MAX[actual.excess]} for {size} surfaces")
     if not size:
         return "" if not actual.nodes else "a tree without surfaces has no nodes"
     if not actual.nodes:
@@ -166,8 +166,8 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     problem = _structure_problem(actual, [bounds(surface) for surface in given.surfaces])
     if problem or size < _MANY:
         return problem
-    if sum(node.count > 0 for node in reached(actual)) < 1 / _MOST_IN_LEAF:
-        return Wasteful("the tree has hardly any leaves: a ray is spared nothing")
+    if sum(node.count > 0 for node in reached(actual)) < 1 / _MAX_IN_LEAF:
+        return TooMuchWork("the tree has hardly any leaves: a ray is spared nothing")
     whole = expected.nodes[0].box
     dear = bvh_cost(actual, whole) > MOST_COST * bvh_cost(expected, whole)
     return "the tree is right, but its cuts are dear" if dear else ""

@@ -11,7 +11,7 @@ from typing import TypeAlias, TypeVar
 
 from raysteps.judge.numbers import Number, Vector, dot, rounded, text
 from raysteps.judge.protocol import Inputs
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 # Which numbers and inputs are simple, and what simpler ones there are.
 
@@ -99,7 +99,7 @@ def simpler_directions(value: Vector) -> list[Vector]:
 T = TypeVar("T")
 Chosen: TypeAlias = float | int | bool | Vector
 
-_MOST = 5000  # choices of one case
+_MAX = 5000  # choices of one case
 _AHEAD: Vector = (0.0, 0.0, 1.0)
 
 
@@ -112,11 +112,11 @@ class Choice:
     high: float = 0.0
 
 
-class Unfit(Exception):
+class InvalidChoice(Exception):
     """No case can be made from these choices."""
 
 
-class Recorder(Draw):
+class Recorder(RandomSource):
     """Draws like any other, and remembers what was chosen."""
 
     def __init__(self, seed: str) -> None:
@@ -154,7 +154,7 @@ class Recorder(Draw):
         return super().until(good, make_anew)
 
 
-class Replay(Draw):
+class Replay(RandomSource):
     """Chooses what it is told. Where nothing is left, or something of another kind is asked for, it takes something
     simple; `choices` are what was really chosen."""
 
@@ -165,8 +165,8 @@ class Replay(Draw):
         self._next = 0
 
     def _told(self, kind: type) -> Chosen | None:
-        if len(self.choices) >= _MOST:
-            raise Unfit
+        if len(self.choices) >= _MAX:
+            raise InvalidChoice
         if self._next >= len(self._values) or type(self._values[self._next]) is not kind:
             return None
         self._next += 1
@@ -199,5 +199,5 @@ class Replay(Draw):
         """A second try would make the same."""
         found = make()
         if not good(found):
-            raise Unfit
+            raise InvalidChoice
         return found

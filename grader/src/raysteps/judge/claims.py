@@ -21,7 +21,7 @@ Where a test asks for several functions, all of them must speak against it.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.judge.cases import functions_of
 from raysteps.judge.functions import Function
@@ -34,14 +34,14 @@ from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestRe
 # its own.
 
 MESSAGE = "The program says that this passes, but the judge's own inputs say otherwise; it does not count."
-_MOST = 0.5
+_MAX = 0.5
 _TOO_GOOD = 0.25  # of what is allowed: not even rays into the empty sky make it so little
 
 
 def _saves_nothing(result: HiddenResult, function: Function) -> bool:
     """No case of a kind is right, and most are not because they spare no work: another mistake is no such claim."""
     groups = [group for group in result.groups if function.by_name[group.name].saves]
-    return any(not group.right and group.wasteful > _MOST * group.decided for group in groups)
+    return any(not group.right and group.wasteful > _MAX * group.decided for group in groups)
 
 
 def _with_limit(step: Step, plan: Plan) -> tuple[set[str], set[str]]:
@@ -57,7 +57,9 @@ def _owns_up(image: ImageResult) -> bool:
     return most is not None and image.share_tested is not None and image.share_tested > most
 
 
-def false_shares(step: Step, plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> list[str]:
+def false_work_claims(
+    step: Step, plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenResult]
+) -> list[str]:
     """Takes back what nobody saw, and says so, one line for each visible picture. Where most of a picture is sky, few
     objects are tested without any merit: so a program that owns up to its work in one picture is believed in others."""
     known = functions_of(step.number)
@@ -72,7 +74,7 @@ def false_shares(step: Step, plan: Plan, images: Sequence[ImageResult], hidden: 
         if image.passed and image.name in limited and (too_good or not honest):
             lines.append(
                 f"The picture '{image.name}' claims that {image.share_tested or 0:.1%} of the objects were tested, but "
-                f"the judge found that {listed(wasteful)} spares the rays nothing."
+                f"the judge found that {join_and(wasteful)} spares the rays nothing."
             )
             image.passed, image.outcome, image.message = False, "wrong", MESSAGE
     for item in hidden:
@@ -144,7 +146,7 @@ def _tests(step: Step, result: StepResult, tags: Tags) -> list[str]:
         against = _speaks_against(marks)
         if test.passed and names and all(against(seen[name]) or seen[name].denied() for name in names):
             lines.append(
-                f"The test '{test.name}' claims to pass, but most of the judge's ordinary cases of {listed(names)} "
+                f"The test '{test.name}' claims to pass, but most of the judge's ordinary cases of {join_and(names)} "
                 "came out wrong."
             )
             test.passed, test.outcome, test.message = False, "wrong", MESSAGE
@@ -171,4 +173,4 @@ def _images(plan: Plan, images: Sequence[ImageResult], hidden: Sequence[HiddenRe
 def contradictions(step: Step, plan: Plan, result: StepResult, tags: Tags) -> list[str]:
     """Takes back the claims that the judge did not see, and says so for the instructor, one line each."""
     lines = _tests(step, result, tags) + _images(plan, result.images, result.hidden)
-    return lines + false_shares(step, plan, result.images, result.hidden)
+    return lines + false_work_claims(step, plan, result.images, result.hidden)

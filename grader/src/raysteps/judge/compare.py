@@ -8,12 +8,12 @@ from typing import Generic, TypeVar
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import printable, shorten
 from raysteps.judge.numbers import Vector, dot, length, minus, text
-from raysteps.judge.protocol import Frame, Garbled, Inputs, Ray, Tokens, vector_words
+from raysteps.judge.protocol import Frame, Inputs, ProtocolError, Ray, TokenReader, vector_words
 
 T = TypeVar("T")
 
 
-class Wasteful(str):
+class TooMuchWork(str):
     """A problem of an answer that is right, but spares no work."""
 
     __slots__ = ()
@@ -35,7 +35,7 @@ class Verdict:
 
     @property
     def wasteful(self) -> bool:
-        return isinstance(self.problem, Wasteful)
+        return isinstance(self.problem, TooMuchWork)
 
     @property
     def decided(self) -> bool:
@@ -47,12 +47,12 @@ class Verdict:
 class Answer(Generic[T]):
     """`problem` is given inputs, the reference's answer and the student's."""
 
-    read: Callable[[Tokens], T]
+    read: Callable[[TokenReader], T]
     words: Callable[[T], str]
     problem: Callable[[Inputs, T, T], str]
 
     def parse(self, line: str) -> T:
-        tokens = Tokens(line)
+        tokens = TokenReader(line)
         value = self.read(tokens)
         tokens.end()
         return value
@@ -61,7 +61,7 @@ class Answer(Generic[T]):
         """The reference must be right by its own measure: a NaN or a lost surface is the kit's fault."""
         try:
             value = self.parse(line)
-        except Garbled as error:
+        except ProtocolError as error:
             raise GraderFault(f"{name}: the reference answers {shorten(line, 200)!r}: {error}") from error
         problem = self.problem(inputs, value, value)
         if problem:
@@ -80,23 +80,23 @@ class Answer(Generic[T]):
         try:
             actual = self.parse(actual_line)
             return Verdict(self.problem(inputs, expected, actual), self.words(expected), self.words(actual))
-        except (Garbled, OverflowError) as error:
+        except (ProtocolError, OverflowError) as error:
             return Verdict("no proper answer came", self.words(expected), str(error))
 
 
-def read_vector(tokens: Tokens) -> Vector:
+def read_vector(tokens: TokenReader) -> Vector:
     return tokens.vector()
 
 
-def read_ray(tokens: Tokens) -> Ray:
+def read_ray(tokens: TokenReader) -> Ray:
     return Ray(tokens.vector(), tokens.vector())
 
 
-def read_frame(tokens: Tokens) -> Frame:
+def read_frame(tokens: TokenReader) -> Frame:
     return Frame(tokens.vector(), tokens.vector(), tokens.vector(), tokens.real(), tokens.real())
 
 
-def read_whole(tokens: Tokens) -> int:
+def read_whole(tokens: TokenReader) -> int:
     return tokens.whole(-(1 << 31))
 
 

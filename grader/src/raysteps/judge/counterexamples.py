@@ -14,8 +14,8 @@ from raysteps.course.manifest import Step
 from raysteps.judge.cases import functions_of
 from raysteps.judge.choice_sequence import Choice, Recorder
 from raysteps.judge.functions import Group, seed_of
-from raysteps.judge.shrink import Patience, Shrinker
-from raysteps.judge.worker import Ask, Judged
+from raysteps.judge.shrink import CpuBudget, Shrinker
+from raysteps.judge.worker import Ask, JudgedCase
 from raysteps.results.store import FOLDER, place_of
 
 # A single case in a file, to be asked again: cases/NN-function.json beside results.json.
@@ -93,9 +93,9 @@ class Examples:
         self._reference = reference
         self._folder = folder
         self._say = say
-        self._patience = Patience(_PATIENCE)
+        self._patience = CpuBudget(_PATIENCE)
 
-    def smallest(self, step: Step, found: Judged, place: int, seed: int) -> tuple[Judged, str]:
+    def smallest(self, step: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results.
         What goes wrong here costs no grade: the case is shown as it was asked, without a file."""
         try:
@@ -104,7 +104,7 @@ class Examples:
             self._say(f"no small case of {step.number} {found.case.function}: {error!r}")
             return found, ""
 
-    def _smallest(self, step: Step, found: Judged, place: int, seed: int) -> tuple[Judged, str]:
+    def _smallest(self, step: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         function = functions_of(step.number)[found.case.function]
         kind = found.case.group
         choices = choices_of(function.by_name[kind], seed_of(step.id, function.name, kind, seed), place)

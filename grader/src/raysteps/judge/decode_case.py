@@ -10,23 +10,23 @@ from raysteps.judge.protocol import (
     Camera,
     Fill,
     Frame,
-    Garbled,
     Hit,
     Inputs,
     Light,
     Lights,
+    ProtocolError,
     Ray,
     Real,
-    Tokens,
+    TokenReader,
     Vec,
     Whole,
 )
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.scripted_tracer import Script, ScriptedHit
 from raysteps.judge.searches import Rays, Reach, Reaches, WhoseBvh, WhoseTree
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
 
-_MOST_ITEMS = 1000
+_MAX_ITEMS = 1000
 _LOWEST = -1_000_000_000  # as the worker takes them
 _HIGHEST = 1_000_000_000
 
@@ -34,7 +34,7 @@ _HIGHEST = 1_000_000_000
 class _Numbers:
     """Words as the worker understands them: float32."""
 
-    def __init__(self, tokens: Tokens) -> None:
+    def __init__(self, tokens: TokenReader) -> None:
         self._tokens = tokens
         self.flag = tokens.flag
 
@@ -48,7 +48,7 @@ class _Numbers:
         return self.real(), self.real(), self.real()
 
     def many(self, read: Callable[["_Numbers"], Any]) -> tuple[Any, ...]:
-        return tuple(read(self) for _ in range(self._tokens.whole(0, _MOST_ITEMS)))
+        return tuple(read(self) for _ in range(self._tokens.whole(0, _MAX_ITEMS)))
 
 
 def _fill(n: _Numbers) -> Fill:
@@ -84,7 +84,7 @@ def _surface(n: _Numbers) -> Surface:
         return Triangle(n.vector(), n.vector(), n.vector())
     if kind in (2, 3):
         return Scripted(n.real() if kind == 2 else None)
-    raise Garbled(f"there is no surface of kind {kind}")
+    raise ProtocolError(f"there is no surface of kind {kind}")
 
 
 def _scripted_hit(n: _Numbers) -> ScriptedHit:
@@ -118,21 +118,21 @@ _WITHOUT_FILL: dict[type, Callable[[_Numbers], Any]] = {
 }
 
 
-def read_inputs(function: Function, line: str) -> Inputs:
+def decode_inputs(function: Function, line: str) -> Inputs:
     """All cases of a function take the same kinds of values. Garbled, with what is wrong, where the line does not."""
-    tokens = Tokens(line)
+    tokens = TokenReader(line)
     tokens.word()  # the number of the case
     name = tokens.word()
     if name != function.name:
-        raise Garbled(f"expected a case of {function.name}, found {name[:100]}")
+        raise ProtocolError(f"expected a case of {function.name}, found {name[:100]}")
     numbers = _Numbers(tokens)
     inputs = {}
-    for what, sample in function.groups[0].make(Draw("a sample")).items():
+    for what, sample in function.groups[0].make(RandomSource("a sample")).items():
         bare = isinstance(sample, Sphere | Triangle) and sample.fill is None
         try:
             inputs[what] = (_WITHOUT_FILL if bare else _READERS)[type(sample)](numbers)
-        except (Garbled, OverflowError) as error:
-            raise Garbled(f"{what}: {str(error).replace('answer', 'line')}") from error
+        except (ProtocolError, OverflowError) as error:
+            raise ProtocolError(f"{what}: {str(error).replace('answer', 'line')}") from error
     if not tokens.at_end():
-        raise Garbled("there are more numbers than the function takes")
+        raise ProtocolError("there are more numbers than the function takes")
     return inputs

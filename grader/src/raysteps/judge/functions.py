@@ -8,9 +8,9 @@ from typing import Any
 from raysteps.judge.compare import Answer
 from raysteps.judge.numbers import text
 from raysteps.judge.protocol import Inputs
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
-Make = Callable[[Draw], Inputs]
+Make = Callable[[RandomSource], Inputs]
 
 
 @dataclass(frozen=True)

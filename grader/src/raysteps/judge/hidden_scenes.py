@@ -12,7 +12,7 @@ from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
 from raysteps.judge.numbers import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.judge.plan import Plan, RandomPlan, TwinPlan
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 # Changes an NFF scene a little, so that it still shows what it is meant to show. Only lines of a known form are
 # touched: `from`, `at` and `up` of the viewpoint, and spheres that stand on one line.
@@ -51,7 +51,7 @@ def _text(v: Vector) -> str:
     return " ".join(f"{x:.6g}" for x in v)
 
 
-def _move_camera(lines: list[str], draw: Draw) -> None:
+def _move_camera(lines: list[str], draw: RandomSource) -> None:
     place, origin = _point(lines, "from")
     _, at = _point(lines, "at")
     _, up = _point(lines, "up")
@@ -63,7 +63,7 @@ def _move_camera(lines: list[str], draw: Draw) -> None:
     lines[place] = "from " + _text(add(at, turned, draw.real(1 - _DISTANCE, 1 + _DISTANCE)))
 
 
-def _move_spheres(lines: list[str], draw: Draw) -> None:
+def _move_spheres(lines: list[str], draw: RandomSource) -> None:
     for i, line in enumerate(lines):
         words = line.split()
         numbers = _numbers(words[1:]) if words and words[0] == "s" else None
@@ -73,7 +73,7 @@ def _move_spheres(lines: list[str], draw: Draw) -> None:
             lines[i] = f"s {_text(moved)} {numbers[3]:.6g}"
 
 
-def changed(nff: str, draw: Draw, *, spheres: bool) -> str:
+def perturbed_scene(nff: str, draw: RandomSource, *, spheres: bool) -> str:
     """The scene with its camera moved on a small arc and, if wanted, its spheres moved a little."""
     lines = [line for line in nff.splitlines() if not line.lstrip().startswith("#")]
     _move_camera(lines, draw)
@@ -104,23 +104,23 @@ p 4
 _WIDE = 4.5  # half the width of the part of the world that is filled
 
 
-def _fill(draw: Draw) -> str:
+def _fill(draw: RandomSource) -> str:
     r, g, b = draw.color(0.2, 1.0)
     ks = draw.real(0.1, 0.5) if draw.chance(0.5) else 0.0
     return f"f {r:.4g} {g:.4g} {b:.4g} 0.7 {ks:.4g} {draw.whole(3, 30)} 0 1"
 
 
-def _place(draw: Draw) -> Vector:
+def _place(draw: RandomSource) -> Vector:
     return draw.real(-_WIDE, _WIDE), draw.real(0.2, _WIDE), draw.real(-_WIDE, _WIDE)
 
 
-def _triangle(draw: Draw, place: Vector, size: float) -> list[str]:
+def _triangle(draw: RandomSource, place: Vector, size: float) -> list[str]:
     shape = draw.triangle(1.0)
     corners = [add(place, corner, size) for corner in (shape.a, shape.b, shape.c)]
     return ["p 3", *(" ".join(f"{x:.6g}" for x in corner) for corner in corners)]
 
 
-def random_scene(draw: Draw, spheres: int, triangles: int) -> str:
+def random_scene(draw: RandomSource, spheres: int, triangles: int) -> str:
     """The more there is, the smaller it is: about the same part of the picture is filled."""
     size = 2.2 / (spheres + triangles + 1) ** (1 / 3)
     lines = [_HEAD.format(from_=f"{draw.real(-3, 3):.4g}").rstrip("\n")]
@@ -161,20 +161,20 @@ def _with_size(args: tuple[str, ...], size: str) -> tuple[str, ...]:
 
 
 def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: int) -> HiddenScene:
-    draw = Draw(f"{seed}/{step.id}/{twin.twin_of}")
+    draw = RandomSource(f"{seed}/{step.id}/{twin.twin_of}")
     path = project.root / image.scene
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise GraderFault(f"{path}: cannot be read: {error.strerror}") from error
-    nff = changed(text, draw, spheres=twin.moves == "camera and spheres")
+    nff = perturbed_scene(text, draw, spheres=twin.moves == "camera and spheres")
     args = _with_size(image.args, twin.size)
     share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)
     return HiddenScene(twin_name(image.name), image.name, nff, args, twin.max_wrong, share, twin.weight)
 
 
 def _random(step: Step, scene: RandomPlan, seed: int) -> HiddenScene:
-    nff = random_scene(Draw(f"{seed}/{step.id}/{scene.name}"), scene.spheres, scene.triangles)
+    nff = random_scene(RandomSource(f"{seed}/{step.id}/{scene.name}"), scene.spheres, scene.triangles)
     return HiddenScene(scene.name, None, nff, scene.args, scene.max_wrong, scene.max_share, scene.weight)
 
 

@@ -11,9 +11,9 @@ from raysteps.judge.choice_sequence import complexity
 from raysteps.judge.counterexamples import LONGEST, Examples
 from raysteps.judge.functions import Case, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
-from raysteps.judge.random_source import Draw
-from raysteps.judge.worker import Ask, Judged, TimeBudget, ask_worker, judge_reply
-from raysteps.results.model import CaseGroup, Ending, HiddenResult
+from raysteps.judge.random_source import RandomSource
+from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
+from raysteps.results.model import CaseGroup, HiddenResult, Termination
 
 ORDINARY_SHARE = 0.9  # of the first kind of cases must be right, or the function earns nothing
 _REFERENCE_SECONDS = 600
@@ -24,7 +24,7 @@ def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed:
     known = functions_of(step[:2])[function]
     cases: list[Case] = []
     for name, amount in amounts:
-        draw = Draw(seed_of(step, function, name, seed))
+        draw = RandomSource(seed_of(step, function, name, seed))
         make = known.by_name[name].make
         cases += [Case(function, name, make(draw)) for _ in range(amount)]
     return tuple(cases)
@@ -44,13 +44,13 @@ def reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
     return [reply.line for reply in replies]
 
 
-def _group(name: str, judged: Sequence[Judged]) -> CaseGroup:
+def _group(name: str, judged: Sequence[JudgedCase]) -> CaseGroup:
     right = sum(not one.verdict.problem for one in judged)
     wasteful = sum(one.verdict.wasteful for one in judged)
     return CaseGroup(name, len(judged), right, sum(not one.decided for one in judged), wasteful)
 
 
-def _groups(plan: FunctionPlan, judged: Sequence[Judged]) -> list[CaseGroup]:
+def _groups(plan: FunctionPlan, judged: Sequence[JudgedCase]) -> list[CaseGroup]:
     return [_group(name, [one for one in judged if one.case.group == name]) for name in plan.cases]
 
 
@@ -58,7 +58,7 @@ def _is_right(group: CaseGroup, may_miss: float) -> bool:
     return group.cases - group.right <= may_miss * group.cases
 
 
-def _first_wrong(judged: Sequence[Judged], wrong: Sequence[CaseGroup]) -> Judged | None:
+def _first_wrong(judged: Sequence[JudgedCase], wrong: Sequence[CaseGroup]) -> JudgedCase | None:
     """Of the first kind that is wrong, the simplest case; rather one that was asked."""
     for group in wrong:
         found = [one for one in judged if one.case.group == group.name and one.verdict.problem]
@@ -67,7 +67,9 @@ def _first_wrong(judged: Sequence[Judged], wrong: Sequence[CaseGroup]) -> Judged
     return None
 
 
-def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: Judged, share: float) -> str:
+def _message(
+    name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase, share: float
+) -> str:
     right = len(groups) - len(wrong)
     kinds = "; ".join(f"{group.name} ({group.right} of {group.cases} right)" for group in wrong)
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
@@ -78,14 +80,14 @@ def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup],
     return text
 
 
-def _outcome(judged: Sequence[Judged]) -> Ending:
+def _outcome(judged: Sequence[JudgedCase]) -> Termination:
     outcomes = {one.outcome for one in judged}
-    bad: tuple[Ending, ...] = ("crashed", "timeout", "wrong")
+    bad: tuple[Termination, ...] = ("crashed", "timeout", "wrong")
     return next((outcome for outcome in bad if outcome in outcomes), "ok")
 
 
 def _result(
-    step: Step, plan: FunctionPlan, judged: Sequence[Judged], seed: int, examples: Examples | None
+    step: Step, plan: FunctionPlan, judged: Sequence[JudgedCase], seed: int, examples: Examples | None
 ) -> HiddenResult:
     groups = _groups(plan, judged)
     wrong = [group for group in groups if not _is_right(group, plan.may_miss)]
@@ -105,7 +107,7 @@ def _result(
     return result
 
 
-def judge_functions(
+def run_hidden_tests(
     step: Step,
     plan: Plan,
     student: Ask,

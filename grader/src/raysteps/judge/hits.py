@@ -18,7 +18,7 @@ from raysteps.judge.compare import (
     words_of_ray,
 )
 from raysteps.judge.numbers import Vector, add, length, minus, times
-from raysteps.judge.protocol import Fill, Garbled, Hit, Inputs, Light, Ray, Tokens
+from raysteps.judge.protocol import Fill, Hit, Inputs, Light, ProtocolError, Ray, TokenReader
 
 _LISTED = 256  # surface i of a list has red i / 256
 
@@ -30,12 +30,12 @@ class MaybeHit:
     hit: Hit | None
 
 
-def read_hit(tokens: Tokens) -> MaybeHit:
+def read_hit(tokens: TokenReader) -> MaybeHit:
     kind = tokens.word()
     if kind == "miss":
         return MaybeHit(None)
     if kind != "hit":
-        raise Garbled("the answer is neither a hit nor a miss")
+        raise ProtocolError("the answer is neither a hit nor a miss")
     position = tokens.vector()
     fill = Fill(tokens.vector(), *(tokens.real() for _ in range(5)))
     normal, ray_direction = tokens.vector(), tokens.vector()

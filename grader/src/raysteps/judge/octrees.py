@@ -8,10 +8,10 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.judge.compare import Answer, TooLarge, Wasteful
+from raysteps.judge.compare import Answer, TooLarge, TooMuchWork
 from raysteps.judge.numbers import Vector, add
-from raysteps.judge.protocol import Garbled, Inputs, Tokens
-from raysteps.judge.random_source import Draw
+from raysteps.judge.protocol import Inputs, ProtocolError, TokenReader
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
 # Points on surfaces, to see which boxes a surface touches.
@@ -21,11 +21,11 @@ Points: TypeAlias = npt.NDArray[np.float64]  # one in each row
 _POINTS = 14  # on each surface
 
 
-def _sphere_points(sphere: Sphere, draw: Draw) -> list[Vector]:
+def _sphere_points(sphere: Sphere, draw: RandomSource) -> list[Vector]:
     return [add(sphere.center, draw.direction(), sphere.radius) for _ in range(_POINTS)]
 
 
-def _triangle_points(t: Triangle, draw: Draw) -> list[Vector]:
+def _triangle_points(t: Triangle, draw: RandomSource) -> list[Vector]:
     """The corners, and points all over it."""
     points = [t.a, t.b, t.c]
     while len(points) < _POINTS:
@@ -35,7 +35,7 @@ def _triangle_points(t: Triangle, draw: Draw) -> list[Vector]:
     return points
 
 
-def _points(surface: Surface, draw: Draw) -> Points:
+def _points(surface: Surface, draw: RandomSource) -> Points:
     if isinstance(surface, Sphere):
         return np.array(_sphere_points(surface, draw))
     assert isinstance(surface, Triangle)
@@ -45,7 +45,7 @@ def _points(surface: Surface, draw: Draw) -> Points:
 @lru_cache(maxsize=128)  # the reference's tree and a student's are looked at with the same ones
 def points_on(surfaces: tuple[Surface, ...]) -> tuple[Points, ...]:
     """The same ones every time."""
-    draw = Draw("points on surfaces")
+    draw = RandomSource("points on surfaces")
     return tuple(_points(surface, draw) for surface in surfaces)
 
 
@@ -85,15 +85,15 @@ _Table: TypeAlias = npt.NDArray[np.bool_]  # of nodes (rows) and surfaces (colum
 MOST_NODES = 5000
 MOST_ENTRIES = 50000
 DEEPEST = 500
-_MOST = {
+_MAX = {
     "boxes": f"{MOST_NODES} boxes",
     "entries": f"{MOST_ENTRIES} entries in its lists",
     "levels": f"{DEEPEST} levels",
 }
-_MOST_SURFACES = 1000  # of any case
+_MAX_SURFACES = 1000  # of any case
 _MARGIN = 1e-3  # of the scene's size: what stands nearer to a wall may be on either side
 _MANY = 80  # surfaces: so many small ones must be divided
-_MOST_IN_LEAF = 0.5  # of them, on average
+_MAX_IN_LEAF = 0.5  # of them, on average
 
 
 @dataclass(frozen=True)
@@ -115,13 +115,13 @@ class Tree:
     excess: str = ""
 
 
-def read_tree(tokens: Tokens) -> Tree:
+def read_tree(tokens: TokenReader) -> Tree:
     """Without recursion, and in time and memory that the caps bound."""
     kind = tokens.word()
-    if kind == "large" and (excess := tokens.word()) in _MOST:
+    if kind == "large" and (excess := tokens.word()) in _MAX:
         return Tree((), excess)
     if kind != "tree":
-        raise Garbled("the answer is no tree")
+        raise ProtocolError("the answer is no tree")
     nodes: list[TreeNode] = []
     entries = 0
     open_: list[tuple[int, int]] = [(0, 0)]  # parent and depth of a node that is to come
@@ -130,11 +130,11 @@ def read_tree(tokens: Tokens) -> Tree:
         low, high = tokens.vector(), tokens.vector()
         size = tokens.whole(0, MOST_ENTRIES - entries)
         entries += size
-        known = tokens.wholes(size, -1, _MOST_SURFACES)
+        known = tokens.wholes(size, -1, _MAX_SURFACES)
         children = tokens.whole(0, MOST_NODES)
         nodes.append(TreeNode(low, high, known, parent, children == 0))
         if len(nodes) + len(open_) + children > MOST_NODES or depth > DEEPEST:
-            raise Garbled("the tree is too large")
+            raise ProtocolError("the tree is too large")
         open_ += [(len(nodes) - 1, depth + 1)] * children
     return Tree(tuple(nodes))
 
@@ -152,7 +152,7 @@ def _tables(tree: Tree, surfaces: int) -> tuple[_Table, _Table]:
 
 def tree_words(tree: Tree) -> str:
     if tree.excess:
-        return f"a tree of more than {_MOST[tree.excess]}"
+        return f"a tree of more than {_MAX[tree.excess]}"
     lists = {number for node in tree.nodes for number in node.known}
     leaves = np.array([node.is_leaf for node in tree.nodes])
     # Unknown surfaces are -1, the last column.
@@ -180,7 +180,7 @@ def _tree_problem(inputs: Inputs, _expected: Tree, actual: Tree) -> str:
     assert isinstance(given, Surfaces)
     surfaces = given.surfaces
     if actual.excess:
-        return TooLarge(f"the tree has more than {_MOST[actual.excess]} for {len(surfaces)} surfaces")
+        return TooLarge(f"the tree has more than {_MAX[actual.excess]} for {len(surfaces)} surfaces")
     if any(node.known and not 0 <= min(node.known) <= max(node.known) < len(surfaces) for node in actual.nodes):
         return "a list holds something that is no surface of the scene"
     if not surfaces:
@@ -190,8 +190,8 @@ def _tree_problem(inputs: Inputs, _expected: Tree, actual: Tree) -> str:
     if not problem and len(surfaces) >= _MANY:
         leaves = np.array([node.is_leaf for node in actual.nodes])
         mean = every[leaves].sum(axis=1).mean()
-        if mean > _MOST_IN_LEAF * len(surfaces):
-            return Wasteful("the lists are hardly shorter than the whole scene")
+        if mean > _MAX_IN_LEAF * len(surfaces):
+            return TooMuchWork("the lists are hardly shorter than the whole scene")
     return problem
 
 

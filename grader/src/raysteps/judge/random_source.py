@@ -22,7 +22,7 @@ def circle(turn: float) -> tuple[float, float]:
     return math.cos(angle), math.sin(angle)
 
 
-class Draw:
+class RandomSource:
     """A source of random values. The first five are the choices that all others are made of: who changes these has
     another source (judge/choices.py)."""
 
@@ -131,7 +131,7 @@ def next_axis(axis: Vector) -> Vector:
     return axis[1], axis[2], axis[0]
 
 
-def with_zeros(draw: Draw, axis: int, sign: float) -> Vector:
+def with_zeros(draw: RandomSource, axis: int, sign: float) -> Vector:
     """Along the axis of that number; the zeros have either sign."""
     x, y, z = (sign if i == axis else draw.sign() * 0.0 for i in range(3))
     return x, y, z

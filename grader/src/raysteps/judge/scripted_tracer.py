@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from raysteps.judge.numbers import Number, Vector, text
-from raysteps.judge.protocol import Ray, Tokens, vector_words
+from raysteps.judge.protocol import Ray, TokenReader, vector_words
 
 MOST_ASKED = 1000
 
@@ -42,7 +42,7 @@ class Script:
 
 
 @dataclass(frozen=True)
-class Traced:
+class TracedCall:
     """The colour, and what the renderer was asked for it."""
 
     color: Vector
@@ -50,14 +50,14 @@ class Traced:
     shaded: tuple[tuple[float, int], ...]  # distance of the hit, depth
 
 
-def read_traced(tokens: Tokens) -> Traced:
+def read_traced(tokens: TokenReader) -> TracedCall:
     color = tokens.vector()
     cast = tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MOST_ASKED)))
     shaded = tuple((tokens.real(), tokens.whole(-MOST_ASKED)) for _ in range(tokens.whole(0, MOST_ASKED)))
-    return Traced(color, cast, shaded)
+    return TracedCall(color, cast, shaded)
 
 
-def traced_words(answer: Traced) -> str:
+def traced_words(answer: TracedCall) -> str:
     cast = "; ".join(ray.words() for ray in answer.cast) or "none"
     shaded = (
         ", ".join(f"of the hit at {text(distance)} at depth {depth}" for distance, depth in answer.shaded) or "none"

@@ -4,13 +4,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
-from raysteps.judge.compare import Answer, Wasteful, first
+from raysteps.judge.compare import Answer, TooMuchWork, first
 from raysteps.judge.hits import MaybeHit, found_problem, found_words, read_hit
 from raysteps.judge.numbers import Number, text
-from raysteps.judge.protocol import Garbled, Inputs, Ray, Tokens
+from raysteps.judge.protocol import Inputs, ProtocolError, Ray, TokenReader
 from raysteps.judge.surfaces import Surfaces
 
-_MOST_RAYS = 1000
+_MAX_RAYS = 1000
 MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
 
 
@@ -61,12 +61,12 @@ One = TypeVar("One", bound=Counted)
 Work = Callable[[Inputs, Sequence[int], Sequence[int]], str]  # what the reference asked, and what was asked
 
 
-def read_all(tokens: Tokens, read_one: Callable[[Tokens], One]) -> tuple[One, ...]:
+def read_all(tokens: TokenReader, read_one: Callable[[TokenReader], One]) -> tuple[One, ...]:
     """An answer for each ray."""
     found: list[One] = []
     while not tokens.at_end():
-        if len(found) == _MOST_RAYS:
-            raise Garbled("the answer is too long")
+        if len(found) == _MAX_RAYS:
+            raise ProtocolError("the answer is too long")
         found.append(read_one(tokens))
     return tuple(found)
 
@@ -95,7 +95,7 @@ def hit_without_asking(*, hit: bool, asked: int) -> str:
     return "a hit came without asking a surface" if hit and asked == 0 else ""
 
 
-def _read_one(tokens: Tokens) -> Search:
+def _read_one(tokens: TokenReader) -> Search:
     return Search(tokens.whole(), read_hit(tokens))
 
 
@@ -109,7 +109,7 @@ def too_many_asked(inputs: Inputs, expected: Sequence[int], asked: Sequence[int]
     surfaces = inputs["surfaces"]
     assert isinstance(surfaces, Surfaces)
     if len(asked) > 1 and sum(asked) > MOST_ASKED * len(surfaces.surfaces) * len(asked):
-        return Wasteful(
+        return TooMuchWork(
             "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
         )
     return ""
@@ -137,7 +137,7 @@ class AnyHit:
     found: bool
 
 
-def _read_any_hit(tokens: Tokens) -> AnyHit:
+def _read_any_hit(tokens: TokenReader) -> AnyHit:
     return AnyHit(tokens.whole(), tokens.flag())
 
 
@@ -167,7 +167,7 @@ ANY_HITS: Answer[tuple[AnyHit, ...]] = Answer(
 # Searches through a tree of step 09: as those of step 06, and whether anything is hit before a distance.
 
 _ALL_ASKED = 0.9  # no tree at all, or a single leaf: a poor tree spares the rays more than that
-_MOST_TIMES = 2.0  # what the reference asks, in a tree that is given
+_MAX_TIMES = 2.0  # what the reference asks, in a tree that is given
 
 
 @dataclass(frozen=True)
@@ -205,8 +205,8 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
     share = sum(actual) / (len(surfaces.surfaces) * len(actual))
     if share > MOST_ASKED:
         said = "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
-        return Wasteful(said) if share > _ALL_ASKED else said
-    if not tree.own and sum(actual) > _MOST_TIMES * sum(expected):
+        return TooMuchWork(said) if share > _ALL_ASKED else said
+    if not tree.own and sum(actual) > _MAX_TIMES * sum(expected):
         return "the hits are right, but surfaces were asked that the tree could have spared the rays"
     return ""
 

@@ -8,9 +8,9 @@ from itertools import chain, islice
 
 from raysteps.common.errors import GraderFault
 from raysteps.judge.choice_sequence import Choice
-from raysteps.judge.compare import TooLarge, Wasteful
+from raysteps.judge.compare import TooLarge, TooMuchWork
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import (
     Candidate,
     Change,
@@ -22,14 +22,14 @@ from raysteps.judge.shrink_passes import (
     live_choices,
     make,
 )
-from raysteps.judge.worker import Ask, Judged, Reply, answers_until_trouble, judge_reply
+from raysteps.judge.worker import Ask, JudgedCase, Reply, answers_until_trouble, judge_reply
 
 # How long a student's program may run for the examples that a step is shown with.
 
 _RUN_SECONDS = 2.0
 
 
-class Patience:
+class CpuBudget:
     """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
     not count, so that a busy machine shows the same examples; but a program that sleeps, and a judge that is slow, come
     to an end too: after `longest` seconds on the clock, from the first run on."""
@@ -61,30 +61,30 @@ class Wrong:
 
     candidate: Candidate
     change: Change
-    judged: Judged
+    judged: JudgedCase
 
 
-def _silent(judged: Judged) -> bool:
+def _silent(judged: JudgedCase) -> bool:
     return judged.outcome in ("crashed", "timeout")
 
 
-def _same_way(one: Judged, other: Judged) -> bool:
+def _same_way(one: JudgedCase, other: JudgedCase) -> bool:
     if one.outcome != other.outcome:
         return False
     alike = type(one.verdict.problem) is type(other.verdict.problem) and one.verdict.problem == other.verdict.problem
     return alike or one.outcome == "timeout"
 
 
-class Trials:
+class ShrinkOracle:
     """Asks many candidates at once: one run of the student's worker and one of the reference's for each round."""
 
-    def __init__(self, function: Function, student: Ask, reference: Ask, patience: Patience) -> None:
+    def __init__(self, function: Function, student: Ask, reference: Ask, patience: CpuBudget) -> None:
         self._function = function
         self._student = student
         self._reference = reference
         self._patience = patience
 
-    def wrong(self, found: Judged, proposed: Sequence[tuple[Candidate, Change]], seconds: float) -> list[Wrong]:
+    def wrong(self, found: JudgedCase, proposed: Sequence[tuple[Candidate, Change]], seconds: float) -> list[Wrong]:
         """Those that are wrong in the same way, the simplest first."""
         cases = [candidate.case for candidate, _ in proposed]
         replies = self._replies(cases, seconds, go_on=not _silent(found))
@@ -114,7 +114,7 @@ class Trials:
         lines = [reply.line if reply.outcome == "ok" else "" for reply in part.replies] if part else []
         return lines + [""] * (len(cases) - len(lines))
 
-    def _judge(self, case: Case, expected: str, reply: Reply | None) -> Judged | None:
+    def _judge(self, case: Case, expected: str, reply: Reply | None) -> JudgedCase | None:
         """Nothing where the reference itself fails: such a case is none."""
         try:
             return judge_reply(self._function, case, expected, reply) if reply is not None else None
@@ -136,7 +136,7 @@ class Trials:
         return None
 
     def _jittered(self, case: Case, seed: int) -> Case:
-        return Case(case.function, case.group, jittered(case.inputs, Draw(f"jitter {seed}").sign))
+        return Case(case.function, case.group, jittered(case.inputs, RandomSource(f"jitter {seed}").sign))
 
     def _agrees(self, case: Case, expected: str, near: str) -> bool:
         judged = self._judge(case, expected, Reply(near))
@@ -145,8 +145,8 @@ class Trials:
 
 _ROUNDS = 12
 _ROUNDS_OF_SILENCE = 3  # where each costs a hang
-_MOST = 200  # candidates in a round
-_MOST_CHOICES = 8000  # of all candidates in a round together
+_MAX = 200  # candidates in a round
+_MAX_CHOICES = 8000  # of all candidates in a round together
 _LEAST = 60
 _TRIES = 3  # for each candidate of a round: many changes make a case that was asked before, or none
 _BARREN = 3  # rounds without a simpler case
@@ -160,15 +160,15 @@ def _shape(candidate: Candidate) -> tuple[int, frozenset[Place]]:
 class Shrinker:
     """Goes from a wrong case to simpler ones, round by round."""
 
-    def __init__(self, function: Function, student: Ask, reference: Ask, patience: Patience) -> None:
+    def __init__(self, function: Function, student: Ask, reference: Ask, patience: CpuBudget) -> None:
         self._function = function
-        self._trials = Trials(function, student, reference, patience)
+        self._trials = ShrinkOracle(function, student, reference, patience)
         self._patience = patience
 
-    def shrink(self, found: Judged, choices: Sequence[Choice]) -> Judged:
+    def shrink(self, found: JudgedCase, choices: Sequence[Choice]) -> JudgedCase:
         """The simplest case that was found in a bounded number of rounds; the given one, if there is none."""
         base = make(self._function, found.case.group, Recipe(tuple(choice.value for choice in choices)))
-        unclear = isinstance(found.verdict.problem, Wasteful | TooLarge)
+        unclear = isinstance(found.verdict.problem, TooMuchWork | TooLarge)
         if base is None or unclear or not found.asked or base.case.line(0) != found.case.line(0):
             return found
         tried = {base.case.line(0)}
@@ -195,7 +195,7 @@ class Shrinker:
         self, base: Candidate, live: Collection[int], good: Sequence[Change], tried: set[str]
     ) -> list[tuple[Candidate, Change]]:
         """New ones only, as many as a round may have."""
-        most = max(_LEAST, min(_MOST, _MOST_CHOICES // max(1, len(base.choices))))
+        most = max(_LEAST, min(_MAX, _MAX_CHOICES // max(1, len(base.choices))))
         found: list[tuple[Candidate, Change]] = []
         group = base.case.group
         may_drop = not self._function.by_name[group].saves

@@ -10,8 +10,8 @@ from typing import Any
 from raysteps.judge.choice_sequence import (
     Choice,
     Chosen,
+    InvalidChoice,
     Replay,
-    Unfit,
     complexity,
     simpler_directions,
     simpler_reals,
@@ -134,7 +134,7 @@ def make(function: Function, group: str, recipe: Recipe) -> Candidate | None:
         if any(isinstance(value, Rays) and not value.rays for value in inputs.values()):
             return None  # the answer would have no words
         case.line(0)
-    except (Unfit, ArithmeticError, ValueError, LookupError):
+    except (InvalidChoice, ArithmeticError, ValueError, LookupError):
         return None
     used = replace(recipe, values=tuple(choice.value for choice in replay.choices))
     left = tuple(place for place in every if place not in recipe.dropped)

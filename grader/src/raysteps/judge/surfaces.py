@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from raysteps.judge.numbers import Number, Vector, add, cross, dot, minus, text
 from raysteps.judge.protocol import Fill, Ray, vector_words
 
-_MOST_IN_WORDS = 12
+_MAX_IN_WORDS = 12
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class Surfaces:
         return numbers
 
     def words(self) -> str:
-        shown = [f"{i}: {surface.words()}" for i, surface in enumerate(self.surfaces[:_MOST_IN_WORDS], 1)]
+        shown = [f"{i}: {surface.words()}" for i, surface in enumerate(self.surfaces[:_MAX_IN_WORDS], 1)]
         left = len(self.surfaces) - len(shown)
         return "; ".join(shown) + (f"; and {left} more" if left else "") or "none"
 

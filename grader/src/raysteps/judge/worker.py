@@ -11,9 +11,9 @@ from raysteps.common.process import Outcome
 from raysteps.common.text import in_seconds
 from raysteps.judge.compare import Verdict
 from raysteps.judge.functions import Case, Function
-from raysteps.results.model import Ending
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.sandbox.task import Input, Limits, Ran, Sandbox, Task
+from raysteps.results.model import Termination
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Input, Limits, Sandbox, Task, TaskResult
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import StepLimits
@@ -52,10 +52,10 @@ class TimeBudget:
         self._hung = self._hung or hung
 
 
-Ask: TypeAlias = Callable[[bytes, float], Ran]  # the worker's stdin, and how many seconds it may take
+Ask: TypeAlias = Callable[[bytes, float], TaskResult]  # the worker's stdin, and how many seconds it may take
 
-_MOST_RESTARTS = 3
-_MOST_CUTS = 30  # a long answer may be cut off at the limit of a sandbox; what came before counts
+_MAX_RESTARTS = 3
+_MAX_CUTS = 30  # a long answer may be cut off at the limit of a sandbox; what came before counts
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Reply:
     worker never came to it, so that nobody knows what it would have said."""
 
     line: str = ""
-    outcome: Ending = "ok"
+    outcome: Termination = "ok"
     note: str = ""
     asked: bool = True
 
@@ -93,11 +93,11 @@ def _read(lines: Sequence[str], first: int, last: int) -> list[Reply]:
     return answers
 
 
-def _hung(ran: Ran) -> bool:
+def _hung(ran: TaskResult) -> bool:
     return ran.outcome.timed_out or ran.stopped in ("wall", "cpu")
 
 
-def _trouble(ran: Ran, *, in_a_line: bool) -> Reply:
+def _trouble(ran: TaskResult, *, in_a_line: bool) -> Reply:
     """Why the worker stopped in the middle."""
     outcome = ran.outcome
     if _hung(ran):
@@ -110,7 +110,9 @@ def _trouble(ran: Ran, *, in_a_line: bool) -> Reply:
     return Reply("", "crashed", f"the program ended ({how})")
 
 
-def ask_once(ask: Ask, cases: Sequence[Case], first: int, seconds: float) -> tuple[Ran, list[Reply], Reply | None]:
+def ask_once(
+    ask: Ask, cases: Sequence[Case], first: int, seconds: float
+) -> tuple[TaskResult, list[Reply], Reply | None]:
     """How it ran, the answers that came, and what became of the next case; None where nobody knows."""
     stdin = "".join(f"{case.line(i)}\n" for i, case in enumerate(cases[first:], first))
     ran = ask(stdin.encode(), seconds)
@@ -139,12 +141,12 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         replies += answers
         if len(replies) == len(cases):
             break
-        if trouble is None and cuts < _MOST_CUTS:
+        if trouble is None and cuts < _MAX_CUTS:
             cuts += 1
             continue
         replies.append(trouble or Reply("", "wrong", "the answer is too long"))
         restarts += 1
-        if restarts > _MOST_RESTARTS:
+        if restarts > _MAX_RESTARTS:
             given_up = Reply("", replies[-1].outcome, "not asked any more after that", asked=False)
             return _give_up(replies, cases, used, given_up)
     return Replies(replies, used)
@@ -167,12 +169,12 @@ def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Re
 
 
 @dataclass(frozen=True)
-class Judged:
+class JudgedCase:
     """`outcome` is ok only where the answer is right."""
 
     case: Case
     verdict: Verdict
-    outcome: Ending
+    outcome: Termination
     asked: bool = True
 
     @property
@@ -181,13 +183,13 @@ class Judged:
         return self.asked and self.verdict.decided
 
 
-def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> Judged:
+def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> JudgedCase:
     """Compares with the reference's line."""
     verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
     if reply.outcome != "ok":
         verdict = Verdict(reply.note, verdict.expected, f"no answer: {reply.note}")
     outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"
-    return Judged(case, verdict, outcome, reply.asked)
+    return JudgedCase(case, verdict, outcome, reply.asked)
 
 
 # Asks workers: a student's and the kit's own.
@@ -196,25 +198,25 @@ ANSWERS_KB = 8192  # a tree of many boxes is a long answer
 _REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300, output_kb=ANSWERS_KB)
 
 
-def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Callable[[bytes, float], Ran]:
+def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Callable[[bytes, float], TaskResult]:
     """The student's functions, asked in a process that knows no answer: cases, and how many seconds it may take."""
 
-    def ask(cases: bytes, seconds: float) -> Ran:
+    def ask(cases: bytes, seconds: float) -> TaskResult:
         return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
 
     return ask
 
 
-def reference_unkept(kit: BuiltKit, cases: bytes) -> Ran:
+def reference_unkept(kit: BuiltKit, cases: bytes) -> TaskResult:
     """Its answers to questions that nobody asks twice."""
-    return OpenAir().run(Task((Input(kit.reference("worker"), "worker"),), _REFERENCE_LIMITS, stdin=cases))
+    return LimitsOnly().run(Task((Input(kit.reference("worker"), "worker"),), _REFERENCE_LIMITS, stdin=cases))
 
 
-def reference_answers(kit: BuiltKit, cases: bytes) -> Ran:
+def reference_answers(kit: BuiltKit, cases: bytes) -> TaskResult:
     """The reference's answers, kept: a class is asked the same questions."""
     path = kit.answers / hashlib.sha256(cases).hexdigest()[:32]
     if path.is_file():
-        return Ran(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
+        return TaskResult(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
     ran = reference_unkept(kit, cases)
     if ran.outcome.code != 0 or ran.outcome.timed_out:
         raise GraderFault(f"the reference did not answer the judge: {ran.outcome.stderr.strip()}")

@@ -8,16 +8,16 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, usable_folder
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.self_check import check_own
+from raysteps.grading.self_check import self_check
 from raysteps.progress.standing import remember
 from raysteps.report.student import REPORT, try_student_page
 from raysteps.results.model import Results
 from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import place_of
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.submission.load import Submission, take_in
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
 
 def exit_code(results: Results) -> int:
@@ -57,7 +57,7 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
 
 
 @dataclass(frozen=True)
-class Checked:
+class CheckResult:
     """What came of checking one's own steps; there is no page where it could not be made."""
 
     kit: BuiltKit
@@ -65,24 +65,28 @@ class Checked:
     page: Path | None
 
 
-def _look_through(kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: Say) -> Results:
+def _look_through(
+    kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: ProgressCallback
+) -> Results:
     jobs = os.cpu_count() or 1
     if not kit.has_reference:
-        return check_own(kit, submission, chosen, jobs, OpenAir(), out, say)
+        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say)
     from raysteps.grading.options import Settings
-    from raysteps.grading.pipeline import grade_one  # a students' kit has neither the judge nor what belongs to it
+    from raysteps.grading.pipeline import (
+        grade_submission,  # a students' kit has neither the judge nor what belongs to it
+    )
 
     settings = Settings(only=tuple(step.id for step in chosen), jobs=jobs)
-    return grade_one(kit, submission, settings, OpenAir(), out, say)
+    return grade_submission(kit, submission, settings, LimitsOnly(), out, say)
 
 
-def check_steps(project: Project, chosen: list[Step], say: Say) -> Checked:
+def check_steps(project: Project, chosen: list[Step], say: ProgressCallback) -> CheckResult:
     """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
     out = project.build / "check"
     with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say)
         clear(out, kit.steps, chosen)
-        submission = take_in(project.steps, kit.steps)
+        submission = load_submission(project.steps, kit.steps)
         results = _look_through(kit, submission, chosen, out, say)
         remember(project, results, submission.sources)
-        return Checked(kit, results, try_student_page(out, kit.steps, say))
+        return CheckResult(kit, results, try_student_page(out, kit.steps, say))

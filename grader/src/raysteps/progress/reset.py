@@ -11,14 +11,14 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import with_plain_ends, write_bytes
+from raysteps.common.files import normalized_line_ends, write_bytes
 from raysteps.common.text import count, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.progress.standing import shown
 
-_MOST_SHOWN = 12
+_MAX_SHOWN = 12
 _WIDEST = 110
 
 Confirm = Callable[[str], bool]
@@ -47,7 +47,7 @@ def loss(project: Project, step: Step) -> Loss | None:
     except FileNotFoundError:
         return None
     stub = pristine_stub(project, step)
-    if with_plain_ends(data) == stub.encode():
+    if normalized_line_ends(data) == stub.encode():
         return None
     lines = difflib.ndiff(stub.splitlines(), data.decode("utf-8", "replace").splitlines())
     changes = [line for line in lines if line[:1] in "+-"]
@@ -76,10 +76,10 @@ def put_back(project: Project, step: Step) -> Path | None:
 def print_loss(console: Console, lost: Loss, name: str) -> None:
     """What is at stake, before anything is done."""
     console.print(f"{escape(name)}: {lost}.", highlight=False, soft_wrap=True)
-    for line in lost.own[:_MOST_SHOWN]:
+    for line in lost.own[:_MAX_SHOWN]:
         console.print(f"  [yellow]{escape(shorten(line, _WIDEST))}[/yellow]", highlight=False, soft_wrap=True)
-    if len(lost.own) > _MOST_SHOWN:
-        console.print(f"  … and {count(len(lost.own) - _MOST_SHOWN, 'more line')}", style="dim")
+    if len(lost.own) > _MAX_SHOWN:
+        console.print(f"  … and {count(len(lost.own) - _MAX_SHOWN, 'more line')}", style="dim")
 
 
 def print_done(console: Console, name: str, kept: Path | None) -> None:

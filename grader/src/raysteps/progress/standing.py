@@ -13,14 +13,14 @@ from rich.table import Table
 
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
-from raysteps.common.text import listed, number
+from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
-from raysteps.grading.scoring import most_points
+from raysteps.grading.scoring import max_points
 from raysteps.results.model import Results, StepResult
 from raysteps.submission.encoding import decode
-from raysteps.submission.entries import NotTaken
+from raysteps.submission.entries import RejectedFile
 
 # What the last check of each step said; `build/check` holds the last check only, perhaps of another step.
 
@@ -123,7 +123,7 @@ def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standin
     """Compares the file with the stub and with what was checked last."""
     try:
         source = own_source(project, step)
-    except (OSError, NotTaken):
+    except (OSError, RejectedFile):
         return Standing(step, "unreadable")
     if source is None:
         return Standing(step, "missing")
@@ -173,7 +173,7 @@ _OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your 
 
 
 def _points(project: Project, step: Step) -> str:
-    return number(most_points(step, judged=project.has_reference))
+    return number(max_points(step, judged=project.has_reference))
 
 
 def _color(standing: Standing) -> str:
@@ -216,7 +216,7 @@ def list_steps(project: Project, console: Console) -> int:
 
 def _to_write(standing: Standing) -> str:
     left = standing.unfinished
-    return f" ({listed(left)} {'is' if len(left) == 1 else 'are'} still to be written)" if left else ""
+    return f" ({join_and(left)} {'is' if len(left) == 1 else 'are'} still to be written)" if left else ""
 
 
 def next_step(project: Project, console: Console) -> int:

@@ -7,24 +7,24 @@ from collections.abc import Callable
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import write_bytes
-from raysteps.common.text import listed
+from raysteps.common.files import content_hash, write_bytes
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.project import Project
-from raysteps.images.render import reference_picture, reference_work, write_given
+from raysteps.images.render import reference_picture, reference_work, write_reference_image
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
 from raysteps.toolchain.build_kit import write_given_tests
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from raysteps.updater.generated_files import FOLDERS, HISTORY, is_made_anew
-from raysteps.updater.release_list import PLACE, Listed, Owner, Release, encoded, mark, read_release
+from raysteps.updater.release_list import PLACE, ListedFile, Owner, Release, encoded, read_release
 
 # Puts a new release in the place of an older one, and loses nothing that is of neither.
 
 _NOT_OURS = (HISTORY, *FOLDERS)  # may lie in a release that somebody keeps under version control
 
 
-def _is_as_released(path: Path, listed: Listed) -> bool:
+def _is_as_released(path: Path, listed: ListedFile) -> bool:
     try:
         return listed.is_at(path)
     except OSError as error:
@@ -94,7 +94,7 @@ def swap(new: Path, out: Path) -> None:
 # What the reference leaves behind for students: its pictures, and the names of its tests.
 
 
-def write_all_given(kit: BuiltKit, steps: list[Step], folder: Path) -> None:
+def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path) -> None:
     """Writes folder/reference/."""
     target = Project(folder)
     for step in steps:
@@ -102,7 +102,7 @@ def write_all_given(kit: BuiltKit, steps: list[Step], folder: Path) -> None:
             scene = kit.project.root / case.scene
             pixels = reference_picture(kit, scene, case.args)
             work = reference_work(kit, scene, case.args) if case.max_share is not None else None
-            write_given(target, step, case, scene, pixels, work)
+            write_reference_image(target, step, case, scene, pixels, work)
     tests = {step.id: {name: sorted(tags) for name, tags in kit.tests[step.id].items()} for step in steps}
     write_given_tests(target, tests)
 
@@ -119,7 +119,7 @@ def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Releas
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         name = path.relative_to(folder).as_posix()
         owner: Owner = "student" if name in own else "kit"
-        files.append(Listed(name, mark(path.read_bytes()), owner, name in _EXECUTABLE))
+        files.append(ListedFile(name, content_hash(path.read_bytes()), owner, name in _EXECUTABLE))
     return Release(course, kit.fingerprint.split()[0], tuple(step.id for step in steps), tuple(files))
 
 
@@ -130,8 +130,8 @@ def _refuse_gaps(steps: list[Step], absent: list[Step]) -> None:
         until = [step.index for step in steps if step.id < gaps[0]]
         sooner = f"end before it with `--steps {steps[0].index}-{until[-1]}`, or " if until else ""
         raise UsageError(
-            f"{listed(gaps)}: left out of the course, but the pictures of later steps need it, and a students' kit has "
-            f"no reference to stand in; {sooner}let it in, as a bonus or for few points"
+            f"{join_and(gaps)}: left out of the course, but the pictures of later steps need it, and a students' kit "
+            f"has no reference to stand in; {sooner}let it in, as a bonus or for few points"
         )
 
 
@@ -156,11 +156,11 @@ def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -
         write_bytes(folder / name, data)
     for name in _EXECUTABLE:
         (folder / name).chmod(0o755)
-    write_all_given(kit, steps, folder)
+    write_reference_artifacts(kit, steps, folder)
     write_bytes(folder / PLACE, encoded(_list(folder, course, kit, steps)))
 
 
-def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Leaks, say: Say) -> bool:
+def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Leaks, say: ProgressCallback) -> bool:
     """Whether it was written; not where `leaks` finds something in it."""
     refuse_left_overs(out)
     usable(out)

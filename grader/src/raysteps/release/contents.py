@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from pathlib import Path, PurePosixPath
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project, places, untracked
 from raysteps.course.stubs import pristine_stub
@@ -128,19 +128,19 @@ def package_files(source: Path) -> list[Path]:
 FOLDER = "framework/absent/steps"
 
 
-def stand_in(stub: str) -> str:
+def missing_step_stub(stub: str) -> str:
     """A stub that says what it is no part of, and not what is to do."""
     lines = [line for line in stub.splitlines() if not line.strip().startswith("// TODO:")]
     return "\n".join(lines).replace("RAYSTEPS_TODO(", "RAYSTEPS_ABSENT(") + "\n"
 
 
-def absent_files(project: Project, absent: list[Step]) -> dict[str, bytes]:
+def missing_step_stubs(project: Project, absent: list[Step]) -> dict[str, bytes]:
     """Contract and stand-in of each, by path."""
     files: dict[str, bytes] = {}
     for step in absent:
         for header in sorted((project.steps / step.id).glob("*.hpp")):
             files[f"{FOLDER}/{step.id}/{header.name}"] = header.read_bytes()
-        files[f"{FOLDER}/{step.path.as_posix()}"] = stand_in(pristine_stub(project, step)).encode()
+        files[f"{FOLDER}/{step.path.as_posix()}"] = missing_step_stub(pristine_stub(project, step)).encode()
     return files
 
 
@@ -175,7 +175,7 @@ _NOT_FOR_STUDENTS = re.compile(
 )
 _OF_A_STEP = re.compile(r"steps/[^/]+/(README\.md|step\.toml|[^/]+(\.hpp|_test\.cpp|\.png|\.svg))")
 _OVERLAY, _WORKFLOW = "grader/src/raysteps/release/overlay", "course/github-workflow.yml"
-_MOST_NAMED = 5
+_MAX_NAMED = 5
 _SKIPPED = {"build", ".venv", ".git"}
 
 
@@ -185,7 +185,7 @@ def refuse_untracked(root: Path, files: Collection[str]) -> None:
     found = sorted(name for name in new if name in files or name == _WORKFLOW or name.startswith(f"{_OVERLAY}/"))
     if found:
         raise UsageError(
-            f"{listed(found[:_MOST_NAMED])}: would go out, but git does not know it; `git add` what belongs to the "
+            f"{join_and(found[:_MAX_NAMED])}: would go out, but git does not know it; `git add` what belongs to the "
             "kit, and take away the rest"
         )
 
@@ -233,7 +233,7 @@ def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dic
     for step in steps:
         stub = pristine_stub(project, step).encode()
         files[f"steps/{step.path.as_posix()}"] = files[f"grader/stubs/{step.path.as_posix()}"] = stub
-    files |= absent_files(project, absent)
+    files |= missing_step_stubs(project, absent)
     workflow = project.root / _WORKFLOW
     if workflow.is_file():
         files[".github/workflows/check.yml"] = _readable(workflow)

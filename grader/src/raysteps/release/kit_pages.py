@@ -11,7 +11,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.markdown import targets, unlinked
 from raysteps.common.text import number
 from raysteps.course.manifest import Step
-from raysteps.grading.scoring import most_points
+from raysteps.grading.scoring import max_points
 
 _DATA = ["py.typed", "*/*.schema.json", "report/static/*", "report/templates/*"]
 
@@ -159,7 +159,7 @@ def for_students(page: str, text: str) -> str:
 
 def as_printed(text: str, step: Step) -> str:
     """What `check` prints of a right step there: the points of the visible part, and nothing hidden."""
-    whole, seen = number(most_points(step, judged=True)), number(most_points(step, judged=False))
+    whole, seen = number(max_points(step, judged=True)), number(max_points(step, judged=False))
     text = text.replace(f": passed, {whole} of {whole}", f": passed, {seen} of {seen}")
     return re.sub(r"^  hidden   all [0-9]+ passed\n", "", text, flags=re.MULTILINE)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count, listed
+from raysteps.common.text import count, join_and
 from raysteps.release.secrets import Secrets, words_in
 from raysteps.updater.generated_files import CACHE, HISTORY, all_places
 
@@ -78,7 +78,7 @@ def strange(data: bytes) -> str | None:
 
 _RUN = re.compile(rb"[\t\n\r\x20-\x7e]{4,}")
 _WIDE_RUN = re.compile(rb"(?:[\t\n\r\x20-\x7e]\x00){4,}")
-_MOST = 64 << 20  # bytes of something unpacked
+_MAX = 64 << 20  # bytes of something unpacked
 _DEEPEST = 4
 
 
@@ -98,7 +98,7 @@ def _strings(data: bytes) -> str:
 
 def _inflated(data: bytes) -> bytes:
     try:
-        return zlib.decompressobj().decompress(data, _MOST)
+        return zlib.decompressobj().decompress(data, _MAX)
     except zlib.error:
         return data
 
@@ -131,16 +131,16 @@ def _members(data: bytes) -> Iterator[tuple[str, bytes]]:
             with zipfile.ZipFile(stream) as archive:
                 for entry in archive.infolist():
                     with archive.open(entry) as member:
-                        yield entry.filename, member.read(_MOST)
+                        yield entry.filename, member.read(_MAX)
         elif data.startswith(b"\x1f\x8b"):
             with gzip.open(stream) as packed:
-                yield "unpacked", packed.read(_MOST)
+                yield "unpacked", packed.read(_MAX)
         elif data[257:262] == b"ustar":
             with tarfile.open(fileobj=stream) as tar:
                 for item in tar:
                     file = tar.extractfile(item)
                     if file is not None:
-                        yield item.name, file.read(_MOST)
+                        yield item.name, file.read(_MAX)
     except (OSError, EOFError, RuntimeError, zlib.error, zipfile.BadZipFile, tarfile.TarError):
         return
 
@@ -181,7 +181,7 @@ def not_searched(folder: Path) -> str:
     named = [name for name in made if name not in caches]
     if len(caches) > 1:
         caches = [f"{count(len(caches), 'folder')} {CACHE}"]
-    return listed([*named, *caches]) if made else ""
+    return join_and([*named, *caches]) if made else ""
 
 
 _LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")

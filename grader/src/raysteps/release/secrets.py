@@ -124,7 +124,7 @@ def plain_words(text: str) -> Words:
 
 
 @dataclass
-class Sequences:
+class NgramIndex:
     """Sequences of words, each with where it comes from."""
 
     by_start: dict[Words, dict[Words, str]] = field(default_factory=dict)
@@ -148,7 +148,7 @@ class Sequences:
                 if texts[at : at + len(sequence)] == sequence:
                     yield words[at], sequence, origin
 
-    def join(self, other: "Sequences") -> None:
+    def join(self, other: "NgramIndex") -> None:
         """Those of both."""
         for start, sequences in other.by_start.items():
             self.by_start.setdefault(start, {}).update(sequences)
@@ -165,7 +165,7 @@ FILE = "grader/src/raysteps/release/leaks/shared.toml"
 
 
 @dataclass(frozen=True)
-class Shared:
+class Allowlist:
     """Words that somebody found to be no secret, the files that have them, and what they are like."""
 
     files: tuple[str, ...]
@@ -173,11 +173,11 @@ class Shared:
     words: str
 
 
-def read_shared() -> list[Shared]:
+def read_allowlist() -> list[Allowlist]:
     """A list that is not well formed is the kit's fault."""
     try:
         table = tomllib.loads(files(__package__).joinpath("shared.toml").read_text(encoding="utf-8"))
-        return [Shared(tuple(one["files"]), str(one["origin"]), str(one["words"])) for one in table["shared"]]
+        return [Allowlist(tuple(one["files"]), str(one["origin"]), str(one["words"])) for one in table["shared"]]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise GraderFault(f"{FILE}: expected [[shared]] with files, origin and words: {error}") from error
 
@@ -195,7 +195,7 @@ _NEAR = 3  # words between `seed` and its number
 class Secrets:
     """Sequences of words, names of helpers that only solutions have, and what hidden cases are drawn from."""
 
-    sequences: Sequences
+    sequences: NgramIndex
     names: dict[str, str]  # and where they come from
     seed: str | None
 
@@ -218,10 +218,10 @@ def _helpers(project: Project) -> dict[str, str]:
     return found
 
 
-def gather(project: Project, shared: Sequence[Shared] | None = None) -> Secrets:
+def gather(project: Project, shared: Sequence[Allowlist] | None = None) -> Secrets:
     """Less what the stubs themselves have, and the few things that shared.toml names. Nothing else is public: no file
     is forgiven because it is meant to go out."""
-    secret = Sequences()
+    secret = NgramIndex()
     for origin, source in solution_code(project):
         secret.add(code_words(source), origin, _CODE, _LEAST_OF_CODE)
     for origin, text in mistakes(project):
@@ -232,7 +232,7 @@ def gather(project: Project, shared: Sequence[Shared] | None = None) -> Secrets:
         secret.add(plain_words(source), origin, _MODULE, _LEAST_OF_A_MODULE)
     for step in read_all_steps(project):
         secret.allow(pristine_stub(project, step))
-    for one in read_shared() if shared is None else shared:
+    for one in read_allowlist() if shared is None else shared:
         secret.allow(one.words)
     seed = read_course(project).seed
     return Secrets(secret, _helpers(project), None if seed in (None, USUAL_SEED) else str(seed))

@@ -105,7 +105,7 @@ def total_bars(values: Sequence[float], top: float) -> list[Bar]:
 
 
 _SHARES = (("0", "no points"), ("", "up to a quarter"), ("", "up to a half"), ("", "up to three quarters"))
-_MOST = (("", "nearly all"), ("all", "all points"))
+_MAX = (("", "nearly all"), ("all", "all points"))
 
 
 def share_bars(values: Sequence[float], top: float) -> list[Bar]:
@@ -114,7 +114,7 @@ def share_bars(values: Sequence[float], top: float) -> list[Bar]:
     for value in values:
         share = value / top if top else 1.0
         counts[0 if share <= 0 else 5 if share >= 1 else min(4, math.ceil(share * 4))] += 1
-    return [Bar(label, words, counts[index]) for index, (label, words) in enumerate((*_SHARES, *_MOST))]
+    return [Bar(label, words, counts[index]) for index, (label, words) in enumerate((*_SHARES, *_MAX))]
 
 
 def step_figures(document: Document) -> list[StepFigures]:

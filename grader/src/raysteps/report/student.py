@@ -26,14 +26,14 @@ from raysteps.results.work_ratio import Work
 
 # The pictures of a submission, as far as there is room for them in one page.
 
-_MOST_PIXELS = 1 << 22
+_MAX_PIXELS = 1 << 22
 
 Place = tuple[str, str]  # step and name of the picture
 Document = Mapping[str, Any]
 
 
 @dataclass
-class Shown:
+class ShownImage:
     """What there is to be compared."""
 
     pictures: dict[str, PictureData | None] = field(default_factory=dict)
@@ -64,7 +64,7 @@ def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]
     reference, mine = sides["reference"], sides["mine"]
     if reference is None or mine is None or reference.src == mine.src:
         return None
-    if reference.width * reference.height > _MOST_PIXELS or mine.width * mine.height > _MOST_PIXELS:
+    if reference.width * reference.height > _MAX_PIXELS or mine.width * mine.height > _MAX_PIXELS:
         return None
     pixels = []
     for role in ("reference", "mine"):
@@ -83,13 +83,13 @@ def _wrong_first(document: Document) -> Iterator[tuple[Place, Document]]:
     return iter(sorted(images, key=lambda item: bool(item[1]["passed"])))
 
 
-def make_album(document: Document, folder: Path, room: int) -> dict[Place, Shown]:
+def make_album(document: Document, folder: Path, room: int) -> dict[Place, ShownImage]:
     """As many as fit into so many characters: the wrong ones first, then the right ones, and maps last."""
-    album: dict[Place, Shown] = {}
+    album: dict[Place, ShownImage] = {}
     for place, image in _wrong_first(document):
         sides = {role: _read(_path(folder, image[role])) for role in ("reference", "mine")}
         size = sum(len(side.src) for side in sides.values() if side is not None)
-        album[place] = Shown(sides) if size <= room else Shown(left_out=True)
+        album[place] = ShownImage(sides) if size <= room else ShownImage(left_out=True)
         room -= size if size <= room else 0
     for place, image in _wrong_first(document):
         shown = album[place]
@@ -215,7 +215,7 @@ def _work(image: Document) -> list[tuple[str, str, str]]:
     ]
 
 
-def _image(image: Document, step: Step | None, shown: Shown) -> dict[str, Any]:
+def _image(image: Document, step: Step | None, shown: ShownImage) -> dict[str, Any]:
     wrong, share = image["wrong_share"], image.get("share_tested")
     facts = []
     if wrong is not None:
@@ -244,7 +244,7 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
     ]
 
 
-def step_view(result: Document, step: Step | None, album: Mapping[Place, Shown]) -> dict[str, Any]:
+def step_view(result: Document, step: Step | None, album: Mapping[Place, ShownImage]) -> dict[str, Any]:
     """All that the page says of a step."""
     words, tone, sign = STATUS_WORDS[result["status"]]
     parts = parts_of(result, step)
@@ -274,7 +274,7 @@ def step_view(result: Document, step: Step | None, album: Mapping[Place, Shown])
 
 
 REPORT = "report.html"
-_MOST = 4_900_000  # bytes: a page that can be sent by mail
+_MAX = 4_900_000  # bytes: a page that can be sent by mail
 _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
 
@@ -304,11 +304,11 @@ def _sums(steps: Sequence[Mapping[str, Any]]) -> dict[str, float]:
 def student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> str:
     """The page of a results.json whose pictures lie in the folder. It shows what the document holds, and no more."""
     text = _page(document, make_album(document, folder, _ROOM), steps)
-    excess = len(text.encode()) - _MOST
+    excess = len(text.encode()) - _MAX
     return text if excess <= 0 else _page(document, make_album(document, folder, _ROOM - excess), steps)
 
 
-def _page(document: Mapping[str, Any], album: Mapping[Place, Shown], steps: Sequence[Step]) -> str:
+def _page(document: Mapping[str, Any], album: Mapping[Place, ShownImage], steps: Sequence[Step]) -> str:
     known = {step.id: step for step in steps}
     views = [step_view(result, known.get(result["id"]), album) for result in document["steps"]]
     name = clean(document["submission"], 200)

@@ -14,7 +14,7 @@ from raysteps.course.manifest import Step
 from raysteps.report.wording import HOW_SURE, percent
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
 from raysteps.results.work_ratio import Work
-from raysteps.toolchain.kit_artifacts import Say
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
@@ -177,7 +177,7 @@ def print_files(console: Console, path: Path, page: Path | None) -> None:
 # Tells what is being done.
 
 
-def progress(console: Console, status: Status) -> Say:
+def progress(console: Console, status: Status) -> ProgressCallback:
     """Beside the spinner on a terminal, elsewhere as lines on stderr."""
 
     def say(text: str) -> None:

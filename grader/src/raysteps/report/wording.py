@@ -24,12 +24,12 @@ def beside_reference(project: Project) -> tuple[str, ...]:
 
 def replay_command(case: str) -> str:
     """Asks a case again; its file lies beside the report."""
-    return f"{own_command()} replay {systems.typed([case])}"
+    return f"{own_command()} replay {systems.quote_command([case])}"
 
 
 def typed(words: Sequence[str]) -> str:
     """As a person types it."""
-    return f"{own_command()} {systems.typed(words)}"
+    return f"{own_command()} {systems.quote_command(words)}"
 
 
 def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
@@ -44,7 +44,7 @@ def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
     case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None
     if case is None or "{" in case.scene:
         return None
-    start = systems.typed([case.scene])
+    start = systems.quote_command([case.scene])
     return typed(inspect_words(case, 0, 0)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
 
 

@@ -7,7 +7,7 @@ from raysteps.results.work_ratio import Work
 from raysteps.sandbox.task import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
-Ending = Literal["ok", "wrong", "crashed", "timeout"]
+Termination = Literal["ok", "wrong", "crashed", "timeout"]
 
 
 @dataclass
@@ -22,7 +22,7 @@ class TestResult:
     expression: str = ""
     expanded: str = ""
     location: str = ""
-    outcome: Ending = "ok"
+    outcome: Termination = "ok"
 
 
 @dataclass
@@ -43,7 +43,7 @@ class ImageResult:
     reference: str | None = None
     difference: str | None = None
     seconds: float = 0.0
-    outcome: Ending = "ok"
+    outcome: Termination = "ok"
 
 
 @dataclass
@@ -78,7 +78,7 @@ class HiddenResult:
     actual: str = ""
     case: str = ""  # file with that input, for `replay`; relative to the folder of results.json
     seconds: float = 0.0
-    outcome: Ending = "ok"
+    outcome: Termination = "ok"
 
     @property
     def passed(self) -> bool:
@@ -101,7 +101,7 @@ class Diagnosis:
 
 
 @dataclass
-class Cumulative:
+class Integration:
     """Whether the step works together with the student's right steps before it."""
 
     passed: bool
@@ -123,7 +123,7 @@ class StepResult:
     inconsistent: list[str] = field(default_factory=list)  # claims of the program that the judge did not see
     diagnoses: list[Diagnosis] = field(default_factory=list)  # the likeliest first
     build_log: str = ""  # all that the compiler said
-    cumulative: Cumulative = field(default_factory=lambda: Cumulative(False))
+    cumulative: Integration = field(default_factory=lambda: Integration(False))
     messages: list[str] = field(default_factory=list)
 
 

@@ -10,11 +10,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from raysteps.common.text import listed
+from raysteps.common.text import join_and
 
 # What a picture cost: tests that the program counted, and the structure that it built. No clock is involved.
 
-_MOST = 2**63  # a counter of the framework has 64 bits
+_MAX = 2**63  # a counter of the framework has 64 bits
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Work:
 
 
 def _count(value: Any) -> int:
-    if type(value) is not int or not 0 <= value < _MOST:
+    if type(value) is not int or not 0 <= value < _MAX:
         raise ValueError("not a counter")
     return value
 
@@ -88,7 +88,7 @@ class NoEffort:
 
 
 def _pictures_are(names: Sequence[str]) -> str:
-    return f"pictures {listed(names)} are" if len(names) > 1 else f"picture {names[0]} is"
+    return f"pictures {join_and(names)} are" if len(names) > 1 else f"picture {names[0]} is"
 
 
 def _wrong(images: Sequence[Document]) -> str:

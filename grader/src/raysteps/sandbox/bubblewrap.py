@@ -16,11 +16,11 @@ from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
 from raysteps.sandbox.cgroups import Group, find_parents, new_group
 from raysteps.sandbox.lockdown import syscall_filter
-from raysteps.sandbox.monitor import Seen, Usage, adopting_orphans, descendants, reap, usage_of, watch
-from raysteps.sandbox.namespaces import AsUser, Mode, compiler_command, root_words
+from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, reap, usage_of
+from raysteps.sandbox.namespaces import AsUser, NamespaceMode, compiler_command, root_words
 from raysteps.sandbox.rlimits import counts_per_namespace, limit_words, threads_of_user
-from raysteps.sandbox.task import Input, Isolation, Limits, Ran, Task
-from raysteps.sandbox.task_dir import Inside, Workplace, fresh_workplace, nameless_file
+from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
+from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
 
 # The two pipes between the grader and a bubblewrap: it says who its first process is and how the command ended, and
@@ -36,7 +36,7 @@ def readable(fd: int, seconds: float) -> bool:
     return bool(poll.poll(max(0.0, seconds) * 1000))
 
 
-class Control:
+class StartupPipes:
     """Holds the grader's ends until the stack is left."""
 
     def __init__(self, stack: ExitStack) -> None:
@@ -118,7 +118,7 @@ class Running:
         os.close(self._handle)
 
 
-def outcome(seen: Seen, code: int | None) -> Outcome:
+def outcome(seen: MonitorReport, code: int | None) -> Outcome:
     """bubblewrap turns the signal that ended a command into an exit code above 128; this turns it back. No code: the
     command was killed."""
     if seen.stopped or code is None:
@@ -144,7 +144,7 @@ _KILLED = (-signal.SIGKILL, 128 + signal.SIGKILL)
 class Bubblewrap:
     """Every task in namespaces of its own; as root, also as a user of its own."""
 
-    def __init__(self, secrets: tuple[Path, ...] = (), mode: Mode | None = None) -> None:
+    def __init__(self, secrets: tuple[Path, ...] = (), mode: NamespaceMode | None = None) -> None:
         program = shutil.which("bwrap")
         if program is None:
             raise GraderFault("bubblewrap is not installed (the program bwrap was not found).")
@@ -171,7 +171,7 @@ class Bubblewrap:
             f"with an empty file system for scratch. {together}"
         )
 
-    def _inside(self, task: Task, place: Workplace, stack: ExitStack) -> tuple[Inside, list[str]]:
+    def _inside(self, task: Task, place: TaskDir, stack: ExitStack) -> tuple[PathMap, list[str]]:
         """The names inside, and the words that mount them."""
         mounts: list[str] = []
 
@@ -182,7 +182,7 @@ class Bubblewrap:
             mounts.extend(["--ro-bind", str(shown), inner])
             return inner
 
-        inside = Inside(task, locate)
+        inside = PathMap(task, locate)
         if task.tools:
             folder = place.writable("out")
             inside.write_to_folder(folder, _OUTPUTS)
@@ -192,7 +192,7 @@ class Bubblewrap:
         return inside, mounts
 
     def _words(
-        self, task: Task, inside: Inside, words_inside: list[str], user: int | None
+        self, task: Task, inside: PathMap, words_inside: list[str], user: int | None
     ) -> tuple[list[str], list[str], list[str]]:
         """What sets the limits, bubblewrap's options, and the command inside."""
         limits = task.limits
@@ -226,14 +226,14 @@ class Bubblewrap:
             most = most if hard == resource.RLIM_INFINITY else min(most, hard)
             resource.prlimit(first, resource.RLIMIT_NPROC, (most, most))
 
-    def run(self, task: Task) -> Ran:
+    def run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
             stack.enter_context(adopting_orphans())
             user = stack.enter_context(lent_user()) if self._lends_users else None
-            place = stack.enter_context(fresh_workplace(user))
+            place = stack.enter_context(fresh_task_dir(user))
             group = stack.enter_context(new_group(self._parents, task.limits)) if self._parents else None
             inside, words = self._inside(task, place, stack)
-            control = Control(stack)
+            control = StartupPipes(stack)
             stdin = nameless_file(task.stdin, stack)
             fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
             words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
@@ -268,13 +268,13 @@ class Bubblewrap:
                 group.join(first)
             self._limit_processes(first, task.limits)
             control.open_gate()
-            seen = watch(process, start, task.limits, running)
+            seen = monitor(process, start, task.limits, running)
             # What the kernel ended with its namespace, nobody waited for; there the last look has to do.
             cpu = max(seen.cpu_seconds + running.reap(), seen.watched_cpu_seconds)
             code = control.exit_code()
             if code is None and not seen.stopped and seen.status not in _KILLED:
                 raise _failed(seen)
-            return Ran(outcome(seen, code), inside.outputs(), cpu, seen.stopped)
+            return TaskResult(outcome(seen, code), inside.outputs(), cpu, seen.stopped)
 
 
 def _options_of(program: str) -> frozenset[str]:
@@ -290,6 +290,6 @@ def _cannot_start(process: "subprocess.Popen[bytes]") -> GraderFault:
     return GraderFault(f"bubblewrap cannot make a sandbox: {shorten(printable(said).strip())}")
 
 
-def _failed(seen: Seen) -> GraderFault:
+def _failed(seen: MonitorReport) -> GraderFault:
     said = seen.stderr.decode("utf-8", "replace")
     return GraderFault(f"bubblewrap failed: {shorten(printable(said).strip())}")

@@ -9,13 +9,13 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import here
-from raysteps.sandbox.limits_only import OpenAir
+from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Sandbox, Task
 
 if sys.platform != "win32":
     from raysteps.sandbox.bubblewrap import Bubblewrap
     from raysteps.sandbox.namespaces import AsRoot
-    from raysteps.sandbox.supervised import Fallback
+    from raysteps.sandbox.supervised import Lockdown
     from raysteps.sandbox.task_dir import sweep
     from raysteps.sandbox.users import can_lend_users
 
@@ -66,7 +66,7 @@ def _bubblewrap() -> tuple[Sandbox | None, str]:
 def _fallback() -> tuple[Sandbox | None, str]:
     if sys.platform != "linux":
         return None, "it is for Linux only"
-    return _try(lambda: Fallback((here().root,)))
+    return _try(lambda: Lockdown((here().root,)))
 
 
 def _asked_for() -> str:
@@ -91,7 +91,7 @@ def find_sandbox(*, require: bool = False) -> Sandbox:
         reasons.append(reason)
     if sandbox is None and choice in ("bubblewrap", "fallback"):
         raise UsageError(f"{VARIABLE} asks for {choice}, but it does not work here: {reasons[0]}")
-    found = sandbox or OpenAir()
+    found = sandbox or LimitsOnly()
     if require and not found.isolation.strong:
         why = reasons[0] if reasons else f"{VARIABLE} asks for {choice}."
         raise UsageError(

@@ -16,24 +16,24 @@ _ISOLATION = Isolation(
 )
 
 if sys.platform == "win32":
-    from raysteps.sandbox.windows import Plain
+    from raysteps.sandbox.windows import UnsupervisedSandbox
 
-    class OpenAir(Plain):
+    class LimitsOnly(UnsupervisedSandbox):
         """The task can do whatever the person who started the grader can do."""
 
         isolation = _ISOLATION
 
 else:
-    from raysteps.sandbox.supervised import Kept
+    from raysteps.sandbox.supervised import SupervisedSandbox
     from raysteps.sandbox.task import Input, Task
-    from raysteps.sandbox.task_dir import Workplace
+    from raysteps.sandbox.task_dir import TaskDir
 
-    class OpenAir(Kept):
+    class LimitsOnly(SupervisedSandbox):
         """The task can do whatever the person who started the grader can do."""
 
         isolation = _ISOLATION
 
-        def _locate(self, place: Workplace, given: Input) -> Path:
+        def _locate(self, place: TaskDir, given: Input) -> Path:
             return place.linked(given.path, given.inner_name)
 
         def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from raysteps.sandbox.task import Limits, Stopped
+from raysteps.sandbox.task import LimitHit, Limits
 
 # What the processes of a task use, as /proc tells it.
 
@@ -124,7 +124,7 @@ _DYING_SECONDS = 2.0
 _MEGABYTE = 1 << 20
 
 
-class Watched(Protocol):
+class MonitoredTask(Protocol):
     """The processes of a task, seen from outside."""
 
     def usage(self) -> Usage: ...
@@ -134,7 +134,7 @@ class Watched(Protocol):
 
 
 @dataclass(frozen=True)
-class Seen:
+class MonitorReport:
     """What was seen of a task."""
 
     status: int  # as a wait gives it: an exit code, or a signal below zero
@@ -143,17 +143,19 @@ class Seen:
     cpu_seconds: float  # of the process that was started and what it waited for
     watched_cpu_seconds: float  # of all processes, when they were last looked at
     seconds: float
-    stopped: Stopped
+    stopped: LimitHit
 
 
-def _limit_reached(usage: Usage, limits: Limits) -> Stopped:
+def _limit_reached(usage: Usage, limits: Limits) -> LimitHit:
     if usage.out_of_memory or usage.memory_bytes > limits.memory_mb * _MEGABYTE:
         return "memory"
     return "cpu" if usage.cpu_seconds > limits.cpu_seconds else ""
 
 
 class _Watch:
-    def __init__(self, process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: Watched) -> None:
+    def __init__(
+        self, process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: MonitoredTask
+    ) -> None:
         assert process.stdout is not None
         assert process.stderr is not None
         self._process = process
@@ -161,7 +163,7 @@ class _Watch:
         self._limits = limits
         self._watched = watched
         self._kept = {process.stdout.fileno(): bytearray(), process.stderr.fileno(): bytearray()}
-        self._stopped: Stopped = ""
+        self._stopped: LimitHit = ""
         self._cpu = 0.0
         self._watched_cpu = 0.0
 
@@ -180,11 +182,11 @@ class _Watch:
         buffer = self._kept[fd]
         buffer += data[: max(0, self._limits.output_kb * 1024 - len(buffer))]
 
-    def _stop(self, why: Stopped) -> None:
+    def _stop(self, why: LimitHit) -> None:
         self._stopped = self._stopped or why
         self._watched.kill()
 
-    def _measure(self) -> Stopped:
+    def _measure(self) -> LimitHit:
         usage = self._watched.usage()
         self._watched_cpu = max(self._watched_cpu, usage.cpu_seconds)
         return _limit_reached(usage, self._limits)
@@ -221,7 +223,7 @@ class _Watch:
                 else:
                     selector.unregister(key.fileobj)
 
-    def __call__(self) -> Seen:
+    def __call__(self) -> MonitorReport:
         handle = os.pidfd_open(self._process.pid) if hasattr(os, "pidfd_open") else -1
         try:
             with selectors.DefaultSelector() as selector:
@@ -236,7 +238,7 @@ class _Watch:
             if handle >= 0:
                 os.close(handle)
         out, err = (bytes(buffer) for buffer in self._kept.values())
-        return Seen(
+        return MonitorReport(
             status=self._process.returncode,
             stdout=out,
             stderr=err,
@@ -247,6 +249,6 @@ class _Watch:
         )
 
 
-def watch(process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: Watched) -> Seen:
+def monitor(process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: MonitoredTask) -> MonitorReport:
     """Stays until the process has ended and everything that belongs to it was killed. Nobody else may wait for it."""
     return _Watch(process, start, limits, watched)()

@@ -20,7 +20,7 @@ def tool(name: str) -> str:
     return path
 
 
-class Mode(Protocol):
+class NamespaceMode(Protocol):
     """How bubblewrap is told to make namespaces and to change the user."""
 
     @property

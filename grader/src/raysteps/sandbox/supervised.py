@@ -14,14 +14,14 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
-from raysteps.common.text import listed, printable, shorten
+from raysteps.common.text import join_and, printable, shorten
 from raysteps.sandbox.bubblewrap import readable
 from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
-from raysteps.sandbox.monitor import Seen, Usage, adopting_orphans, descendants, usage_of, watch
+from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, usage_of
 from raysteps.sandbox.namespaces import compiler_command, hidden_folders, top_folders, visible_folders
 from raysteps.sandbox.rlimits import address_space, threads_of_user
-from raysteps.sandbox.task import Input, Isolation, Limits, Ran, Task
-from raysteps.sandbox.task_dir import Inside, Workplace, fresh_workplace, nameless_file
+from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
+from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
 
 _MEGABYTE = 1 << 20
@@ -65,13 +65,13 @@ class _Family:
                 os.waitpid(pid, 0)
 
 
-class Kept:
+class SupervisedSandbox:
     """A sandbox whose tasks run under the keeper. What is in force is for its children to say."""
 
     isolation = Isolation()
     _lends_users = False
 
-    def _locate(self, place: Workplace, given: Input) -> Path:
+    def _locate(self, place: TaskDir, given: Input) -> Path:
         """Makes an input readable for the task."""
         raise NotImplementedError
 
@@ -87,18 +87,18 @@ class Kept:
             bounds |= {"RLIMIT_AS": address_space(limits), "RLIMIT_NPROC": others + limits.processes}
         return bounds
 
-    def run(self, task: Task) -> Ran:
+    def run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
             stack.enter_context(adopting_orphans() if _LINUX else nullcontext())
             user = stack.enter_context(lent_user()) if self._lends_users else None
-            place = stack.enter_context(fresh_workplace(user))
+            place = stack.enter_context(fresh_task_dir(user))
             inputs: list[Path] = []
 
             def locate(_: int, given: Input) -> str:
                 inputs.append(self._locate(place, given))
                 return str(inputs[-1])
 
-            inside = Inside(task, locate)
+            inside = PathMap(task, locate)
             scratch = place.writable("tmp")
             folders = [scratch]
             if task.tools or not _LINUX:
@@ -116,7 +116,9 @@ class Kept:
             }
             return self._keep(task, inside, settings, command, stack)
 
-    def _keep(self, task: Task, inside: Inside, settings: dict[str, Any], command: list[str], stack: ExitStack) -> Ran:
+    def _keep(
+        self, task: Task, inside: PathMap, settings: dict[str, Any], command: list[str], stack: ExitStack
+    ) -> TaskResult:
         status, status_end = os.pipe()
         stack.callback(os.close, status)
         stdin = nameless_file(task.stdin, stack)
@@ -136,9 +138,9 @@ class Kept:
         finally:
             os.close(status_end)
         stack.callback(process.kill)
-        seen = watch(process, start, task.limits, _Family(process))
+        seen = monitor(process, start, task.limits, _Family(process))
         said = os.read(status, 64) if readable(status, 0) else b""
-        return Ran(
+        return TaskResult(
             _outcome(seen, said), inside.outputs(), max(seen.cpu_seconds, seen.watched_cpu_seconds), seen.stopped
         )
 
@@ -151,7 +153,7 @@ def _environment(task: Task, program: str, scratch: Path) -> dict[str, str]:
     return environment
 
 
-def _outcome(seen: Seen, said: bytes) -> Outcome:
+def _outcome(seen: MonitorReport, said: bytes) -> Outcome:
     err = seen.stderr.decode("utf-8", "replace")
     if said.startswith(b"cannot start"):
         raise GraderFault(f"A command could not be started: {shorten(printable(err))}")
@@ -184,7 +186,7 @@ def _without(folder: Path, hidden: list[Path]) -> Iterator[str]:
         yield str(folder)
 
 
-class Fallback(Kept):
+class Lockdown(SupervisedSandbox):
     """Not strong: the task shares the machine's processes with the grader, and its limits count by process."""
 
     def __init__(self, secrets: tuple[Path, ...] = ()) -> None:
@@ -214,9 +216,9 @@ class Fallback(Kept):
         if not self._lends_users and not scopes_signals(self._version):
             lacking.append("it could end processes of the grader's user")
         lacking += ["it could see that other processes run", "memory was watched, not fenced off"]
-        return f"The code ran {listed(there)}. There were no namespaces: {listed(lacking)}."
+        return f"The code ran {join_and(there)}. There were no namespaces: {join_and(lacking)}."
 
-    def _locate(self, place: Workplace, given: Input) -> Path:
+    def _locate(self, place: TaskDir, given: Input) -> Path:
         return place.copied(given.path, given.inner_name)
 
     def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:

@@ -22,7 +22,7 @@ class Isolation:
     description: str = "The code ran without a sandbox."
 
 
-Stopped = Literal["", "wall", "cpu", "memory"]
+LimitHit = Literal["", "wall", "cpu", "memory"]
 
 
 @dataclass(frozen=True)
@@ -91,13 +91,13 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Ran:
+class TaskResult:
     """How a task ended."""
 
     outcome: Outcome
     outputs: dict[str, bytes]  # by Output.name; missing where nothing was written or it is no regular file
     cpu_seconds: float
-    stopped: Stopped  # the limit that ended it, where known
+    stopped: LimitHit  # the limit that ended it, where known
 
 
 class Sandbox(Protocol):
@@ -106,7 +106,7 @@ class Sandbox(Protocol):
     @property
     def isolation(self) -> Isolation: ...
 
-    def run(self, task: Task) -> Ran: ...
+    def run(self, task: Task) -> TaskResult: ...
 
 
 # Reads what a task wrote.

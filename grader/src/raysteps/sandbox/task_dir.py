@@ -68,7 +68,7 @@ def _common_ground() -> Path:
     raise GraderFault("No folder for temporary files that other users can reach: set TMPDIR to one, such as /tmp.")
 
 
-class Workplace:
+class TaskDir:
     """What a task sees of the host, as paths of the host."""
 
     def __init__(self, folder: Path, user: int | None) -> None:
@@ -111,7 +111,7 @@ class Workplace:
 
 
 @contextmanager
-def fresh_workplace(user: int | None) -> Iterator[Workplace]:
+def fresh_task_dir(user: int | None) -> Iterator[TaskDir]:
     """Goes with all that is in it, whatever modes its contents have."""
     parent = None if user is None else _common_ground()
     folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=parent))
@@ -119,7 +119,7 @@ def fresh_workplace(user: int | None) -> Iterator[Workplace]:
         if user is not None:
             folder.chmod(0o711)
         with _locked(folder):
-            yield Workplace(folder, user)
+            yield TaskDir(folder, user)
     finally:
         remove_tree(folder)
 
@@ -191,7 +191,7 @@ def nameless_file(data: bytes, stack: ExitStack) -> int:
     return fd
 
 
-class Inside:
+class PathMap:
     """What one task sees, under which names."""
 
     def __init__(self, task: Task, locate: Callable[[int, Input], str]) -> None:

@@ -10,9 +10,9 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.process import Outcome, PipeReader, apart, end_all
-from raysteps.sandbox.task import Input, Isolation, Limits, Ran, Stopped, Task
-from raysteps.sandbox.task_dir import Inside
+from raysteps.common.process import Outcome, PipeReader, kill_process_group, new_session
+from raysteps.sandbox.task import Input, Isolation, LimitHit, Limits, Task, TaskResult
+from raysteps.sandbox.task_dir import PathMap
 
 # A job of Windows: processes that are limited, measured and ended together.
 
@@ -111,16 +111,16 @@ _DYING_SECONDS = 2.0
 _OF_THE_SYSTEM = ("COMSPEC", "NUMBER_OF_PROCESSORS", "PATH", "PATHEXT", "SYSTEMDRIVE", "SYSTEMROOT", "WINDIR")
 
 
-class Plain:
+class UnsupervisedSandbox:
     """Limits on time, and on Windows on memory and processes; nothing keeps the task apart."""
 
     isolation = Isolation()
 
-    def run(self, task: Task) -> Ran:
+    def run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
             name = stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-run-", ignore_cleanup_errors=True))
             folder = Path(name).resolve()
-            inside = Inside(task, lambda n, given: str(_called(given, folder / f"in{n}")))
+            inside = PathMap(task, lambda n, given: str(_called(given, folder / f"in{n}")))
             for part in ("out", "tmp"):
                 (folder / part).mkdir()
             inside.write_to_folder(folder / "out", str(folder / "out"))
@@ -137,7 +137,7 @@ class Plain:
                     stderr=subprocess.PIPE,
                     cwd=folder / "tmp",
                     env=_environment(task, folder / "tmp"),
-                    **apart(),
+                    **new_session(),
                 )
             except OSError as error:
                 raise GraderFault(f"A command could not be started: {error}") from error
@@ -148,18 +148,18 @@ class Plain:
                 seconds = time.monotonic() - start
             finally:
                 job.end()
-                end_all(process)
+                kill_process_group(process)
                 code = process.wait()
             until = time.monotonic() + _DYING_SECONDS
             for pipe in pipes:
                 pipe.is_at_end(until - time.monotonic())
             out, err = (pipe.bytes().decode("utf-8", "replace") for pipe in pipes)
-            return Ran(
+            return TaskResult(
                 Outcome(code, stopped == "wall", out, err, seconds), inside.outputs(), job.cpu_seconds(), stopped
             )
 
 
-def _wait(process: "subprocess.Popen[bytes]", job: Job, start: float, limits: Limits) -> Stopped:
+def _wait(process: "subprocess.Popen[bytes]", job: Job, start: float, limits: Limits) -> LimitHit:
     """Until the process has ended, or has used up what it may use."""
     while True:
         left = start + limits.wall_seconds - time.monotonic()

@@ -4,8 +4,8 @@ import codecs
 import re
 from dataclasses import dataclass
 
-from raysteps.common.text import listed
-from raysteps.submission.entries import NotTaken
+from raysteps.common.text import join_and
+from raysteps.submission.entries import RejectedFile
 
 _BOMS = (  # UTF-32 first: its mark begins like that of UTF-16
     (codecs.BOM_UTF32_LE, "utf-32-le", "UTF-32"),
@@ -41,7 +41,7 @@ class Decoded:
 
     def remark(self, name: str) -> str:
         """A sentence about an accepted oddity, or nothing."""
-        return f"{name} was {listed(list(self.oddities))}; it was read as such." if self.oddities else ""
+        return f"{name} was {join_and(list(self.oddities))}; it was read as such." if self.oddities else ""
 
 
 def _guess(data: bytes) -> tuple[str, str]:
@@ -69,7 +69,7 @@ def _text(data: bytes) -> tuple[str, list[str]]:
         return data[start:].decode(codec), oddities
     except UnicodeDecodeError as error:
         if codec != "utf-8":
-            raise NotTaken(f"is damaged {name} and was not taken; {_ADVICE}.") from error
+            raise RejectedFile(f"is damaged {name} and was not taken; {_ADVICE}.") from error
     # Bytes of older encodings stand in comments; which letters they were does not matter there.
     return data[start:].decode("latin-1"), [*oddities, "not UTF-8 but in an older encoding"]
 
@@ -77,20 +77,20 @@ def _text(data: bytes) -> tuple[str, list[str]]:
 def _check(text: str) -> None:
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
-        raise NotTaken(
+        raise RejectedFile(
             f"holds NUL bytes (the first in line {line}), which no source has, and was not taken; {_ADVICE}."
         )
     if len(_CONTROL.findall(text)) > _MANY_CONTROLS * len(text):
-        raise NotTaken(f"is a binary file, not a source, and was not taken; {_ADVICE}.")
+        raise RejectedFile(f"is a binary file, not a source, and was not taken; {_ADVICE}.")
 
 
 def decode(data: bytes) -> Decoded:
     """Plain UTF-8 with LF. What is no text raises NotTaken with words that go on after the file's name."""
     for magic, what in _DOCUMENTS:
         if data.startswith(magic):
-            raise NotTaken(f"is {what}, not a source, and was not taken; {_ADVICE}.")
+            raise RejectedFile(f"is {what}, not a source, and was not taken; {_ADVICE}.")
     if _PAGE.match(data):
-        raise NotTaken(f"is a web page, not a source, and was not taken; {_ADVICE}.")
+        raise RejectedFile(f"is a web page, not a source, and was not taken; {_ADVICE}.")
     text, oddities = _text(data)
     ends = "with Windows line ends" if "\r\n" in text else ""
     text = text.replace("\r\n", "\n")

@@ -16,7 +16,7 @@ RATIO_COUNTS_FROM = 32 << 20
 _TOOLS_FOLDERS = ("__MACOSX", "build")
 
 
-class NotTaken(Exception):
+class RejectedFile(Exception):
     """Why one file was left out, in words that go on after its name."""
 
 
@@ -63,13 +63,13 @@ def check_unpacked(root: Path, unpacked: int, packed: int) -> None:
 
 def check_size(size: int) -> None:
     if size > MAX_SOURCE:
-        raise NotTaken("is larger than 1 MB and was not taken.")
+        raise RejectedFile("is larger than 1 MB and was not taken.")
 
 
 def not_a_file(what: str) -> Callable[[], bytes]:
     """The reader of a link, a pipe and so on, which has nothing to read."""
 
     def read() -> bytes:
-        raise NotTaken(f"is {what}, not a file, and was not taken.")
+        raise RejectedFile(f"is {what}, not a file, and was not taken.")
 
     return read

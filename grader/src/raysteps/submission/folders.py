@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from raysteps.submission import entries
-from raysteps.submission.entries import Entry, NotTaken, check_size, is_out_of_sight, not_a_file, split
+from raysteps.submission.entries import Entry, RejectedFile, check_size, is_out_of_sight, not_a_file, split
 
 # Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
 _FILE = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC"))
@@ -28,16 +28,16 @@ def _read(folder: int, name: str) -> bytes:
     try:
         handle = os.open(name, _FILE, dir_fd=folder)
     except OSError as error:
-        raise NotTaken(f"cannot be read ({error.strerror}) and was not taken.") from error
+        raise RejectedFile(f"cannot be read ({error.strerror}) and was not taken.") from error
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
-            raise NotTaken(f"is {_what(status.st_mode)}, not a file, and was not taken.")
+            raise RejectedFile(f"is {_what(status.st_mode)}, not a file, and was not taken.")
         check_size(status.st_size)
         try:
             data = file.read(entries.MAX_SOURCE + 1)
         except OSError as error:
-            raise NotTaken(f"cannot be read ({error.strerror}) and was not taken.") from error
+            raise RejectedFile(f"cannot be read ({error.strerror}) and was not taken.") from error
     check_size(len(data))
     return data
 
@@ -107,7 +107,7 @@ def _read_by_path(path: Path) -> bytes:
             check_size(os.fstat(file.fileno()).st_size)
             data = file.read(entries.MAX_SOURCE + 1)
     except OSError as error:
-        raise NotTaken(f"cannot be read ({error.strerror}) and was not taken.") from error
+        raise RejectedFile(f"cannot be read ({error.strerror}) and was not taken.") from error
     check_size(len(data))
     return data
 

@@ -6,15 +6,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed, printable
+from raysteps.common.text import join_and, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, archive_entries
 from raysteps.submission.encoding import decode
-from raysteps.submission.entries import Entry, NotTaken, shown
+from raysteps.submission.entries import Entry, RejectedFile, shown
 from raysteps.submission.folders import FolderReader, PlainFolderReader
 from raysteps.submission.locate import Place, Places, unusual_places
 
-_MOST_COPIES = 3  # that are named
+_MAX_COPIES = 3  # that are named
 _OPENS_BELOW = os.open in os.supports_dir_fd  # not on Windows
 
 ARCHIVE_ENDINGS = (".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar", ".zip")
@@ -75,7 +75,7 @@ class _Collector:
         found = _Found(place, path)
         try:
             found.data = entry.read()
-        except NotTaken as problem:  # a file at a lesser place is better than none
+        except RejectedFile as problem:  # a file at a lesser place is better than none
             self._problems.setdefault(place.step, f"{path} {problem}")
             return
         if best is not None:
@@ -84,7 +84,7 @@ class _Collector:
 
     def _leave_out(self, step: str, path: str) -> None:
         copies = self._copies.setdefault(step, [])
-        if path not in copies and len(copies) < _MOST_COPIES:
+        if path not in copies and len(copies) < _MAX_COPIES:
             copies.append(path)
 
     def cannot_look_into(self, folders: list[tuple[str, ...]]) -> None:
@@ -100,7 +100,7 @@ class _Collector:
             problem = found.problem
             try:
                 decoded = decode(found.data)
-            except NotTaken as reason:
+            except RejectedFile as reason:
                 problem = problem or str(reason)
             if problem:
                 result.notes[step] = f"{found.path} {problem}"
@@ -122,7 +122,7 @@ class _Collector:
             remarks.append(f"It was found at {found.path}; expected is {expected}.")
         copies = sorted(self._copies.get(step, []))
         if copies:
-            remarks.append(f"{listed(copies)} {'was' if len(copies) == 1 else 'were'} left out beside {found.path}.")
+            remarks.append(f"{join_and(copies)} {'was' if len(copies) == 1 else 'were'} left out beside {found.path}.")
         return remarks
 
 
@@ -148,7 +148,7 @@ def _collect(path: Path, collector: _Collector) -> None:
         collector.take(archive_entries(path))
 
 
-def take_in(path: Path, steps: list[Step]) -> Submission:
+def load_submission(path: Path, steps: list[Step]) -> Submission:
     """Reads a submission into memory; nothing is ever unpacked to disk."""
     collector = _Collector(steps)
     try:

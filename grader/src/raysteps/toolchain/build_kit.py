@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.description import Description, read_description
-from raysteps.toolchain.kit_artifacts import BuiltKit, Say
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from raysteps.toolchain.link import (
     dynamic_list,
     interpreter_of,
@@ -232,7 +232,7 @@ _KEPT = 3
 _IN_USE_SECONDS = 1800  # a class touches its kit for each submission
 
 
-def build_kit(project: Project, say: Say = lambda text: None) -> BuiltKit:
+def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> BuiltKit:
     """The kit of the repository as it is now; built when there is none yet."""
     steps = read_steps(project)
     for _ in range(3):

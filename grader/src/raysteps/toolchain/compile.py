@@ -6,13 +6,13 @@ from pathlib import Path
 from raysteps.common.files import write_bytes
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
-from raysteps.sandbox.task import Input, Output, Ran, Sandbox, Task, Word
+from raysteps.sandbox.task import Input, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
 from raysteps.toolchain.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
 
-_MOST_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand
+_MAX_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Compiled:
     """The step's library (where steps are none: its object), or why there is none."""
 
     binary: Path | None
-    ran: Ran
+    ran: TaskResult
     forbidden: tuple[str, ...] = ()  # linker names that the step may not ask for
     missing: tuple[str, ...] = ()  # functions that the step should define
     undefined: tuple[str, ...] = ()  # functions that the step calls and nobody defines
@@ -42,7 +42,7 @@ class StudentBuild:
         self._sandbox = sandbox
         self._folder = folder
 
-    def _run(self, limits: StepLimits, *command: Word) -> Ran:
+    def _run(self, limits: StepLimits, *command: Word) -> TaskResult:
         return self._sandbox.run(Task(tuple(command), limits.of_tools(), tools=True))
 
     def compile(self, step: Step, source: bytes, limits: StepLimits) -> Compiled:
@@ -60,13 +60,13 @@ class StudentBuild:
         raw = self._write(f"{step.number}.o", data)
         return Compiled(raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
 
-    def _close(self, step: Step, raw: Path, compiled: Ran, limits: StepLimits) -> Compiled:
+    def _close(self, step: Step, raw: Path, compiled: TaskResult, limits: StepLimits) -> Compiled:
         """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""
         description = self._kit.description
         assert description.seal is not None
         listed = self._run(limits, description.seal.nm, *nm_arguments(), Input(raw, "step.o"))
         text = listed.outcome.stdout
-        if listed.outcome.code != 0 or listed.outcome.timed_out or len(text) >= _MOST_SYMBOLS:
+        if listed.outcome.code != 0 or listed.outcome.timed_out or len(text) >= _MAX_SYMBOLS:
             return Compiled(None, compiled, unreadable=True)
         symbols = parse_symbols(text)
         strange = sorted(name for name in symbols.wanted - self._kit.allowed(step) if of_somebody(name))
@@ -96,7 +96,7 @@ class StudentBuild:
 
     def program(
         self, kind: Kind, step: Step, binaries: list[Path], limits: StepLimits, *, together: bool = False
-    ) -> tuple[Program | None, Ran | None]:
+    ) -> tuple[Program | None, TaskResult | None]:
         """The kit's program with these binaries, one for each step that it lacks; none, and what the linker said, when
         they do not fit."""
         if self._kit.interpreter is not None:

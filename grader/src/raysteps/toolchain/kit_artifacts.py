@@ -13,7 +13,7 @@ from raysteps.toolchain.description import Description
 from raysteps.toolchain.link import library_name
 
 Kind = Literal["raytrace", "worker", "test"]
-Say = Callable[[str], None]
+ProgressCallback = Callable[[str], None]
 Tags = Mapping[str, Mapping[str, frozenset[str]]]
 
 

@@ -8,7 +8,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
 
 _SECONDS = 60
-_MOST_OUTPUT = 64 << 20
+_MAX_OUTPUT = 64 << 20
 _KIND_AND_PLACE = re.compile(r" [A-Za-z]( [0-9a-f]*)*\s*$")
 
 
@@ -57,14 +57,14 @@ def readable_names(nm: str, path: Path) -> dict[str, str]:
     """Linker names of one of the kit's own objects, and how C++ writes them."""
     words = [nm, *nm_arguments(), "--defined-only", "--no-sort"]
     plain, readable = (
-        run([*words, *option, path], seconds=_SECONDS, cap=_MOST_OUTPUT).stdout for option in ((), ("--demangle",))
+        run([*words, *option, path], seconds=_SECONDS, cap=_MAX_OUTPUT).stdout for option in ((), ("--demangle",))
     )
     return parse_readable(plain, readable)
 
 
 def symbols_of(nm: str, path: Path) -> Symbols:
     """Of one of the kit's own files."""
-    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, cap=_MOST_OUTPUT)
+    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, cap=_MAX_OUTPUT)
     if outcome.code != 0:
         raise GraderFault(f"{path}: its symbols cannot be read: {outcome.stderr}")
     return parse_symbols(outcome.stdout)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import mark
+from raysteps.common.files import content_hash
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.updater.generated_files import all_places
 
@@ -54,17 +54,17 @@ def path_problem(paths: Iterable[str]) -> str:
     return ""
 
 
-__all__ = ["PLACE", "Listed", "Owner", "Release", "encoded", "mark", "parse", "read_release"]
+__all__ = ["PLACE", "ListedFile", "Owner", "Release", "encoded", "parse", "read_release"]
 
 PLACE = ".raysteps/release.json"
 _FORM = "raysteps/release/v1"
-_MOST_BYTES = 16 << 20
+_MAX_BYTES = 16 << 20
 
 Owner = Literal["kit", "student"]
 
 
 @dataclass(frozen=True)
-class Listed:
+class ListedFile:
     """One file. Those that the student writes are the student's from the first day on."""
 
     path: str
@@ -74,7 +74,7 @@ class Listed:
 
     def is_at(self, path: Path) -> bool:
         """Whether the file is there as it was released. Nobody looks behind a link; OSError where it cannot be read."""
-        return not path.is_symlink() and mark(path.read_bytes()) == self.mark
+        return not path.is_symlink() and content_hash(path.read_bytes()) == self.mark
 
 
 @dataclass(frozen=True)
@@ -84,9 +84,9 @@ class Release:
     course: str
     kit: str  # fingerprint of the kit that it was made from
     steps: tuple[str, ...]
-    files: tuple[Listed, ...]
+    files: tuple[ListedFile, ...]
 
-    def by_path(self) -> dict[str, Listed]:
+    def by_path(self) -> dict[str, ListedFile]:
         return {file.path: file for file in self.files}
 
 
@@ -103,14 +103,14 @@ def encoded(release: Release) -> bytes:
     return (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode()
 
 
-def _listed(file: dict[str, Any]) -> Listed:
-    return Listed(file["path"], file["mark"], file["owner"], file["executable"])
+def _listed(file: dict[str, Any]) -> ListedFile:
+    return ListedFile(file["path"], file["mark"], file["owner"], file["executable"])
 
 
 def parse(data: bytes, where: str) -> Release:
     """What somebody says is a release. Keys that nobody knows are of a later kit, and may stand there."""
     try:
-        document: Any = json.loads(data[:_MOST_BYTES])
+        document: Any = json.loads(data[:_MAX_BYTES])
     except (ValueError, RecursionError) as error:
         raise UsageError(f"{where}: is not JSON; expected the list of a release's files") from error
     form = document.get("schema") if isinstance(document, dict) else None
@@ -142,7 +142,7 @@ def read_release(folder: Path) -> Release | None:
 # Which files of a repository are the student's, by what they hold.
 
 
-def _is_as_released(path: Path, file: Listed | None) -> bool:
+def _is_as_released(path: Path, file: ListedFile | None) -> bool:
     """What cannot be read is the student's own."""
     try:
         return file is not None and file.is_at(path)

@@ -6,7 +6,7 @@ import stat
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import mark, write_bytes
+from raysteps.common.files import content_hash, write_bytes
 from raysteps.updater.release_list import Release, parse
 
 _ENDING = ".raysteps-update"  # of what is not written to its end yet; no student names a file so
@@ -119,18 +119,18 @@ class Repository:
 FOLDER = ".raysteps/unfinished"
 
 
-def begin(root: Path, *lists: bytes) -> None:
+def begin_journal(root: Path, *lists: bytes) -> None:
     """Before the first file is written: the list that was there, which goes, and the one that comes."""
     for data in lists:
-        write_bytes(root / FOLDER / f"{mark(data)[:16]}.json", data)
+        write_bytes(root / FOLDER / f"{content_hash(data)[:16]}.json", data)
 
 
-def is_there(root: Path) -> bool:
+def journal_exists(root: Path) -> bool:
     """Whether an update was interrupted."""
     return (root / FOLDER).is_dir()
 
 
-def begun(root: Path) -> list[Release]:
+def read_journal(root: Path) -> list[Release]:
     """Those of an update that did not come to its end. One that cannot be read says nothing: then a file that it wrote
     counts as the student's, which loses nothing."""
     found = []
@@ -142,10 +142,10 @@ def begun(root: Path) -> list[Release]:
     return found
 
 
-def end(root: Path) -> None:
+def end_journal(root: Path) -> None:
     """After the last file is written."""
     folder = root / FOLDER
-    if is_there(root):
+    if journal_exists(root):
         for path in [*folder.glob("*.json"), *folder.glob(".*.json.*")]:
             path.unlink()
         if not any(folder.iterdir()):

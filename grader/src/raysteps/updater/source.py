@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import listed
-from raysteps.updater.release_list import PLACE, Listed, Release, mark, parse
+from raysteps.common.files import content_hash
+from raysteps.common.text import join_and
+from raysteps.updater.release_list import PLACE, ListedFile, Release, parse
 
-_MOST_BYTES = 256 << 20  # of one file
+_MAX_BYTES = 256 << 20  # of one file
 _EXPECTED = "expected a release of the kit: a folder or a zip with .raysteps/release.json in it"
 # What half a download, or a zip that was made in some other way, makes of reading.
 _BROKEN = (OSError, EOFError, KeyError, RuntimeError, ValueError, zipfile.BadZipFile, zlib.error)
@@ -26,7 +27,7 @@ class Source:
     listing: bytes
     read: Callable[[str], bytes]
 
-    def data(self, file: Listed) -> bytes:
+    def data(self, file: ListedFile) -> bytes:
         """Checked: half a download must not become half a kit."""
         try:
             data = self.read(file.path)
@@ -35,7 +36,7 @@ class Source:
                 f"{file.path}: is missing in {self.place}, or cannot be read there; expected a complete release. "
                 "Load it down or unpack it once more"
             ) from error
-        if mark(data) != file.mark:
+        if content_hash(data) != file.mark:
             raise UsageError(
                 f"{file.path}: is not as it was released in {self.place}; expected a complete, unchanged release. "
                 "Load it down or unpack it once more"
@@ -56,7 +57,7 @@ def _the_only(path: Path, outer: list[str]) -> str:
     if not outer:
         raise UsageError(f"{path}: holds no release; {_EXPECTED}")
     if "" not in outer and len(outer) > 1:
-        raise UsageError(f"{path}: holds {listed(sorted(outer))}; say which of them is the newer kit")
+        raise UsageError(f"{path}: holds {join_and(sorted(outer))}; say which of them is the newer kit")
     return min(outer, key=len)
 
 
@@ -79,7 +80,7 @@ def _in_zip(path: Path, archive: zipfile.ZipFile) -> Source:
             raise UsageError(f"{path}: has a password; expected a zip without one")
         if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise UsageError(f"{path}: is packed in a way that not every Python reads; expected a plain zip")
-        if info.file_size > _MOST_BYTES:
+        if info.file_size > _MAX_BYTES:
             raise UsageError(f"{path}: {name} is too large for a file of the kit")
         return archive.read(info)
 

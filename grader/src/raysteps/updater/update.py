@@ -11,9 +11,9 @@ from enum import Enum, auto
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import mark
+from raysteps.common.files import content_hash
 from raysteps.updater import repository as unfinished
-from raysteps.updater.release_list import PLACE, Listed, Release
+from raysteps.updater.release_list import PLACE, ListedFile, Release
 from raysteps.updater.repository import Repository
 from raysteps.updater.source import Source
 
@@ -25,7 +25,7 @@ _SETTINGS = (".vscode/", ".github/", ".devcontainer/", ".gitignore", ".gitattrib
              "README.md")  # fmt: skip
 
 
-class What(Enum):
+class Action(Enum):
     """What to do with one path."""
 
     NOTHING = auto()
@@ -38,14 +38,14 @@ class What(Enum):
 
 
 @dataclass(frozen=True)
-class Found:
+class FileState:
     """What lies at a path of the repository. Nobody looks behind a link."""
 
     data: bytes | None
     is_link: bool = False
 
 
-class Known:
+class KnownVersions:
     """What a repository got so far: by the release that was taken in last, and by updates that were interrupted."""
 
     def __init__(self, old: Release, begun: Iterable[Release]) -> None:
@@ -58,36 +58,36 @@ class Known:
     def paths(self) -> set[str]:
         return {file.path for file in self._all}
 
-    def old(self, path: str) -> Listed | None:
+    def old(self, path: str) -> ListedFile | None:
         return self._old.get(path)
 
-    def is_students(self, path: str, new: Listed | None) -> bool:
+    def is_students(self, path: str, new: ListedFile | None) -> bool:
         """Once the student's, always the student's."""
         return path in self._students or (new is not None and new.owner == "student")
 
-    def _is_own_setting(self, path: str, new: Listed | None) -> bool:
+    def _is_own_setting(self, path: str, new: ListedFile | None) -> bool:
         """Nothing new from the kit: then what the student made of it stays."""
         old = self._old.get(path)
         same = new is None or (old is not None and old.mark == new.mark)
         return same and path.startswith(_SETTINGS)
 
-    def decide(self, path: str, new: Listed | None, found: Found) -> What:
+    def decide(self, path: str, new: ListedFile | None, found: FileState) -> Action:
         """`new` is None where the newer kit does not have the file."""
         if found.is_link:
-            return What.LEAVE  # only a student's own file may be one
+            return Action.LEAVE  # only a student's own file may be one
         if found.data is None:
-            return What.NOTHING if new is None or self._is_own_setting(path, new) else What.ADD
-        now = mark(found.data)
+            return Action.NOTHING if new is None or self._is_own_setting(path, new) else Action.ADD
+        now = content_hash(found.data)
         if new is not None and now == new.mark:
-            return What.NOTHING
+            return Action.NOTHING
         if (path, now) in self._marks:
-            return What.REMOVE if new is None else What.REPLACE
+            return Action.REMOVE if new is None else Action.REPLACE
         if self.is_students(path, new) or self._is_own_setting(path, new):
-            return What.LEAVE
-        return What.SET_ASIDE_AND_REMOVE if new is None else What.SET_ASIDE_AND_REPLACE
+            return Action.LEAVE
+        return Action.SET_ASIDE_AND_REMOVE if new is None else Action.SET_ASIDE_AND_REPLACE
 
 
-_QUIET = (What.NOTHING, What.LEAVE)
+_QUIET = (Action.NOTHING, Action.LEAVE)
 _UNFINISHED = f"{unfinished.FOLDER}/list.json"  # stands for all that may lie there
 
 
@@ -132,16 +132,16 @@ class Update:
 
     def __init__(self, root: Path, old: Release, source: Source) -> None:
         self._place = Repository(root)
-        self._resumed = unfinished.is_there(root)
-        self._known = Known(old, unfinished.begun(root))
+        self._resumed = unfinished.journal_exists(root)
+        self._known = KnownVersions(old, unfinished.read_journal(root))
         self._source = source
         self._new = source.release.by_path()
         self._folded = {name.lower(): name for name in self._new}
         self.changes = Changes()
 
-    def _decide(self, name: str) -> What:
+    def _decide(self, name: str) -> Action:
         link = self._place.is_link(name)
-        return self._known.decide(name, self._new.get(name), Found(None if link else self._place.read(name), link))
+        return self._known.decide(name, self._new.get(name), FileState(None if link else self._place.read(name), link))
 
     def _gone(self) -> list[str]:
         """What the new kit no longer has."""
@@ -167,19 +167,19 @@ class Update:
             _refuse(self._place.lock_out(PLACE))
         return wanted
 
-    def _take(self, file: Listed, data: bytes) -> None:
+    def _take(self, file: ListedFile, data: bytes) -> None:
         name, old, done = file.path, self._known.old(file.path), self.changes
         match self._decide(name):  # once more: the student may have saved a file meanwhile
-            case What.NOTHING:
+            case Action.NOTHING:
                 return
-            case What.LEAVE:
+            case Action.LEAVE:
                 if self._known.is_students(name, file) and (old is None or old.mark != file.mark):
                     (done.met if old is None else done.stubs).append(name)
                 return
-            case What.ADD:
+            case Action.ADD:
                 own = old is not None and old.owner == "student"
                 (done.put_back if own else done.added).append(name)
-            case What.SET_ASIDE_AND_REPLACE:
+            case Action.SET_ASIDE_AND_REPLACE:
                 done.kept.append(self._place.set_aside(name, self._place.read(name) or b""))
                 done.replaced.append(name)
             case _:
@@ -188,12 +188,12 @@ class Update:
 
     def _drop(self, name: str) -> None:
         match self._decide(name):
-            case What.LEAVE:
+            case Action.LEAVE:
                 self.changes.left.append(name)
-            case What.SET_ASIDE_AND_REMOVE:
+            case Action.SET_ASIDE_AND_REMOVE:
                 self.changes.outdated.append(self._place.set_aside(name, self._place.read(name) or b""))
                 self._place.remove(name)
-            case What.REMOVE:
+            case Action.REMOVE:
                 self._place.remove(name)
                 self.changes.removed.append(name)
             case _:
@@ -206,7 +206,7 @@ class Update:
             wanted = self._look()
         with _told("Your work is as it was. Mend that, then call update again: it goes on where it stopped"):
             if wanted:
-                unfinished.begin(self._place.root, self._place.read(PLACE) or b"", self._source.listing)
+                unfinished.begin_journal(self._place.root, self._place.read(PLACE) or b"", self._source.listing)
             for name, file in self._new.items():
                 self._take(file, data[name])
             for name in self._gone():
@@ -222,7 +222,7 @@ class Update:
         self._place.forget_unfinished({*paths, PLACE})
         for name in self._gone():
             self._place.prune(name)
-        unfinished.end(self._place.root)
+        unfinished.end_journal(self._place.root)
         for name in sorted(paths) if self._resumed else ():
             if not self._known.is_students(name, self._new.get(name)):
                 told = self.changes.kept if name in self._new else self.changes.outdated

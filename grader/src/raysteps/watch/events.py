@@ -6,7 +6,7 @@ from typing import Any
 
 
 @dataclass(frozen=True)
-class Saved:
+class FileSaved:
     """A file of the step changed; `own`: the student's own."""
 
     name: str
@@ -14,14 +14,14 @@ class Saved:
 
 
 @dataclass(frozen=True)
-class Vanished:
+class FileVanished:
     """The student's file is gone; it may come back."""
 
     name: str
 
 
 @dataclass(frozen=True)
-class Noticed:
+class ChangeNoticed:
     """Something to tell about how files are watched."""
 
     text: str
@@ -35,7 +35,7 @@ class Key:
 
 
 @dataclass(frozen=True)
-class Told:
+class WorkerMessage:
     """What a run said."""
 
     run: int
@@ -43,7 +43,7 @@ class Told:
 
 
 @dataclass(frozen=True)
-class Ended:
+class WorkerEnded:
     """A run is over; what it wrote to stderr is there when it ended badly."""
 
     run: int
@@ -51,5 +51,5 @@ class Ended:
     errors: str
 
 
-Event = Saved | Vanished | Noticed | Key | Told | Ended
+Event = FileSaved | FileVanished | ChangeNoticed | Key | WorkerMessage | WorkerEnded
 Post = Callable[[Event], None]

@@ -15,7 +15,7 @@ import watchfiles
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import Noticed, Post, Saved, Vanished
+from raysteps.watch.events import ChangeNoticed, FileSaved, FileVanished, Post
 
 _COUNTS = re.compile(r"\w+\.(hpp|cpp)|step\.toml")  # not what editors leave beside them
 _SETTLE_MS = 50  # several writes within this time are one save
@@ -38,7 +38,7 @@ def snapshot(folder: Path) -> Snapshot:
     return found
 
 
-class Saves:
+class FileWatcher:
     """Watches all steps in a thread, and tells of one of them."""
 
     def __init__(self, project: Project, step: Step, post: Post, *, poll: bool) -> None:
@@ -107,7 +107,7 @@ class Saves:
 
     def _begin_to_poll(self, why: str) -> None:
         self._poll = True
-        self._post(Noticed(f"{why}: from now on files are polled."))
+        self._post(ChangeNoticed(f"{why}: from now on files are polled."))
 
     def look(self) -> bool:
         """Whether there was news; posts it."""
@@ -119,13 +119,13 @@ class Saves:
                 if time.monotonic() < self._away_since + _GONE_SECONDS:
                     return False
                 self._seen = now
-                self._post(Vanished(own))
+                self._post(FileVanished(own))
                 return True
             self._away_since = None
             changed = sorted(name for name in now.keys() | before.keys() if now.get(name) != before.get(name))
             self._seen = now
             if changed:
-                self._post(Saved(own if own in changed else changed[0], own in changed))
+                self._post(FileSaved(own if own in changed else changed[0], own in changed))
             return bool(changed)
 
 

@@ -22,7 +22,7 @@ from raysteps.report.page import (
     render_page,
 )
 from raysteps.report.wording import HOW_SURE, inspect_command, replay_command
-from raysteps.watch.step_view import Result, View, is_right, passed_of, verdict
+from raysteps.watch.step_view import Result, StepView, is_right, passed_of, verdict
 
 # What the page shows, as JSON; whoever serves a page waits here for the next state.
 
@@ -37,7 +37,7 @@ class News(NamedTuple):
     is_last: bool
 
 
-class Board:
+class PageState:
     """Holds the newest state only: a page that was slow misses what was before."""
 
     def __init__(self, state: State) -> None:
@@ -82,7 +82,7 @@ def _as_line(state: State) -> str:
 
 
 _NUMBERS = re.compile(r"\d+ of \d+ [a-z ]+ (failed|did not pass|lost points)\.")
-_MOST_LOG = 20_000
+_MAX_LOG = 20_000
 _PHASES = {"looking": "building and testing", "checking": "checking all of it", "idle": "watching"}
 
 
@@ -115,7 +115,7 @@ def _flip_of(folder: Path, image: dict[str, Any]) -> str | None:
     return _flip(pair[0].tobytes(), pair[1].tobytes(), pair[0].shape)
 
 
-def _picture(view: View, image: dict[str, Any]) -> State:
+def _picture(view: StepView, image: dict[str, Any]) -> State:
     return {
         "name": image["name"],
         "scene": image["scene"],
@@ -170,7 +170,7 @@ def _step(step: Step) -> State:
     return {"number": step.number, "id": step.id, "title": step.title, "points": number(step.points)}
 
 
-def state_of(view: View) -> State:
+def state_of(view: StepView) -> State:
     """All that the page shows; it makes itself anew from it."""
     tone, text = verdict(view)
     result = view.result
@@ -186,7 +186,7 @@ def state_of(view: View) -> State:
         "full": view.full,
         "verdict": {"tone": tone, "text": text},
         "messages": _messages(result) if result else [],
-        "log": result["build_log"][:_MOST_LOG] if result else "",
+        "log": result["build_log"][:_MAX_LOG] if result else "",
         "diagnoses": [_diagnosis(found) for found in result["diagnoses"]] if result else [],
         "tests": _tests(result["tests"] if result else []),
         "pictures": [_picture(view, image) for image in result["images"]] if result else [],

@@ -17,13 +17,13 @@ from typing import IO, Literal
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import Ended, Post, Told
+from raysteps.watch.events import Post, WorkerEnded, WorkerMessage
 
 Kind = Literal["look", "check"]
 
 WORKER = (sys.executable, "-P", "-m", "raysteps.watch.worker")
 _PATIENCE_SECONDS = 2.0
-_MOST_ERRORS = 2000
+_MAX_ERRORS = 2000
 
 
 @dataclass
@@ -120,13 +120,13 @@ class Runner:
             with suppress(ValueError):
                 words = json.loads(line)
                 if isinstance(words, dict):
-                    self._post(Told(run, words))
+                    self._post(WorkerMessage(run, words))
         code = process.popen.wait()
         said = ""
         with suppress(OSError, ValueError):
             process.errors.seek(0)
             said = printable(process.errors.read()).strip()
-        self._post(Ended(run, code, shorten(said[-_MOST_ERRORS:], _MOST_ERRORS)))
+        self._post(WorkerEnded(run, code, shorten(said[-_MAX_ERRORS:], _MAX_ERRORS)))
 
     def stop(self) -> None:
         """Ends what runs now, and all that it started. What it still says carries an old number."""

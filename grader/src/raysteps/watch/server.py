@@ -11,7 +11,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlsplit
 
 from raysteps.common.errors import UsageError
-from raysteps.watch.page_state import Board, News
+from raysteps.watch.page_state import News, PageState
 
 _HOSTS = {"127.0.0.1", "localhost"}  # another name that leads here is an attack by DNS rebinding
 _HEADERS = {
@@ -25,7 +25,7 @@ _HEADERS = {
 _SIGN_OF_LIFE_SECONDS = 5.0
 _PATIENCE_SECONDS = 10.0
 _FAREWELL_SECONDS = 0.5
-_MOST_LISTENERS = 16
+_MAX_LISTENERS = 16
 
 MakePage = Callable[[str], str]  # from the state, as JSON, to HTML
 
@@ -34,12 +34,12 @@ class _Server(ThreadingHTTPServer):
     daemon_threads = True
     allow_reuse_address = sys.platform != "win32"  # there it would let another program take the port as well
 
-    def __init__(self, port: int, board: Board, make_page: MakePage) -> None:
+    def __init__(self, port: int, board: PageState, make_page: MakePage) -> None:
         super().__init__(("127.0.0.1", port), _Handler)
         self.token = secrets.token_urlsafe(24)
         self.board = board
         self.make_page = make_page
-        self.listeners = threading.BoundedSemaphore(_MOST_LISTENERS)
+        self.listeners = threading.BoundedSemaphore(_MAX_LISTENERS)
 
     def handle_error(self, request: object, client_address: object) -> None:
         """A browser that goes away in the middle is no news."""
@@ -124,7 +124,7 @@ class _Handler(BaseHTTPRequestHandler):
 class PageServer:
     """Runs in a thread until it is closed."""
 
-    def __init__(self, board: Board, make_page: MakePage, port: int = 0) -> None:
+    def __init__(self, board: PageState, make_page: MakePage, port: int = 0) -> None:
         try:
             self._server = _Server(port, board, make_page)
         except (OSError, OverflowError) as error:
@@ -146,7 +146,7 @@ class PageServer:
         """Open pages hear of it first."""
         self._board.close()
         end = time.monotonic() + _FAREWELL_SECONDS
-        for _ in range(_MOST_LISTENERS):
+        for _ in range(_MAX_LISTENERS):
             self._server.listeners.acquire(timeout=max(0.0, end - time.monotonic()))
         self._server.shutdown()
         with suppress(OSError):

@@ -18,13 +18,13 @@ from raysteps.progress.hints import Hints, no_other
 from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.progress.standing import next_of, print_list, shown, standings
 from raysteps.report.wording import inspect_words, typed
-from raysteps.watch.events import Ended, Event, Key, Noticed, Saved, Told, Vanished
-from raysteps.watch.file_watcher import Saves
+from raysteps.watch.events import ChangeNoticed, Event, FileSaved, FileVanished, Key, WorkerEnded, WorkerMessage
+from raysteps.watch.file_watcher import FileWatcher
 from raysteps.watch.keyboard import Keyboard, NoKeyboard
-from raysteps.watch.page_state import Board, state_of
+from raysteps.watch.page_state import PageState, state_of
 from raysteps.watch.runner import Runner
-from raysteps.watch.step_view import View
-from raysteps.watch.terminal_view import Showing
+from raysteps.watch.step_view import StepView
+from raysteps.watch.terminal_view import TerminalView
 
 # The pixel that is most wrong, and the command that looks into it.
 
@@ -41,7 +41,7 @@ def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
     return widest(gap) if gap.any() else None
 
 
-def command_of_worst(view: View) -> list[str] | None:
+def command_of_worst(view: StepView) -> list[str] | None:
     """Of the first picture that is wrong."""
     if view.result is None or view.out is None:
         return None
@@ -182,11 +182,11 @@ class Session:
     """Everything happens in the thread that calls `run`; the others only post events."""
 
     def __init__(
-        self, project: Project, step: Step, events: "queue.Queue[Event]", runner: Runner, saves: Saves,
-        keyboard: Keyboard, board: Board, showing: Showing, *, checks: bool,
+        self, project: Project, step: Step, events: "queue.Queue[Event]", runner: Runner, saves: FileWatcher,
+        keyboard: Keyboard, board: PageState, showing: TerminalView, *, checks: bool,
     ) -> None:  # fmt: skip
         self.project = project
-        self.view = View(step)
+        self.view = StepView(step)
         self.showing = showing
         self.keyboard = keyboard
         self.saves = saves
@@ -218,7 +218,7 @@ class Session:
         """Builds, tests and draws. Whatever ran is stopped: it was about code that is no more."""
         self._check_at = None
         self._began = time.monotonic()
-        self.view = View(self.view.step, saved=f"{datetime.now():%H:%M:%S}", hints=self.view.hints)
+        self.view = StepView(self.view.step, saved=f"{datetime.now():%H:%M:%S}", hints=self.view.hints)
         self.showing.begin(self.view, why)
         self._runner.start("look", self.view.step)
         self.show()
@@ -235,28 +235,28 @@ class Session:
     def go_to(self, step: Step) -> None:
         self._runner.stop()
         self.saves.look_at(step)
-        self.view = View(step)
+        self.view = StepView(step)
         self.look("watching")
 
     def _handle(self, event: Event) -> None:
         match event:
-            case Saved(name, own):
+            case FileSaved(name, own):
                 self.look(f"{name} saved" if own else f"{name} changed, the kit is built again")
-            case Vanished():
+            case FileVanished():
                 self._vanished()
-            case Noticed(text):
+            case ChangeNoticed(text):
                 self.showing.dim(text)
             case Key(letter):
                 self._actions.press(letter)
-            case Told(run, words) if run == self._runner.run:
+            case WorkerMessage(run, words) if run == self._runner.run:
                 self._told(words)
-            case Ended(run, code, errors) if run == self._runner.run:
+            case WorkerEnded(run, code, errors) if run == self._runner.run:
                 self._ended(code, errors)
 
     def _vanished(self) -> None:
         self._runner.stop()
         self._check_at = None
-        self.view = View(self.view.step, "idle", saved=self.view.saved, gone=True, hints=self.view.hints)
+        self.view = StepView(self.view.step, "idle", saved=self.view.saved, gone=True, hints=self.view.hints)
         self.showing.result(self.view)
         self.show()
 

@@ -16,7 +16,7 @@ _BUILDS = {"passed", "partial", "failed", "crashed", "timeout"}
 
 
 @dataclass
-class View:
+class StepView:
     """`full` tells the result of a check from that of a look; a look is `complete` when its last picture is there."""
 
     step: Step
@@ -67,7 +67,7 @@ def tally(result: Result) -> str:
     return ", ".join(_of(kind, items) for kind, items in kinds if items)
 
 
-def verdict(view: View) -> tuple[Tone, str]:
+def verdict(view: StepView) -> tuple[Tone, str]:
     """The one line that matters."""
     result = view.result
     if view.gone:

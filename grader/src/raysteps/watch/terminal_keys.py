@@ -19,7 +19,7 @@ from raysteps.watch.keyboard import letters
 LOOK_SECONDS = 0.2
 
 
-class Listening:
+class KeyListener:
     """Reads in a thread until it is told to end."""
 
     def __init__(self, post: Post) -> None:
@@ -83,7 +83,7 @@ def in_front() -> bool:
         return False
 
 
-class UnixKeyboard(Listening):
+class UnixKeyboard(KeyListener):
     """The terminal is as it was when all is over."""
 
     def __init__(self, post: Post) -> None:

@@ -7,12 +7,12 @@ from rich.markup import escape
 
 from raysteps.common.text import count, shorten
 from raysteps.report.wording import HOW_SURE, replay_command
-from raysteps.watch.step_view import Result, Tone, View, is_right, verdict
+from raysteps.watch.step_view import Result, StepView, Tone, is_right, verdict
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
 _LONGEST = 600
-_MOST_FAILED = 2
+_MAX_FAILED = 2
 
 KEYS = (
     ("h", "hint"),
@@ -35,7 +35,7 @@ space  build, test and draw once more
 q      quit"""
 
 
-class Showing:
+class TerminalView:
     """Prints; knows nothing of what happens next."""
 
     def __init__(self, console: Console) -> None:
@@ -66,14 +66,14 @@ class Showing:
     def dim(self, text: str) -> None:
         self.line(text, "dim")
 
-    def begin(self, view: View, why: str) -> None:
+    def begin(self, view: StepView, why: str) -> None:
         title = f"{view.saved}  {view.step.number} {view.step.title}: {why}"
         if self.console.is_terminal:
             self.console.rule(f"[dim]{escape(title)}[/dim]", align="left", style="dim")
         else:
             self.line(title)
 
-    def result(self, view: View) -> None:
+    def result(self, view: StepView) -> None:
         """What came of a look or of a check."""
         tone, text = verdict(view)
         took = f"  ({view.seconds:.1f} s)" if view.seconds is not None and not view.full and tone != "plain" else ""
@@ -102,7 +102,7 @@ class Showing:
 
     def _tests(self, result: Result) -> None:
         failed = [test for test in result["tests"] if not test["passed"]]
-        for test in failed[:_MOST_FAILED]:
+        for test in failed[:_MAX_FAILED]:
             self.line(f"  test  {test['name']}", "red")
             if test["expression"]:
                 self.line(f"    expected  {test['expression']}")
@@ -118,7 +118,7 @@ class Showing:
 
     def _hidden(self, result: Result) -> None:
         missed = [item for item in result["hidden"] if not is_right(item)]
-        for item in missed[:_MOST_FAILED]:
+        for item in missed[:_MAX_FAILED]:
             self.line(f"  hidden  {item['name']}: {item['message']}", "red")
             for label in ("given", "expected", "actual"):
                 if item[label]:
@@ -128,8 +128,8 @@ class Showing:
         self._more(len(missed), "hidden item")
 
     def _more(self, amount: int, noun: str) -> None:
-        if amount > _MOST_FAILED:
-            self.dim(f"  … and {count(amount - _MOST_FAILED, f'more {noun}')}: see the page")
+        if amount > _MAX_FAILED:
+            self.dim(f"  … and {count(amount - _MAX_FAILED, f'more {noun}')}: see the page")
 
     def keys(self) -> None:
         """The reminder below each result."""

@@ -4,14 +4,14 @@ import importlib
 import time
 from collections.abc import Callable
 
-from raysteps.watch.terminal_keys import LOOK_SECONDS, Listening
+from raysteps.watch.terminal_keys import LOOK_SECONDS, KeyListener
 
 _console = importlib.import_module("msvcrt")  # by its name: type checkers on other systems do not know it
 _is_hit: Callable[[], bool] = _console.kbhit
 _get: Callable[[], str] = _console.getwch
 
 
-class WindowsKeyboard(Listening):
+class WindowsKeyboard(KeyListener):
     """The console gives single keys without being asked to."""
 
     def _read(self) -> str | None:

@@ -20,8 +20,8 @@ from raysteps.grading.quick_look import QuickLook
 from raysteps.progress.check import check_steps
 from raysteps.progress.standing import own_source
 from raysteps.results.model import StepResult
-from raysteps.sandbox.limits_only import OpenAir
-from raysteps.submission.entries import NotTaken
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.entries import RejectedFile
 from raysteps.toolchain.build_kit import build_kit
 
 _UNHURRIED = 5  # of `nice`: a check goes on while its student types
@@ -46,13 +46,13 @@ def look(project: Project, name: str) -> None:
 
     try:
         source = own_source(project, step)
-    except (OSError, NotTaken) as error:
+    except (OSError, RejectedFile) as error:
         _tell(error=f"{step.file}: {error}")
         return
     if source is None:
         _tell(error=f"{step.file} is not there")
         return
-    tell(QuickLook(kit, step, OpenAir(), out, tell).look(source.decode("utf-8", "replace")), complete=True)
+    tell(QuickLook(kit, step, LimitsOnly(), out, tell).look(source.decode("utf-8", "replace")), complete=True)
 
 
 def check(project: Project, name: str) -> None:

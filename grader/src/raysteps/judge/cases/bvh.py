@@ -8,7 +8,7 @@ from raysteps.judge.cases.octree_searches import aimed, large_and_small, small_s
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import f32, rounded, times
 from raysteps.judge.protocol import Inputs, Ray
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import ANY_IN_BVH, Reach, Reaches, WhoseBvh
 from raysteps.judge.surfaces import Scripted, Surface, Surfaces, first_distance
 
@@ -26,40 +26,40 @@ def _up_to(ray: Ray, surfaces: tuple[Surface, ...], times_first: float) -> Reach
     return Reach(ray, f32(min(first_distance(surfaces, ray), _FAR) * times_first))
 
 
-def _times(draw: Draw, *, hits: bool) -> float:
+def _times(draw: RandomSource, *, hits: bool) -> float:
     return draw.real(1.1, 2) if hits else draw.real(0.3, 0.9)
 
 
-def _any_scene(draw: Draw) -> tuple[Surface, ...]:
+def _any_scene(draw: RandomSource) -> tuple[Surface, ...]:
     return small_scene(draw, draw.whole(25, 40), draw.whole(4, 10))
 
 
-def _one_ray(draw: Draw, *, own: bool) -> Inputs:
+def _one_ray(draw: RandomSource, *, own: bool) -> Inputs:
     surfaces = _any_scene(draw)
     ray = aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20)
     return _search(surfaces, [_up_to(ray, surfaces, _times(draw, hits=draw.chance(0.6)))], own=own)
 
 
-def _hit(draw: Draw) -> Inputs:
+def _hit(draw: RandomSource) -> Inputs:
     surfaces = _any_scene(draw)
     ray = aimed(draw, surfaces, 15)
     return _search(surfaces, [_up_to(ray, surfaces, _times(draw, hits=True))], own=draw.chance(0.5))
 
 
-def _too_far(draw: Draw) -> Inputs:
+def _too_far(draw: RandomSource) -> Inputs:
     """There are hits, all of them beyond the distance."""
     surfaces = _any_scene(draw)
     ray = aimed(draw, surfaces, 15)
     return _search(surfaces, [_up_to(ray, surfaces, _times(draw, hits=False))], own=draw.chance(0.5))
 
 
-def _close_to_the_hit(draw: Draw, times_first: float) -> Inputs:
+def _close_to_the_hit(draw: RandomSource, times_first: float) -> Inputs:
     surfaces = _any_scene(draw)
     ray = from_inside(draw, surfaces) if draw.chance(0.5) else aimed(draw, surfaces, 15)
     return _search(surfaces, [_up_to(ray, surfaces, times_first)], own=draw.chance(0.5))
 
 
-def _exactly_there(draw: Draw) -> Inputs:
+def _exactly_there(draw: RandomSource) -> Inputs:
     """Not nearer than the distance: just as near."""
     nearest = draw.eighths(1, 8)
     others = [nearest + draw.eighths(0, 6) for _ in range(draw.whole(0, 9))]
@@ -68,37 +68,37 @@ def _exactly_there(draw: Draw) -> Inputs:
     return _search(tuple(surfaces), [Reach(Ray(draw.point(5), draw.direction()), nearest)], own=draw.chance(0.3))
 
 
-def _without_end(draw: Draw) -> Inputs:
+def _without_end(draw: RandomSource) -> Inputs:
     surfaces = _any_scene(draw)
     return _search(surfaces, [Reach(aimed(draw, surfaces, 15), math.inf)], own=draw.chance(0.5))
 
 
-def _from_inside(draw: Draw) -> Inputs:
+def _from_inside(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     ray = from_inside(draw, surfaces)
     return _search(surfaces, [_up_to(ray, surfaces, _times(draw, hits=True))], own=draw.chance(0.5))
 
 
-def _along_axis(draw: Draw) -> Inputs:
+def _along_axis(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     ray = along_axis(draw, surfaces)
     return _search(surfaces, [_up_to(ray, surfaces, _times(draw, hits=True))], own=draw.chance(0.5))
 
 
-def _over_a_ground(draw: Draw) -> Inputs:
+def _over_a_ground(draw: RandomSource) -> Inputs:
     surfaces = large_and_small(draw)
     ray = Ray(draw.point(4), draw.slanted())
     return _search(surfaces, [_up_to(ray, surfaces, 1.2)], own=True)
 
 
-def _looking_away(draw: Draw) -> Inputs:
+def _looking_away(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 25, 6)
     direction = draw.direction()
     ray = Ray(rounded(times(draw.real(12, 20), direction)), direction)
     return _search(surfaces, [Reach(ray, draw.real(5, 50))], own=draw.chance(0.5))
 
 
-def _many_rays(draw: Draw, surfaces: tuple[Surface, ...], *, own: bool) -> Inputs:
+def _many_rays(draw: RandomSource, surfaces: tuple[Surface, ...], *, own: bool) -> Inputs:
     return _search(surfaces, [Reach(aimed(draw, surfaces, 16), 40.0) for _ in range(24)], own=own)
 
 

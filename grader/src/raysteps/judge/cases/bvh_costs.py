@@ -7,35 +7,35 @@ from raysteps.judge.compare import Answer, real, words_of_number
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, rounded
 from raysteps.judge.protocol import Box, Inputs, Whole
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 _AREA = Answer(lambda tokens: tokens.real(), words_of_number, lambda _inputs, *pair: real("the area", *pair))
 _COST = Answer(lambda tokens: tokens.real(), words_of_number, lambda _inputs, *pair: real("the cost", *pair))
 _EMPTY = Box((math.inf,) * 3, (-math.inf,) * 3)
 
 
-def _small_or_large(draw: Draw) -> Inputs:
+def _small_or_large(draw: RandomSource) -> Inputs:
     size = 0.25 if draw.chance(0.5) else 300.0
     low = draw.point(size)
     high = add(low, (size * draw.real(0.5, 2), size * draw.real(0.5, 2), size * draw.real(0.5, 2)))
     return {"box": Box(low, rounded(high))}
 
 
-def _slab(draw: Draw) -> Inputs:
+def _slab(draw: RandomSource) -> Inputs:
     """Much longer along one axis than along the others: who takes one pair of faces twice is far off."""
     low, axis = draw.simple_point(3), draw.whole(0, 2)
     x, y, z = (draw.eighths(8, 16) if i == axis else draw.eighths(0.5, 1) for i in range(3))
     return {"box": Box(low, add(low, (x, y, z)))}
 
 
-def _line(draw: Draw, box: Box) -> Box:
+def _line(draw: RandomSource, box: Box) -> Box:
     """No area: as long as the box along one axis, or a point."""
     axis = draw.whole(0, 3)
     x, y, z = (b if i == axis else a for i, (a, b) in enumerate(zip(box.low, box.high, strict=True)))
     return Box(box.low, (x, y, z))
 
 
-def _empty(draw: Draw) -> Inputs:
+def _empty(draw: RandomSource) -> Inputs:
     """Empty along all axes, or along one of them only."""
     if draw.chance(0.4):
         return {"box": _EMPTY}
@@ -85,33 +85,33 @@ def _halves(box: Box, axis: int, end: float, begin: float) -> tuple[Box, Box]:
     return Box(box.low, moved(box.high, end)), Box(moved(box.low, begin), box.high)
 
 
-def _two_counts(draw: Draw) -> tuple[int, int]:
+def _two_counts(draw: RandomSource) -> tuple[int, int]:
     """Clearly different ones, either of them the larger."""
     few, many = draw.whole(1, 9), draw.whole(15, 60)
     return (few, many) if draw.chance(0.5) else (many, few)
 
 
-def _gap(draw: Draw) -> Inputs:
+def _gap(draw: RandomSource) -> Inputs:
     whole = any_box(draw)
     left, right = _halves(whole, draw.whole(0, 2), draw.real(0.2, 0.4), draw.real(0.5, 0.8))
     counts = _two_counts(draw)
     return _cut(left, counts[0], right, counts[1], whole)
 
 
-def _overlap(draw: Draw) -> Inputs:
+def _overlap(draw: RandomSource) -> Inputs:
     whole = any_box(draw)
     left, right = _halves(whole, draw.whole(0, 2), draw.real(0.6, 0.9), draw.real(0.2, 0.5))
     counts = _two_counts(draw)
     return _cut(left, counts[0], right, counts[1], whole)
 
 
-def _simple_cut(draw: Draw) -> Inputs:
+def _simple_cut(draw: RandomSource) -> Inputs:
     whole = simple_box(draw)
     left, right = _halves(whole, draw.whole(0, 2), 0.5, 0.5)
     return _cut(left, draw.whole(1, 8), right, draw.whole(1, 8), whole)
 
 
-def _flat_cut(draw: Draw) -> Inputs:
+def _flat_cut(draw: RandomSource) -> Inputs:
     axis = draw.whole(0, 2)
     whole = flat_box(simple_box(draw), axis)
     left, right = _halves(whole, (axis + draw.whole(1, 2)) % 3, 0.25, 0.75)
@@ -119,7 +119,7 @@ def _flat_cut(draw: Draw) -> Inputs:
     return _cut(left, counts[0], right, counts[1], whole)
 
 
-def _empty_half(draw: Draw) -> Inputs:
+def _empty_half(draw: RandomSource) -> Inputs:
     """No surfaces and an empty box on one side: that side costs nothing."""
     whole = simple_box(draw)
     full = _halves(whole, draw.whole(0, 2), 0.75, 0.25)[draw.whole(0, 1)]
@@ -127,7 +127,7 @@ def _empty_half(draw: Draw) -> Inputs:
     return _cut(_EMPTY, 0, full, count, whole) if draw.chance(0.5) else _cut(full, count, _EMPTY, 0, whole)
 
 
-def _without_area(draw: Draw) -> Inputs:
+def _without_area(draw: RandomSource) -> Inputs:
     whole = _line(draw, simple_box(draw))
     left, right = _halves(whole, draw.whole(0, 2), 0.5, 0.5)
     return _cut(left, draw.whole(1, 20), right, draw.whole(1, 20), whole)

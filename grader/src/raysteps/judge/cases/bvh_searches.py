@@ -5,7 +5,7 @@ from raysteps.judge.cases.octree_searches import BALLS, SLOPE, aimed, large_and_
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import add, minus, rounded, times, unit
 from raysteps.judge.protocol import Inputs, Ray
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import CLOSEST_IN_BVH, Rays, WhoseBvh
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
 
@@ -16,12 +16,12 @@ def _scene(surfaces: tuple[Surface, ...]) -> Inputs:
     return {"surfaces": Surfaces(surfaces)}
 
 
-def _ball(draw: Draw, place: tuple[float, float, float], reach: float, low: int, high: int) -> Sphere:
+def _ball(draw: RandomSource, place: tuple[float, float, float], reach: float, low: int, high: int) -> Sphere:
     x, y, z = (round(c * _FINE) / _FINE for c in add(place, draw.point(reach)))
     return Sphere((x, y, z), draw.whole(low, high) / _FINE)
 
 
-def _clusters(draw: Draw) -> Inputs:
+def _clusters(draw: RandomSource) -> Inputs:
     """Three heaps far from one another, of very different size."""
     sizes = (draw.whole(3, 8), draw.whole(15, 20), draw.whole(35, 45))
     places = ((-20.0, -4.0, 0.0), (2.0, 3.0, 8.0), (9.0, -3.0, -6.0))
@@ -30,25 +30,25 @@ def _clusters(draw: Draw) -> Inputs:
     )
 
 
-def _long_row(draw: Draw) -> Inputs:
+def _long_row(draw: RandomSource) -> Inputs:
     """Along a diagonal, in mixed order."""
     step = (draw.whole(4, 8) / 8, draw.whole(2, 8) / 8, draw.whole(1, 4) / 8)
     places = sorted(range(100), key=lambda _: draw.fine(0, 1))
     return _scene(tuple(Sphere((i * step[0], i * step[1], i * step[2]), 0.25) for i in places))
 
 
-def _in_one_place(draw: Draw) -> Inputs:
+def _in_one_place(draw: RandomSource) -> Inputs:
     thing = Sphere(draw.simple_point(4), draw.eighths(0.5, 2)) if draw.chance(0.5) else draw.triangle()
     return _scene((thing,) * draw.whole(20, 60))
 
 
-def _one_middle(draw: Draw) -> Inputs:
+def _one_middle(draw: RandomSource) -> Inputs:
     """Shells around one point: their middles are the same, their boxes are not."""
     center = draw.simple_point(4)
     return _scene(tuple(Sphere(center, (i + 1) / 4) for i in range(draw.whole(12, 30))))
 
 
-def _in_one_plane(draw: Draw) -> Inputs:
+def _in_one_plane(draw: RandomSource) -> Inputs:
     height, axis = draw.eighths(-2, 2), draw.whole(0, 2)
 
     def at(x: float, y: float) -> tuple[float, float, float]:
@@ -60,7 +60,7 @@ def _in_one_plane(draw: Draw) -> Inputs:
     return _scene(tuple(Triangle(at(x, y), at(x + 0.75, y), at(x, y + 0.75)) for x, y in grid))
 
 
-def _growing(draw: Draw) -> Inputs:
+def _growing(draw: RandomSource) -> Inputs:
     """Each twice as far and as large as the one before: all middles but a few are in the first bin."""
     sign, count = draw.sign(), draw.whole(14, 20)
     axis = draw.whole(0, 2)
@@ -68,7 +68,7 @@ def _growing(draw: Draw) -> Inputs:
     return _scene(tuple(Sphere((p[0], p[1], p[2]), max(map(abs, p)) / 4) for p in places))
 
 
-def _far_away(draw: Draw) -> Inputs:
+def _far_away(draw: RandomSource) -> Inputs:
     sign = draw.sign()
     away = (sign * 64.0, sign * 80.0, sign * 100.0)
     return _scene(tuple(_ball(draw, away, 5, 6, 40) for _ in range(25)))
@@ -102,45 +102,45 @@ def _search(surfaces: tuple[Surface, ...], rays: list[Ray], *, own: bool) -> Inp
     return {"tree": WhoseBvh(own), "surfaces": Surfaces(surfaces), "rays": Rays(tuple(rays))}
 
 
-def _one_ray(draw: Draw, *, own: bool) -> Inputs:
+def _one_ray(draw: RandomSource, *, own: bool) -> Inputs:
     surfaces = small_scene(draw, draw.whole(25, 40), draw.whole(4, 10))
     ray = aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20)
     return _search(surfaces, [ray], own=own)
 
 
-def from_inside(draw: Draw, surfaces: tuple[Surface, ...]) -> Ray:
+def from_inside(draw: RandomSource, surfaces: tuple[Surface, ...]) -> Ray:
     origin = draw.point(4)
     way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
     return Ray(origin, rounded(unit(way)))
 
 
-def _from_inside(draw: Draw) -> Inputs:
+def _from_inside(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     return _search(surfaces, [from_inside(draw, surfaces)], own=draw.chance(0.5))
 
 
-def along_axis(draw: Draw, surfaces: tuple[Surface, ...]) -> Ray:
+def along_axis(draw: RandomSource, surfaces: tuple[Surface, ...]) -> Ray:
     direction = draw.axis()
     target = point_within(draw, surfaces[draw.whole(0, 34)])
     return Ray(rounded(add(target, direction, -16)), direction)
 
 
-def _along_axis(draw: Draw) -> Inputs:
+def _along_axis(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     return _search(surfaces, [along_axis(draw, surfaces)], own=draw.chance(0.5))
 
 
-def _long_triangles(draw: Draw) -> Inputs:
+def _long_triangles(draw: RandomSource) -> Inputs:
     """Their boxes overlap: what is hit through the nearer box may lie behind what is in the other one."""
     surfaces = (SLOPE, *small_scene(draw, 20, 25))
     return _search(surfaces, [aimed(draw, surfaces[1:], 16)], own=draw.chance(0.5))
 
 
-def _later_box(draw: Draw) -> Inputs:
+def _later_box(draw: RandomSource) -> Inputs:
     return _search((SLOPE, *BALLS), [draw.ray_towards(draw.point(6), 25)], own=draw.chance(0.5))
 
 
-def _balls_in_a_row(draw: Draw) -> Inputs:
+def _balls_in_a_row(draw: RandomSource) -> Inputs:
     """Through two of the balls, in any direction."""
     far, near = draw.until(lambda pair: pair[0] != pair[1], lambda: (draw.whole(0, 63), draw.whole(0, 63)))
     way = minus(BALLS[far].center, BALLS[near].center)
@@ -149,7 +149,7 @@ def _balls_in_a_row(draw: Draw) -> Inputs:
     return _search(BALLS, [ray], own=draw.chance(0.5))
 
 
-def _at_one_distance(draw: Draw) -> Inputs:
+def _at_one_distance(draw: RandomSource) -> Inputs:
     """Several are the nearest at once: the first in the scene counts."""
     nearest = draw.eighths(1, 8)
     others = [nearest + draw.eighths(0.5, 6) for _ in range(draw.whole(3, 12))]
@@ -158,36 +158,36 @@ def _at_one_distance(draw: Draw) -> Inputs:
     return _search(tuple(surfaces), [Ray(draw.point(5), draw.direction())], own=draw.chance(0.3))
 
 
-def _same_spheres(draw: Draw) -> Inputs:
+def _same_spheres(draw: RandomSource) -> Inputs:
     """Each of the spheres is there several times."""
     spheres = tuple(sphere for sphere in small_scene(draw, 8, 0) for _ in range(5))
     mixed = tuple(sorted(spheres, key=lambda _: draw.fine(0, 1)))
     return _search(mixed, [aimed(draw, mixed, 16)], own=draw.chance(0.5))
 
 
-def _looking_away(draw: Draw) -> Inputs:
+def _looking_away(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 25, 6)
     direction = draw.direction()
     return _search(surfaces, [Ray(rounded(times(draw.real(10, 20), direction)), direction)], own=draw.chance(0.5))
 
 
-def _from_far(draw: Draw) -> Inputs:
+def _from_far(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 25, 6)
     return _search(surfaces, [aimed(draw, surfaces, 100)], own=draw.chance(0.5))
 
 
-def _over_a_ground(draw: Draw) -> Inputs:
+def _over_a_ground(draw: RandomSource) -> Inputs:
     surfaces = large_and_small(draw)
     ray = Ray(draw.point(4), draw.slanted()) if draw.chance(0.5) else aimed(draw, surfaces[2:], 7)
     return _search(surfaces, [ray], own=True)
 
 
-def dense_scene(draw: Draw) -> tuple[Surface, ...]:
+def dense_scene(draw: RandomSource) -> tuple[Surface, ...]:
     """Few rays get far in it."""
     return tuple(Sphere(draw.simple_point(5), draw.eighths(0.25, 0.75)) for _ in range(200))
 
 
-def _many_rays(draw: Draw, surfaces: tuple[Surface, ...], *, own: bool) -> Inputs:
+def _many_rays(draw: RandomSource, surfaces: tuple[Surface, ...], *, own: bool) -> Inputs:
     return _search(surfaces, [aimed(draw, surfaces, 16) for _ in range(24)], own=own)
 
 

@@ -20,14 +20,14 @@ from raysteps.judge.compare import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, cross, f32, length, minus, rounded, times, unit
 from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 # Cases of step 01: cameras of all kinds, and the view frame of each.
 
 _FRESH = ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0))  # view and up of a ViewFrame that nobody filled in
 
 
-def any_camera(draw: Draw) -> Camera:
+def any_camera(draw: RandomSource) -> Camera:
     origin, view = draw.point(10), draw.direction()
     up = draw.until(lambda found: length(cross(found, view)) >= 0.25, draw.direction)
     return Camera(
@@ -40,13 +40,13 @@ def any_camera(draw: Draw) -> Camera:
     )
 
 
-def _upright(draw: Draw, camera: Camera) -> Camera:
+def _upright(draw: RandomSource, camera: Camera) -> Camera:
     """With an up vector of length 1 at a right angle to the view."""
     view = minus(camera.at, camera.origin)
     return replace(camera, up=rounded(unit(cross(draw.across(unit(view)), view))))
 
 
-def simple_camera(draw: Draw) -> Camera:
+def simple_camera(draw: RandomSource) -> Camera:
     """Looks along an axis, another axis is up, and the picture is square; never as a fresh ViewFrame does."""
     origin = draw.simple_point(5)
     view, up = draw.until(lambda axes: length(cross(*axes)) > 0 and axes != _FRESH, lambda: (draw.axis(), draw.axis()))
@@ -56,7 +56,7 @@ def simple_camera(draw: Draw) -> Camera:
     return Camera(origin, at, times(float(draw.whole(1, 3)), up), angle, size, size)
 
 
-def _slanted_camera(draw: Draw) -> Camera:
+def _slanted_camera(draw: RandomSource) -> Camera:
     """Up leans by 20 to 70 degrees from a right angle."""
     camera = _upright(draw, any_camera(draw))
     view = unit(minus(camera.at, camera.origin))
@@ -64,19 +64,19 @@ def _slanted_camera(draw: Draw) -> Camera:
     return replace(camera, up=rounded(add(camera.up, view, lean)))
 
 
-def long_camera(draw: Draw) -> Camera:
+def long_camera(draw: RandomSource) -> Camera:
     camera = _upright(draw, any_camera(draw))
     long, short = draw.whole(150, 400), draw.whole(10, 60)
     width, height = (long, short) if draw.chance(0.5) else (short, long)
     return replace(camera, width=width, height=height)
 
 
-def _angled_camera(draw: Draw) -> Camera:
+def _angled_camera(draw: RandomSource) -> Camera:
     angle = draw.real(3, 20) if draw.chance(0.5) else draw.real(100, 150)
     return replace(_upright(draw, any_camera(draw)), angle=angle, width=100, height=100)
 
 
-def _extreme_camera(draw: Draw) -> Camera:
+def _extreme_camera(draw: RandomSource) -> Camera:
     """Looks at something very near or far, with an up vector that is very short or long."""
     camera = any_camera(draw)
     view, up = unit(minus(camera.at, camera.origin)), unit(camera.up)
@@ -137,27 +137,27 @@ def _pixel(camera: Camera, x: int, y: int) -> Inputs:
     return {"camera": camera, "frame": _frame_of(camera), "x": Whole(x), "y": Whole(y)}
 
 
-def _any_pixel(draw: Draw, camera: Camera) -> Inputs:
+def _any_pixel(draw: RandomSource, camera: Camera) -> Inputs:
     return _pixel(camera, draw.whole(0, camera.width - 1), draw.whole(0, camera.height - 1))
 
 
-def _corner(draw: Draw) -> Inputs:
+def _corner(draw: RandomSource) -> Inputs:
     camera = any_camera(draw)
     return _pixel(camera, (camera.width - 1) * draw.whole(0, 1), (camera.height - 1) * draw.whole(0, 1))
 
 
-def _middle(draw: Draw) -> Inputs:
+def _middle(draw: RandomSource) -> Inputs:
     camera = replace(any_camera(draw), width=2 * draw.whole(1, 80) + 1, height=2 * draw.whole(1, 80) + 1)
     return _pixel(camera, camera.width // 2, camera.height // 2)
 
 
-def _few_pixels(draw: Draw) -> Inputs:
+def _few_pixels(draw: RandomSource) -> Inputs:
     """Where half a pixel is a lot."""
     camera = replace(simple_camera(draw), width=draw.whole(2, 5), height=draw.whole(2, 5))
     return _any_pixel(draw, camera)
 
 
-def _one_pixel_wide(draw: Draw) -> Inputs:
+def _one_pixel_wide(draw: RandomSource) -> Inputs:
     """Or high, or both: who divides by the size less 1 divides by 0."""
     long = draw.whole(1, 60)
     width, height = ((1, long), (long, 1), (1, 1))[draw.whole(0, 2)]
@@ -182,7 +182,7 @@ _POINT = Answer(read_vector, words_of_vector, lambda _, e, a: vector("the point"
 _AT_ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 
-def _simple_ray(draw: Draw) -> Ray:
+def _simple_ray(draw: RandomSource) -> Ray:
     return Ray(draw.simple_point(5), draw.axis())
 
 

@@ -5,17 +5,17 @@ from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
 from raysteps.judge.numbers import add, cross, rounded, times, unit
 from raysteps.judge.protocol import Inputs, Ray
-from raysteps.judge.random_source import Draw, next_axis, with_zeros
+from raysteps.judge.random_source import RandomSource, next_axis, with_zeros
 from raysteps.judge.surfaces import Scripted, Sphere, Surfaces
 
 # Cases of step 02: rays and spheres.
 
 
-def _case(s: Sphere, ray: Ray, draw: Draw) -> Inputs:
+def _case(s: Sphere, ray: Ray, draw: RandomSource) -> Inputs:
     return {"sphere": Sphere(s.center, s.radius, draw.fill()), "ray": ray}
 
 
-def _at_sphere(draw: Draw, s: Sphere, low: float, high: float, distance: float) -> Ray:
+def _at_sphere(draw: RandomSource, s: Sphere, low: float, high: float, distance: float) -> Ray:
     """Passes the centre at low to high radii; the origin is that far from there."""
     direction = draw.direction()
     side = unit(cross(direction, draw.across(direction)))
@@ -23,29 +23,29 @@ def _at_sphere(draw: Draw, s: Sphere, low: float, high: float, distance: float) 
     return Ray(rounded(add(passed, direction, -distance)), direction)
 
 
-def _any_sphere(draw: Draw) -> Inputs:
+def _any_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere()
     low, high = (0.0, 0.9) if draw.chance(0.7) else (1.1, 2.0)
     return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(1, 10)), draw)
 
 
-def _inside_sphere(draw: Draw) -> Inputs:
+def _inside_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere(high=20.0)
     origin = rounded(add(s.center, draw.direction(), s.radius * draw.real(0.0, 0.85)))
     return _case(s, Ray(origin, draw.direction()), draw)
 
 
-def _sphere_behind(draw: Draw) -> Inputs:
+def _sphere_behind(draw: RandomSource) -> Inputs:
     s = draw.sphere()
     return _case(s, _at_sphere(draw, s, 0.0, 0.9, -(s.radius + draw.real(0.5, 10))), draw)
 
 
-def _beside_sphere(draw: Draw) -> Inputs:
+def _beside_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere()
     return _case(s, _at_sphere(draw, s, 1.05, 3.0, s.radius + draw.real(1, 10)), draw)
 
 
-def _simple_sphere(draw: Draw) -> Inputs:
+def _simple_sphere(draw: RandomSource) -> Inputs:
     """At the centre of the world or at simple numbers; the ray goes through the centre or forms a 3-4-5 triangle."""
     center = (0.0, 0.0, 0.0) if draw.chance(0.5) else draw.simple_point(4)
     direction = draw.axis()
@@ -56,23 +56,23 @@ def _simple_sphere(draw: Draw) -> Inputs:
     return _case(Sphere(center, 5.0), Ray(add(start, beside, 3.0), direction), draw)
 
 
-def _from_center(draw: Draw) -> Inputs:
+def _from_center(draw: RandomSource) -> Inputs:
     s = Sphere(draw.simple_point(4), draw.eighths(1, 6))
     return _case(s, Ray(s.center, draw.direction()), draw)
 
 
-def _far_sphere(draw: Draw) -> Inputs:
+def _far_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere(low=0.6, high=1.2)
     return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(15, 25)), draw)
 
 
-def _nearly_tangent(draw: Draw) -> Inputs:
+def _nearly_tangent(draw: RandomSource) -> Inputs:
     s = draw.sphere(reach=3.0, low=1.0)
     low, high = (0.95, 0.985) if draw.chance(0.5) else (1.015, 1.05)
     return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(0.5, 3)), draw)
 
 
-def _close_origin(draw: Draw) -> Inputs:
+def _close_origin(draw: RandomSource) -> Inputs:
     """Just outside the sphere or just inside, on the way in or out."""
     s = draw.sphere(reach=2.0, low=1.0)
     outward, off = draw.direction(), draw.real(0.02, 0.08) * draw.sign()
@@ -80,14 +80,14 @@ def _close_origin(draw: Draw) -> Inputs:
     return _case(s, Ray(rounded(add(s.center, outward, s.radius + off)), direction), draw)
 
 
-def _on_sphere(draw: Draw) -> Inputs:
+def _on_sphere(draw: RandomSource) -> Inputs:
     """One of the two distances is exactly 0, even for a method that divides by the radius."""
     outward = draw.axis()
     s = Sphere(draw.simple_point(4), float(2 ** draw.whole(-1, 2)))
     return _case(s, Ray(add(s.center, outward, s.radius), times(draw.sign(), outward)), draw)
 
 
-def _tiny_or_huge(draw: Draw) -> Inputs:
+def _tiny_or_huge(draw: RandomSource) -> Inputs:
     if draw.chance(0.5):
         s = Sphere(draw.point(1), draw.real(0.02, 0.05))
         return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(0.3, 1)), draw)
@@ -95,7 +95,7 @@ def _tiny_or_huge(draw: Draw) -> Inputs:
     return _case(s, _at_sphere(draw, s, 0.0, 0.7, s.radius + draw.real(20, 200)), draw)
 
 
-def _signed_zeros(draw: Draw) -> Inputs:
+def _signed_zeros(draw: RandomSource) -> Inputs:
     """Along an axis; the zeros of the direction have either sign."""
     s, axis, sign = Sphere(draw.simple_point(4), float(draw.whole(1, 5))), draw.whole(0, 2), draw.sign()
     direction = with_zeros(draw, axis, sign)
@@ -122,7 +122,7 @@ SPHERE_INTERSECT = Function(
 )
 
 
-def _distances(draw: Draw, count: int) -> list[float]:
+def _distances(draw: RandomSource, count: int) -> list[float]:
     """Well apart, in random order."""
     found: list[float] = []
     for _ in range(count):
@@ -131,14 +131,14 @@ def _distances(draw: Draw, count: int) -> list[float]:
     return found
 
 
-def _list(draw: Draw, distances: list[float], missed: int) -> Inputs:
+def _list(draw: RandomSource, distances: list[float], missed: int) -> Inputs:
     surfaces = [Scripted(distance) for distance in distances]
     for _ in range(missed):
         surfaces.insert(draw.whole(0, len(surfaces)), Scripted(None))
     return {"surfaces": Surfaces(tuple(surfaces)), "ray": Ray(draw.point(5), draw.direction())}
 
 
-def _near_and_far(draw: Draw) -> Inputs:
+def _near_and_far(draw: RandomSource) -> Inputs:
     """Far ones alone, or beside a very near one: a search that starts with a largest distance of its own loses them."""
     far = [draw.real(1e4, 1e5), draw.real(1e6, 1e7)]
     return _list(
@@ -146,11 +146,11 @@ def _near_and_far(draw: Draw) -> Inputs:
     )
 
 
-def _many(draw: Draw) -> Inputs:
+def _many(draw: RandomSource) -> Inputs:
     return _list(draw, _distances(draw, draw.whole(30, 50)), draw.whole(0, 10))
 
 
-def _sorted(draw: Draw, *, nearest_first: bool) -> Inputs:
+def _sorted(draw: RandomSource, *, nearest_first: bool) -> Inputs:
     return _list(draw, sorted(_distances(draw, draw.whole(2, 6)), reverse=not nearest_first), 0)
 
 

@@ -15,7 +15,7 @@ from raysteps.judge.cases.octree_searches import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import add, f32, minus, rounded, times, unit
 from raysteps.judge.protocol import Inputs, Ray, Real
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import ANY_HITS
 from raysteps.judge.surfaces import Surface, Triangle
 
@@ -29,33 +29,33 @@ def _asked(surfaces: tuple[Surface, ...], rays: list[Ray], distance: float, *, o
     return {**search(surfaces, rays, own=own), "distance": Real(distance)}
 
 
-def _one_ray(draw: Draw, *, own: bool) -> Inputs:
+def _one_ray(draw: RandomSource, *, own: bool) -> Inputs:
     surfaces = small_scene(draw, draw.whole(25, 40), draw.whole(4, 10))
     ray = aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20)
     return _asked(surfaces, [ray], draw.real(7, 17), own=own)
 
 
-def _from_inside(draw: Draw) -> Inputs:
+def _from_inside(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     origin = draw.point(4)
     way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
     return _asked(surfaces, [Ray(origin, rounded(unit(way)))], draw.real(0.5, 6), own=draw.chance(0.5))
 
 
-def _along_axis(draw: Draw) -> Inputs:
+def _along_axis(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     direction = draw.axis()
     target = point_within(draw, surfaces[draw.whole(0, 34)])
     return _asked(surfaces, [Ray(rounded(add(target, direction, -16)), direction)], draw.real(9, 18), own=False)
 
 
-def _in_a_later_box(draw: Draw) -> Inputs:
+def _in_a_later_box(draw: RandomSource) -> Inputs:
     """At the end of a way through boxes whose balls the ray passes by."""
     ball = BALLS[draw.whole(0, len(BALLS) - 1)]
     return _asked(BALLS, [draw.ray_towards(ball.center, 25)], draw.real(30, 60), own=draw.chance(0.5))
 
 
-def _under_the_lid(draw: Draw) -> tuple[Ray, float]:
+def _under_the_lid(draw: RandomSource) -> tuple[Ray, float]:
     """A ray from above, and how far it is to the lid; the balls lie below."""
     direction = rounded(unit((draw.real(-0.6, 0.6), draw.real(-0.6, 0.6), -1.0)))
     ball = BALLS[draw.whole(0, len(BALLS) - 1)]
@@ -63,26 +63,26 @@ def _under_the_lid(draw: Draw) -> tuple[Ray, float]:
     return ray, (8 - ray.origin[2]) / direction[2]
 
 
-def _all_beyond(draw: Draw) -> Inputs:
+def _all_beyond(draw: RandomSource) -> Inputs:
     """The ray meets something, but too late."""
     ray, distance = _under_the_lid(draw)
     return _asked((_LID, *BALLS), [ray], f32(distance * draw.real(0.1, 0.9)), own=draw.chance(0.5))
 
 
-def _close_to_a_hit(draw: Draw) -> Inputs:
+def _close_to_a_hit(draw: RandomSource) -> Inputs:
     """The distance ends closely before the lid, or closely behind it."""
     ray, distance = _under_the_lid(draw)
     return _asked((_LID, *BALLS), [ray], f32(distance * (1 + 0.01 * draw.sign())), own=draw.chance(0.5))
 
 
-def _exactly(draw: Draw) -> Inputs:
+def _exactly(draw: RandomSource) -> Inputs:
     """The lid at the very distance, where it is not nearer, or an eighth before it."""
     height = float(draw.whole(1, 8))
     ray = Ray((draw.eighths(-6, 6), draw.eighths(-6, 6), 8.0 + height), (0.0, 0.0, -1.0))
     return _asked((_LID, *BALLS), [ray], height + (0.125 if draw.chance(0.5) else 0.0), own=draw.chance(0.5))
 
 
-def _looking_away(draw: Draw) -> Inputs:
+def _looking_away(draw: RandomSource) -> Inputs:
     """Everything is behind the ray."""
     surfaces = small_scene(draw, 25, 6)
     direction = draw.direction()
@@ -90,19 +90,19 @@ def _looking_away(draw: Draw) -> Inputs:
     return _asked(surfaces, [ray], draw.real(10, 50), own=draw.chance(0.5))
 
 
-def _from_far(draw: Draw) -> Inputs:
+def _from_far(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 25, 6)
     return _asked(surfaces, [aimed(draw, surfaces, 100)], draw.real(93, 102), own=draw.chance(0.5))
 
 
-def _over_a_ground(draw: Draw) -> Inputs:
+def _over_a_ground(draw: RandomSource) -> Inputs:
     """Something large and many little things: rays that meet the one or the others, or neither so soon."""
     surfaces = large_and_small(draw)
     ray = Ray(draw.point(4), draw.slanted()) if draw.chance(0.5) else aimed(draw, surfaces[2:], 7)
     return _asked(surfaces, [ray], draw.real(2, 9), own=True)
 
 
-def _many_rays(draw: Draw) -> Inputs:
+def _many_rays(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 200, 0, largest=0.3)
     return _asked(surfaces, [aimed(draw, surfaces, 16) for _ in range(24)], draw.real(13, 15), own=True)
 

@@ -7,17 +7,17 @@ from raysteps.judge.cases.octree_searches import small_scene
 from raysteps.judge.compare import LENGTHS, SMALL, Answer, first, real, vector
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, rounded, unit
-from raysteps.judge.protocol import Box, Garbled, Inputs, Ray, Tokens
-from raysteps.judge.random_source import Draw, with_zeros
+from raysteps.judge.protocol import Box, Inputs, ProtocolError, Ray, TokenReader
+from raysteps.judge.random_source import RandomSource, with_zeros
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
 
-def any_box(draw: Draw) -> Box:
+def any_box(draw: RandomSource) -> Box:
     low = draw.point(3)
     return Box(low, rounded(add(low, (draw.real(0.5, 4), draw.real(0.5, 4), draw.real(0.5, 4)))))
 
 
-def simple_box(draw: Draw) -> Box:
+def simple_box(draw: RandomSource) -> Box:
     low = draw.simple_point(3)
     return Box(low, add(low, (float(draw.whole(1, 4)), float(draw.whole(1, 4)), float(draw.whole(1, 4)))))
 
@@ -28,14 +28,14 @@ def flat_box(box: Box, axis: int) -> Box:
     return Box(box.low, (high[0], high[1], high[2]))
 
 
-def far_box(draw: Draw) -> Box:
+def far_box(draw: RandomSource) -> Box:
     """On one side of the centre of the world: a search for the least and the largest that starts with 0 ends there."""
     box, sign = simple_box(draw), draw.sign()
     away = (sign * 16.0, sign * 32.0, sign * 64.0)
     return Box(add(box.low, away), add(box.high, away))
 
 
-def within(draw: Draw, box: Box) -> Vector:
+def within(draw: RandomSource, box: Box) -> Vector:
     x, y, z = (low + (high - low) * draw.real(0.1, 0.9) for low, high in zip(box.low, box.high, strict=True))
     return x, y, z
 
@@ -43,7 +43,7 @@ def within(draw: Draw, box: Box) -> Vector:
 # Cases of step 06: the box around surfaces, and the eight parts of a box.
 
 
-def _read_box(tokens: Tokens) -> Box:
+def _read_box(tokens: TokenReader) -> Box:
     return Box(tokens.vector(), tokens.vector())
 
 
@@ -77,7 +77,7 @@ def _bounds(surfaces: tuple[Surface, ...]) -> Inputs:
     return {"surfaces": Surfaces(surfaces)}
 
 
-def _on_one_side(draw: Draw) -> Inputs:
+def _on_one_side(draw: RandomSource) -> Inputs:
     sign = draw.sign()
     away = (sign * draw.real(20, 90), sign * draw.real(20, 90), sign * draw.real(20, 90))
     spheres = [Sphere(rounded(add(s.center, away)), s.radius) for s in (draw.sphere() for _ in range(draw.whole(1, 3)))]
@@ -86,7 +86,7 @@ def _on_one_side(draw: Draw) -> Inputs:
     return _bounds((*spheres, *(Triangle(a, b, c) for a, b, c in corners)))
 
 
-def _flat_triangle(draw: Draw) -> Inputs:
+def _flat_triangle(draw: RandomSource) -> Inputs:
     """Parallel to a plane of the axes: its bounds have no thickness."""
     t, axis, height = draw.triangle(), draw.whole(0, 2), draw.eighths(-3, 3)
     corners = [[height if i == axis else x for i, x in enumerate(corner)] for corner in (t.a, t.b, t.c)]
@@ -94,7 +94,7 @@ def _flat_triangle(draw: Draw) -> Inputs:
     return _bounds((Triangle(a, b, c),))
 
 
-def _one_triangle(draw: Draw) -> Inputs:
+def _one_triangle(draw: RandomSource) -> Inputs:
     t: Triangle = draw.triangle()
     return _bounds((t,))
 
@@ -127,14 +127,14 @@ SPLIT = Function(
 # Cases of step 06: rays along the axes of a box, and flat boxes, in exact numbers.
 
 
-def _on_grid(draw: Draw, box: Box, shares: tuple[float, ...]) -> list[float]:
+def _on_grid(draw: RandomSource, box: Box, shares: tuple[float, ...]) -> list[float]:
     """A point of the box whose coordinates are exact."""
     return [
         low + (high - low) * shares[draw.whole(0, len(shares) - 1)] for low, high in zip(box.low, box.high, strict=True)
     ]
 
 
-def _axis_ray(draw: Draw, point: list[float], axis: int, distance: float) -> Ray:
+def _axis_ray(draw: RandomSource, point: list[float], axis: int, distance: float) -> Ray:
     """Along the axis through the point; the zeros of the direction have either sign."""
     sign = draw.sign()
     way = with_zeros(draw, axis, sign)
@@ -143,7 +143,7 @@ def _axis_ray(draw: Draw, point: list[float], axis: int, distance: float) -> Ray
     return Ray((start[0], start[1], start[2]), way)
 
 
-def along_axis(draw: Draw) -> Inputs:
+def along_axis(draw: RandomSource) -> Inputs:
     box = simple_box(draw)
     point = _on_grid(draw, box, (0.25, 0.5, 0.75))
     if draw.chance(0.3):
@@ -151,7 +151,7 @@ def along_axis(draw: Draw) -> Inputs:
     return {"box": box, "ray": _axis_ray(draw, point, draw.whole(0, 2), 8.0)}
 
 
-def along_face(draw: Draw) -> Inputs:
+def along_face(draw: RandomSource) -> Inputs:
     """In the plane of a face, or along an edge."""
     box, axis = simple_box(draw), draw.whole(0, 2)
     point = _on_grid(draw, box, (0.5,))
@@ -161,7 +161,7 @@ def along_face(draw: Draw) -> Inputs:
     return {"box": box, "ray": _axis_ray(draw, point, axis, 8.0)}
 
 
-def flat(draw: Draw) -> Inputs:
+def flat(draw: RandomSource) -> Inputs:
     """Across it, slanted or straight, or in its plane."""
     axis = draw.whole(0, 2)
     box = flat_box(simple_box(draw), axis)
@@ -172,7 +172,7 @@ def flat(draw: Draw) -> Inputs:
     return {"box": box, "ray": _axis_ray(draw, _on_grid(draw, box, (0.25, 0.5)), along, 8.0)}
 
 
-def from_face(draw: Draw) -> Inputs:
+def from_face(draw: RandomSource) -> Inputs:
     """The origin is on a face and the ray goes in, or runs along the face."""
     box, axis, sign = simple_box(draw), draw.whole(0, 2), draw.sign()
     point = _on_grid(draw, box, (0.25, 0.5, 0.75))
@@ -196,10 +196,10 @@ class _Part:
     interval: tuple[float, float] | None
 
 
-def _read_part(tokens: Tokens) -> _Part:
+def _read_part(tokens: TokenReader) -> _Part:
     word = tokens.word()
     if word not in ("none", "part"):
-        raise Garbled("the answer is neither an interval nor nothing")
+        raise ProtocolError("the answer is neither an interval nor nothing")
     return _Part((tokens.real(), tokens.real()) if word == "part" else None)
 
 
@@ -239,32 +239,32 @@ def _clip(box: Box, origin: Vector, direction: Vector) -> Inputs:
     return {"box": box, "ray": Ray(rounded(origin), direction)}
 
 
-def _through(draw: Draw) -> Inputs:
+def _through(draw: RandomSource) -> Inputs:
     box, direction = any_box(draw), draw.slanted()
     return _clip(box, add(within(draw, box), direction, -draw.real(8, 15)), direction)
 
 
-def _past(draw: Draw) -> Inputs:
+def _past(draw: RandomSource) -> Inputs:
     box = any_box(draw)
     ray = draw.until(lambda found: _misses(box, found, _NEAR), lambda: Ray(draw.point(9), draw.slanted()))
     return {"box": box, "ray": ray}
 
 
-def _through_or_past(draw: Draw) -> Inputs:
+def _through_or_past(draw: RandomSource) -> Inputs:
     return _through(draw) if draw.chance(0.7) else _past(draw)
 
 
-def _from_inside(draw: Draw) -> Inputs:
+def _from_inside(draw: RandomSource) -> Inputs:
     box = any_box(draw)
     return _clip(box, within(draw, box), draw.slanted())
 
 
-def _box_behind(draw: Draw) -> Inputs:
+def _box_behind(draw: RandomSource) -> Inputs:
     box, direction = any_box(draw), draw.slanted()
     return _clip(box, add(within(draw, box), direction, draw.real(8, 15)), direction)
 
 
-def _close_to_corner(draw: Draw) -> Inputs:
+def _close_to_corner(draw: RandomSource) -> Inputs:
     """Through the box close to an edge or a corner, or closely past it."""
     box, inside = any_box(draw), draw.chance(0.5)
 
@@ -280,7 +280,7 @@ def _close_to_corner(draw: Draw) -> Inputs:
     return {"box": box, "ray": draw.until(clear, make)}
 
 
-def _almost_along_axis(draw: Draw) -> Inputs:
+def _almost_along_axis(draw: RandomSource) -> Inputs:
     """One of the direction's numbers is nearly 1, the others nearly 0."""
     box, axis = any_box(draw), draw.whole(0, 2)
     way = [draw.sign() * (1.0 if i == axis else draw.real(1e-6, 1e-4)) for i in range(3)]
@@ -288,7 +288,7 @@ def _almost_along_axis(draw: Draw) -> Inputs:
     return _clip(box, add(within(draw, box), direction, -draw.real(5, 10)), direction)
 
 
-def _tiny_or_huge(draw: Draw) -> Inputs:
+def _tiny_or_huge(draw: RandomSource) -> Inputs:
     size, low = (0.02, draw.point(0.5)) if draw.chance(0.5) else (500.0, draw.point(100))
     high = add(low, (size * draw.real(0.5, 2), size * draw.real(0.5, 2), size * draw.real(0.5, 2)))
     box, direction = Box(low, rounded(high)), draw.slanted(0.1)

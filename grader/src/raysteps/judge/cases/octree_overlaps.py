@@ -4,7 +4,7 @@ from raysteps.judge.compare import Answer
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, cross, f32, rounded, times, unit
 from raysteps.judge.protocol import Box, Inputs
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Triangle
 
 
@@ -17,14 +17,14 @@ def _touching_problem(_inputs: Inputs, expected: bool, actual: bool) -> str:
 TOUCHING = Answer(lambda tokens: tokens.flag(), lambda answer: str(answer).lower(), _touching_problem)
 
 
-def around(draw: Draw, point: Vector, smallest: float, largest: float) -> Box:
+def around(draw: RandomSource, point: Vector, smallest: float, largest: float) -> Box:
     """A box that holds the point, which is well within."""
     sizes = [draw.real(smallest, largest) for _ in range(3)]
     low = [x - draw.real(0.1, 0.9) * size for x, size in zip(point, sizes, strict=True)]
     return Box(rounded((low[0], low[1], low[2])), rounded((low[0] + sizes[0], low[1] + sizes[1], low[2] + sizes[2])))
 
 
-def beyond(draw: Draw, middle: Vector, reach: float) -> Box:
+def beyond(draw: RandomSource, middle: Vector, reach: float) -> Box:
     """Clearly beyond the bounds of something, along one axis at least."""
     way = draw.axis()
     size = (draw.real(0.3, 2), draw.real(0.3, 2), draw.real(0.3, 2))
@@ -32,7 +32,7 @@ def beyond(draw: Draw, middle: Vector, reach: float) -> Box:
     return Box(rounded(add(away, size, -0.5)), rounded(add(away, size, 0.5)))
 
 
-def flattened(draw: Draw, box: Box, point: Vector) -> Box:
+def flattened(draw: RandomSource, box: Box, point: Vector) -> Box:
     """Without thickness along one axis, where it still holds the point."""
     axis = draw.whole(0, 2)
     low, high = list(box.low), list(box.high)
@@ -43,25 +43,25 @@ def flattened(draw: Draw, box: Box, point: Vector) -> Box:
 # Cases of step 06: does a sphere touch a box?
 
 
-def _sphere_on(draw: Draw, radius: tuple[float, float], size: tuple[float, float]) -> Inputs:
+def _sphere_on(draw: RandomSource, radius: tuple[float, float], size: tuple[float, float]) -> Inputs:
     """A box around a point of the sphere's skin."""
     sphere = Sphere(draw.point(3), draw.real(*radius))
     point = add(sphere.center, draw.direction(), sphere.radius)
     return {"sphere": sphere, "box": around(draw, point, *size)}
 
 
-def _sphere_far(draw: Draw) -> Inputs:
+def _sphere_far(draw: RandomSource) -> Inputs:
     sphere = Sphere(draw.point(3), draw.real(0.2, 2))
     return {"sphere": sphere, "box": beyond(draw, sphere.center, sphere.radius)}
 
 
-def _sphere_within(draw: Draw) -> Inputs:
+def _sphere_within(draw: RandomSource) -> Inputs:
     sphere = Sphere(draw.point(3), draw.real(0.1, 0.5))
     low, high = (add(sphere.center, (1.0, 1.0, 1.0), side * draw.real(1, 3)) for side in (-1, 1))
     return {"sphere": sphere, "box": Box(rounded(low), rounded(high))}
 
 
-def _just_touching(draw: Draw) -> Inputs:
+def _just_touching(draw: RandomSource) -> Inputs:
     """A face, an edge or a corner of the box is a little within the sphere, and the rest of it outside."""
     sphere, size = Sphere(draw.point(2), draw.real(0.5, 3)), draw.real(0.3, 1)
     signs = [float(draw.whole(-1, 1)) for _ in range(3)]
@@ -72,7 +72,7 @@ def _just_touching(draw: Draw) -> Inputs:
     return {"sphere": sphere, "box": Box(rounded((low[0], low[1], low[2])), rounded((high[0], high[1], high[2])))}
 
 
-def _sphere_flat(draw: Draw) -> Inputs:
+def _sphere_flat(draw: RandomSource) -> Inputs:
     """The box is flat and runs through the sphere well within its outline."""
     sphere = Sphere(draw.point(2), draw.real(1, 3))
     point = add(sphere.center, draw.direction(), 0.5 * sphere.radius)
@@ -80,7 +80,7 @@ def _sphere_flat(draw: Draw) -> Inputs:
     return {"sphere": sphere, "box": flattened(draw, box, point)}
 
 
-def _sphere_mixed(draw: Draw) -> Inputs:
+def _sphere_mixed(draw: RandomSource) -> Inputs:
     return _sphere_on(draw, (0.3, 3), (0.3, 2)) if draw.chance(0.3) else _sphere_far(draw)
 
 
@@ -103,35 +103,35 @@ SPHERE_OVERLAPS = Function(
 # Cases of step 06: does a triangle touch a box?
 
 
-def _triangle_at(draw: Draw, u: float, v: float, size: tuple[float, float]) -> Inputs:
+def _triangle_at(draw: RandomSource, u: float, v: float, size: tuple[float, float]) -> Inputs:
     """A box around the point a + u (b - a) + v (c - a)."""
     t = draw.triangle(4.0)
     return {"triangle": t, "box": around(draw, t.at(u, v), *size)}
 
 
-def _triangle_inner(draw: Draw, size: tuple[float, float]) -> Inputs:
+def _triangle_inner(draw: RandomSource, size: tuple[float, float]) -> Inputs:
     u = draw.real(0.1, 0.7)
     return _triangle_at(draw, u, draw.real(0.1, 0.9 - u), size)
 
 
-def _triangle_far(draw: Draw) -> Inputs:
+def _triangle_far(draw: RandomSource) -> Inputs:
     t = draw.triangle(2.0)
     middle = times(1 / 3, add(add(t.a, t.b), t.c))
     return {"triangle": t, "box": beyond(draw, middle, 4.0)}
 
 
-def _triangle_mixed(draw: Draw) -> Inputs:
+def _triangle_mixed(draw: RandomSource) -> Inputs:
     return _triangle_inner(draw, (0.3, 2)) if draw.chance(0.3) else _triangle_far(draw)
 
 
-def _triangle_flat(draw: Draw) -> Inputs:
+def _triangle_flat(draw: RandomSource) -> Inputs:
     """A flat box that the triangle runs through."""
     t, u = draw.triangle(4.0), draw.real(0.3, 0.4)
     point = add(add(times(u, t.b), times(0.3, t.c)), times(0.7 - u, t.a))
     return {"triangle": t, "box": flattened(draw, around(draw, point, 0.5, 2), point)}
 
 
-def _thin(draw: Draw) -> Inputs:
+def _thin(draw: RandomSource) -> Inputs:
     """A long thin triangle through a box; all of its corners are outside."""
     middle, along = draw.point(2), draw.direction()
     side = unit(cross(along, draw.across(along)))
@@ -140,7 +140,7 @@ def _thin(draw: Draw) -> Inputs:
     return {"triangle": t, "box": around(draw, times(1 / 3, add(add(t.a, t.b), t.c)), 0.3, 1.5)}
 
 
-def _corner_touches(draw: Draw) -> Inputs:
+def _corner_touches(draw: RandomSource) -> Inputs:
     """One corner of the triangle is a little inside the box, the rest of it leads away."""
     box = around(draw, draw.point(2), 0.5, 2)
     way = draw.axis()
@@ -154,7 +154,7 @@ def _corner_touches(draw: Draw) -> Inputs:
     return {"triangle": t, "box": box}
 
 
-def _in_face(draw: Draw) -> Inputs:
+def _in_face(draw: RandomSource) -> Inputs:
     """In the plane of a face, and wider than it: exact numbers."""
     low = draw.simple_point(3)
     size = (float(draw.whole(1, 3)), float(draw.whole(1, 3)), float(draw.whole(1, 3)))
@@ -169,7 +169,7 @@ def _in_face(draw: Draw) -> Inputs:
     return {"triangle": Triangle(corner(-8.0, -8.0), corner(24.0, -8.0), corner(-8.0, 24.0)), "box": box}
 
 
-def _all_within(draw: Draw) -> Inputs:
+def _all_within(draw: RandomSource) -> Inputs:
     t = draw.triangle(1.0)
     return {"triangle": t, "box": Box((f32(-1.2), -2.0, f32(-1.1)), (2.0, 1.5, f32(1.3)))}
 

@@ -4,7 +4,7 @@ from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, minus, rounded, times, unit
 from raysteps.judge.octrees import TREE
 from raysteps.judge.protocol import Inputs, Ray
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import SEARCHES, Rays, WhoseTree
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
 
@@ -17,16 +17,16 @@ def _neat(v: Vector) -> Vector:
     return round(v[0] * _FINE) / _FINE, round(v[1] * _FINE) / _FINE, round(v[2] * _FINE) / _FINE
 
 
-def _sphere(draw: Draw, low: float, high: float) -> Sphere:
+def _sphere(draw: RandomSource, low: float, high: float) -> Sphere:
     return Sphere(_neat(draw.point(_REACH)), draw.whole(round(low * _FINE), round(high * _FINE)) / _FINE)
 
 
-def _triangle(draw: Draw, reach: float) -> Triangle:
+def _triangle(draw: RandomSource, reach: float) -> Triangle:
     shape, place = draw.triangle(reach), draw.point(_REACH - reach)
     return Triangle(_neat(add(place, shape.a)), _neat(add(place, shape.b)), _neat(add(place, shape.c)))
 
 
-def small_scene(draw: Draw, spheres: int, triangles: int, *, largest: float = 0.6) -> tuple[Surface, ...]:
+def small_scene(draw: RandomSource, spheres: int, triangles: int, *, largest: float = 0.6) -> tuple[Surface, ...]:
     """Small spheres, and triangles of all sizes."""
     surfaces: list[Surface] = [_sphere(draw, 0.1, largest) for _ in range(spheres)]
     surfaces += [_triangle(draw, draw.real(0.5, 4.0)) for _ in range(triangles)]
@@ -37,12 +37,12 @@ def _scene(surfaces: tuple[Surface, ...]) -> Inputs:
     return {"surfaces": Surfaces(surfaces)}
 
 
-def _in_one_place(draw: Draw) -> Inputs:
+def _in_one_place(draw: RandomSource) -> Inputs:
     sphere = _sphere(draw, 0.5, 2)
     return _scene((sphere,) * draw.whole(9, 12))
 
 
-def _in_one_plane(draw: Draw) -> Inputs:
+def _in_one_plane(draw: RandomSource) -> Inputs:
     height = draw.eighths(-2, 2)
     row: list[Surface] = []
     for i in range(30):
@@ -51,13 +51,13 @@ def _in_one_plane(draw: Draw) -> Inputs:
     return _scene(tuple(row))
 
 
-def large_and_small(draw: Draw) -> tuple[Surface, ...]:
+def large_and_small(draw: RandomSource) -> tuple[Surface, ...]:
     """A shell around everything, a ground, and little things."""
     ground = Triangle((-20.0, -4.0, 20.0), (20.0, -4.0, 20.0), (0.0, -4.0, -30.0))
     return (Sphere((0.0, 0.0, 0.0), 12.0), ground, *small_scene(draw, 25, 2))
 
 
-def _far_away(draw: Draw) -> Inputs:
+def _far_away(draw: RandomSource) -> Inputs:
     """All on one side of the centre of the world."""
     sign = draw.sign()
     away = (sign * 64.0, sign * 80.0, sign * 100.0)
@@ -65,7 +65,7 @@ def _far_away(draw: Draw) -> Inputs:
     return _scene(tuple(moved))
 
 
-def _on_walls(draw: Draw) -> Inputs:
+def _on_walls(draw: RandomSource) -> Inputs:
     """A grid of balls whose middle ones are cut by the walls between the boxes; the box of all is a cube."""
     radius = draw.whole(8, 40) / 64
     row = (-3.0, -1.5, 0.0, 1.5, 3.0)
@@ -93,7 +93,7 @@ BUILD_OCTREE = Function(
 # Cases of step 06 with whole scenes: searching a tree.
 
 
-def point_within(draw: Draw, surface: Surface) -> Vector:
+def point_within(draw: RandomSource, surface: Surface) -> Vector:
     """A point well within the surface's outline."""
     if isinstance(surface, Sphere):
         return add(surface.center, draw.direction(), 0.7 * surface.radius * draw.real(0, 1))
@@ -101,7 +101,7 @@ def point_within(draw: Draw, surface: Surface) -> Vector:
     return times(1 / 3, add(add(surface.a, surface.b), surface.c))
 
 
-def aimed(draw: Draw, surfaces: tuple[Surface, ...], distance: float) -> Ray:
+def aimed(draw: RandomSource, surfaces: tuple[Surface, ...], distance: float) -> Ray:
     """At one of the surfaces; something else may stand before it."""
     return draw.ray_towards(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), distance)
 
@@ -110,20 +110,20 @@ def search(surfaces: tuple[Surface, ...], rays: list[Ray], *, own: bool) -> Inpu
     return {"tree": WhoseTree(own), "surfaces": Surfaces(surfaces), "rays": Rays(tuple(rays))}
 
 
-def _one_ray(draw: Draw, *, own: bool) -> Inputs:
+def _one_ray(draw: RandomSource, *, own: bool) -> Inputs:
     surfaces = small_scene(draw, draw.whole(25, 40), draw.whole(4, 10))
     ray = aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20)
     return search(surfaces, [ray], own=own)
 
 
-def _from_inside(draw: Draw) -> Inputs:
+def _from_inside(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 8)
     origin = draw.point(4)
     way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
     return search(surfaces, [Ray(origin, rounded(unit(way)))], own=draw.chance(0.5))
 
 
-def _along_axis(draw: Draw) -> Inputs:
+def _along_axis(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 35, 6)
     direction = draw.axis()
     target = point_within(draw, surfaces[draw.whole(0, 34)])
@@ -136,12 +136,12 @@ BALLS = tuple(Sphere((4.0 * (i % 4) - 6, 4.0 * (i // 4 % 4) - 6, 4.0 * (i // 16)
 _EDGE = 6.75  # of the box around the balls
 
 
-def _later_box(draw: Draw) -> Inputs:
+def _later_box(draw: RandomSource) -> Inputs:
     """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
     return search((SLOPE, *BALLS), [draw.ray_towards(draw.point(6), 25)], own=draw.chance(0.5))
 
 
-def _ball_before_the_slope(draw: Draw) -> Inputs:
+def _ball_before_the_slope(draw: RandomSource) -> Inputs:
     """A ray that comes down from above meets one of the balls there, and the slope behind it."""
 
     def make() -> tuple[Vector, Vector]:
@@ -161,7 +161,7 @@ def _eighth(point: Vector) -> int:
     return sum(1 << axis for axis, x in enumerate(point) if x > 0)
 
 
-def _balls_in_a_row(draw: Draw) -> Inputs:
+def _balls_in_a_row(draw: RandomSource) -> Inputs:
     """Through two of the balls, in any direction. The boxes along the ray come in another order than their numbers: who
     searches by number and stops at the first box behind a hit never comes to the near ball."""
 
@@ -179,26 +179,26 @@ def _balls_in_a_row(draw: Draw) -> Inputs:
     return search(BALLS, [Ray(rounded(add(near, direction, -25)), direction)], own=draw.chance(0.5))
 
 
-def _looking_away(draw: Draw) -> Inputs:
+def _looking_away(draw: RandomSource) -> Inputs:
     """Everything is behind the ray."""
     surfaces = small_scene(draw, 25, 6)
     direction = draw.direction()
     return search(surfaces, [Ray(rounded(times(draw.real(10, 20), direction)), direction)], own=draw.chance(0.5))
 
 
-def _from_far(draw: Draw) -> Inputs:
+def _from_far(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 25, 6)
     return search(surfaces, [aimed(draw, surfaces, 100)], own=draw.chance(0.5))
 
 
-def _over_a_ground(draw: Draw) -> Inputs:
+def _over_a_ground(draw: RandomSource) -> Inputs:
     """Something large and many little things: rays that meet the one or the others."""
     surfaces = large_and_small(draw)
     ray = Ray(draw.point(4), draw.slanted()) if draw.chance(0.5) else aimed(draw, surfaces[2:], 7)
     return search(surfaces, [ray], own=True)
 
 
-def _many_rays(draw: Draw) -> Inputs:
+def _many_rays(draw: RandomSource) -> Inputs:
     surfaces = small_scene(draw, 200, 0, largest=0.3)
     return search(surfaces, [aimed(draw, surfaces, 16) for _ in range(24)], own=True)
 

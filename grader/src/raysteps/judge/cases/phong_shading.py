@@ -6,7 +6,7 @@ from raysteps.judge.compare import Answer, channels, read_vector, vector, words_
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, mirrored, rounded, times, unit
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec
-from raysteps.judge.random_source import Draw, next_axis
+from raysteps.judge.random_source import RandomSource, next_axis
 
 # Cases of step 03: mirrored directions.
 
@@ -17,27 +17,27 @@ def _mirror(direction: Vector, normal: Vector) -> Inputs:
     return {"direction": Vec(direction), "normal": Vec(normal)}
 
 
-def _simple_mirror(draw: Draw) -> Inputs:
+def _simple_mirror(draw: RandomSource) -> Inputs:
     return _mirror(draw.simple_point(3), draw.axis())
 
 
-def _along_surface(draw: Draw) -> Inputs:
+def _along_surface(draw: RandomSource) -> Inputs:
     normal = draw.axis()
     flat = [0.0 if n else draw.eighths(0.5, 3) * draw.sign() for n in normal]
     return _mirror((flat[0], flat[1], flat[2]), normal)
 
 
-def _scaled(draw: Draw) -> Inputs:
+def _scaled(draw: RandomSource) -> Inputs:
     return _mirror(rounded(times(draw.real(2, 9), draw.direction())), draw.direction())
 
 
-def _straight(draw: Draw) -> Inputs:
+def _straight(draw: RandomSource) -> Inputs:
     """Down onto the surface, or up from it."""
     normal = draw.direction()
     return _mirror(times(draw.sign(), normal), normal)
 
 
-def _tiny_or_huge(draw: Draw) -> Inputs:
+def _tiny_or_huge(draw: RandomSource) -> Inputs:
     size = draw.real(0.01, 0.05) if draw.chance(0.5) else draw.real(1e3, 1e5)
     return _mirror(rounded(times(size, draw.direction())), draw.direction())
 
@@ -63,7 +63,7 @@ WHITE = Light((0.0, 0.0, 10.0))
 PLAIN = Fill((1.0, 1.0, 1.0), 1.0, 1.0, 1.0)
 
 
-def simple_normals(draw: Draw) -> tuple[Vector, Vector]:
+def simple_normals(draw: RandomSource) -> tuple[Vector, Vector]:
     """An axis, and a direction to the light with a cosine of 1 or 0.8."""
     normal = draw.axis()
     if draw.chance(0.4):
@@ -75,7 +75,7 @@ def simple_normals(draw: Draw) -> tuple[Vector, Vector]:
 # Cases of step 03: diffuse light.
 
 
-def _diffuse(draw: Draw, low: float, high: float) -> Inputs:
+def _diffuse(draw: RandomSource, low: float, high: float) -> Inputs:
     normal = draw.direction()
     return {
         "fill": draw.fill(),
@@ -85,7 +85,7 @@ def _diffuse(draw: Draw, low: float, high: float) -> Inputs:
     }
 
 
-def _around_right_angle(draw: Draw) -> Inputs:
+def _around_right_angle(draw: RandomSource) -> Inputs:
     """A little above the surface or below it, or exactly along it."""
     if draw.chance(0.7):
         side = draw.sign()
@@ -95,7 +95,7 @@ def _around_right_angle(draw: Draw) -> Inputs:
     return {"fill": draw.fill(), "light": draw.light(draw.point(5)), "normal": Vec(normal), "to_light": Vec(along)}
 
 
-def _extreme_colors(draw: Draw) -> Inputs:
+def _extreme_colors(draw: RandomSource) -> Inputs:
     """Channels of 0 and of much more than 1, kd from 0 to 1."""
 
     def channel() -> float:
@@ -106,7 +106,7 @@ def _extreme_colors(draw: Draw) -> Inputs:
     return {**inputs, "fill": fill, "light": Light(draw.point(5), (channel(), channel(), channel()))}
 
 
-def _simple_diffuse(draw: Draw) -> Inputs:
+def _simple_diffuse(draw: RandomSource) -> Inputs:
     normal, to_light = simple_normals(draw)
     return {
         "fill": replace(PLAIN, color=draw.color()),
@@ -132,7 +132,7 @@ DIFFUSE = Function(
 # Cases of step 03: highlights.
 
 
-def _specular(draw: Draw, fill: Fill, light: Vector, normal: Vector, eye: Vector) -> Inputs:
+def _specular(draw: RandomSource, fill: Fill, light: Vector, normal: Vector, eye: Vector) -> Inputs:
     return {
         "fill": fill,
         "light": draw.light(draw.point(5)),
@@ -147,7 +147,7 @@ def _brightest(to_light: Vector, normal: Vector) -> Vector:
     return unit(mirrored(times(-1.0, to_light), normal))
 
 
-def _highlight(draw: Draw, *, shine: float | None = None) -> Inputs:
+def _highlight(draw: RandomSource, *, shine: float | None = None) -> Inputs:
     """The eye is near the mirrored light."""
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 0.95)
@@ -156,7 +156,7 @@ def _highlight(draw: Draw, *, shine: float | None = None) -> Inputs:
     return _specular(draw, fill, to_light, normal, draw.above(brightest, 0.75, 0.995))
 
 
-def _no_highlight(draw: Draw) -> Inputs:
+def _no_highlight(draw: RandomSource) -> Inputs:
     """The eye is more than a right angle away from the mirrored light."""
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 0.95)
@@ -164,7 +164,7 @@ def _no_highlight(draw: Draw) -> Inputs:
     return _specular(draw, draw.fill(), to_light, normal, draw.above(brightest, -0.95, -0.1))
 
 
-def _light_behind(draw: Draw) -> Inputs:
+def _light_behind(draw: RandomSource) -> Inputs:
     """And the eye where the highlight would be, if the surface let the light through."""
     normal = draw.direction()
     to_light = draw.above(normal, -0.95, -0.1)
@@ -172,7 +172,7 @@ def _light_behind(draw: Draw) -> Inputs:
     return _specular(draw, draw.fill(), to_light, normal, draw.above(brightest, 0.8, 0.99))
 
 
-def _simple_specular(draw: Draw) -> Inputs:
+def _simple_specular(draw: RandomSource) -> Inputs:
     """Light above the surface or at a slant, white, ks 1; the eye above, or where the light is brightest."""
     normal, to_light = simple_normals(draw)
     brightest = rounded(_brightest(to_light, normal))
@@ -181,7 +181,7 @@ def _simple_specular(draw: Draw) -> Inputs:
     return {**inputs, "light": WHITE}
 
 
-def _at_highlight(draw: Draw) -> Inputs:
+def _at_highlight(draw: RandomSource) -> Inputs:
     """The eye where the light is brightest: the cosine is 1, or by rounding a little more."""
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 1.0)
@@ -189,7 +189,7 @@ def _at_highlight(draw: Draw) -> Inputs:
     return _specular(draw, replace(draw.fill(), shine=draw.real(1, 40)), to_light, normal, brightest)
 
 
-def _very_high_shine(draw: Draw) -> Inputs:
+def _very_high_shine(draw: RandomSource) -> Inputs:
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 0.95)
     brightest = _brightest(to_light, normal)
@@ -197,7 +197,7 @@ def _very_high_shine(draw: Draw) -> Inputs:
     return _specular(draw, fill, to_light, normal, draw.above(brightest, 0.993, 1.0))
 
 
-def _light_on_horizon(draw: Draw) -> Inputs:
+def _light_on_horizon(draw: RandomSource) -> Inputs:
     """The light exactly along the surface, and the eye in its way: black."""
     normal = draw.axis()
     along = times(draw.sign(), next_axis(normal))
@@ -225,7 +225,7 @@ SPECULAR = Function(
 # Cases of step 03: the light of several lights together.
 
 
-def _hit(draw: Draw) -> Hit:
+def _hit(draw: RandomSource) -> Hit:
     normal = draw.direction()
     return Hit(
         draw.point(4),
@@ -237,7 +237,9 @@ def _hit(draw: Draw) -> Hit:
     )
 
 
-def _lights(draw: Draw, hit: Hit, count: int, *, low: float = 0.1, near: float = 2.0, far: float = 15.0) -> Inputs:
+def _lights(
+    draw: RandomSource, hit: Hit, count: int, *, low: float = 0.1, near: float = 2.0, far: float = 15.0
+) -> Inputs:
     lights = [
         draw.light(rounded(add(hit.position, draw.above(hit.normal, low, low + 0.85), draw.real(near, far))))
         for _ in range(count)
@@ -245,12 +247,12 @@ def _lights(draw: Draw, hit: Hit, count: int, *, low: float = 0.1, near: float =
     return {"hit": hit, "lights": Lights(tuple(lights))}
 
 
-def _near_lights(draw: Draw) -> Inputs:
+def _near_lights(draw: RandomSource) -> Inputs:
     hit = replace(_hit(draw), position=draw.point(0.5))
     return _lights(draw, hit, draw.whole(1, 2), low=0.2, near=0.02, far=0.1)
 
 
-def _lights_around_horizon(draw: Draw) -> Inputs:
+def _lights_around_horizon(draw: RandomSource) -> Inputs:
     """Some a little above the surface, some a little below it."""
     hit, lights = _hit(draw), []
     for _ in range(3):
@@ -260,7 +262,7 @@ def _lights_around_horizon(draw: Draw) -> Inputs:
     return {"hit": hit, "lights": Lights(tuple(lights))}
 
 
-def _front_and_back(draw: Draw) -> Inputs:
+def _front_and_back(draw: RandomSource) -> Inputs:
     hit = _hit(draw)
     front, back = _lights(draw, hit, 1)["lights"], _lights(draw, hit, 2, low=-0.95)["lights"]
     assert isinstance(front, Lights)
@@ -268,14 +270,14 @@ def _front_and_back(draw: Draw) -> Inputs:
     return {"hit": hit, "lights": Lights(front.lights + back.lights)}
 
 
-def _simple_shade(draw: Draw) -> Inputs:
+def _simple_shade(draw: RandomSource) -> Inputs:
     """One white light, seen from straight above."""
     normal, to_light = simple_normals(draw)
     hit = Hit((0.0, 0.0, 0.0), normal, times(-1.0, normal), 1.0, replace(PLAIN, color=draw.color(), shine=2.0))
     return {"hit": hit, "lights": Lights((Light(rounded(times(5.0, to_light))),))}
 
 
-def _bright(draw: Draw) -> Inputs:
+def _bright(draw: RandomSource) -> Inputs:
     hit = _hit(draw)
     hit = replace(hit, fill=replace(hit.fill, color=draw.color(0.7, 1.0), kd=1.0))
     return _lights(draw, hit, 5, low=0.1)

@@ -7,8 +7,8 @@ from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import REFLECTED_RAY
 from raysteps.judge.numbers import Vector, add, dot, length, minus, rounded, times
 from raysteps.judge.protocol import Hit, Inputs, Ray, Whole
-from raysteps.judge.random_source import Draw, next_axis
-from raysteps.judge.scripted_tracer import Script, ScriptedHit, Traced, read_traced, traced_words
+from raysteps.judge.random_source import RandomSource, next_axis
+from raysteps.judge.scripted_tracer import Script, ScriptedHit, TracedCall, read_traced, traced_words
 
 # Cases of step 05: what a ray brings from mirror to mirror.
 
@@ -43,7 +43,7 @@ def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -
     return _met_head_on(inputs) and not all(same)
 
 
-def _trace_problem(inputs: Inputs, expected: Traced, actual: Traced) -> str:
+def _trace_problem(inputs: Inputs, expected: TracedCall, actual: TracedCall) -> str:
     counts = ""
     if len(actual.cast) != len(expected.cast):
         counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
@@ -57,7 +57,7 @@ def _trace_problem(inputs: Inputs, expected: Traced, actual: Traced) -> str:
     )
 
 
-def _scripted(draw: Draw, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
+def _scripted(draw: RandomSource, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
     """ks between low and high."""
     distances = [float(i + 1) + draw.real(0.1, 0.8) for i in range(count)]
     return tuple(
@@ -65,19 +65,19 @@ def _scripted(draw: Draw, count: int, low: float, high: float) -> tuple[Scripted
     )
 
 
-def _trace(draw: Draw, hits: tuple[ScriptedHit, ...], depth: int, most: int) -> Inputs:
+def _trace(draw: RandomSource, hits: tuple[ScriptedHit, ...], depth: int, most: int) -> Inputs:
     ray = Ray(draw.point(3), draw.direction())
     return {"ray": ray, "depth": Whole(depth), "tracer": Script(most, draw.color(0.2, 0.9), hits)}
 
 
-def _mirror_and_dull(draw: Draw) -> Inputs:
+def _mirror_and_dull(draw: RandomSource) -> Inputs:
     """Some mirrors, then something dull or nothing."""
     hits = _scripted(draw, draw.whole(1, 3), 0.2, 0.9)
     end = _scripted(draw, 4, 0.0, 0.0)[3:] if draw.chance(0.6) else ()
     return _trace(draw, hits + end, 1, 6)
 
 
-def _simple_trace(draw: Draw) -> Inputs:
+def _simple_trace(draw: RandomSource) -> Inputs:
     """One hit straight ahead, ks 0.5, and perhaps a dull one behind."""
     down: Vector = (0.0, 0.0, -1.0)
     mirror = ScriptedHit(5.0, (0.0, 0.0, 1.0), 0.5, draw.color())
@@ -86,30 +86,30 @@ def _simple_trace(draw: Draw) -> Inputs:
     return {"ray": Ray((0.0, 0.0, 5.0), down), "depth": Whole(1), "tracer": Script(5, draw.color(), hits)}
 
 
-def _depth_limit(draw: Draw) -> Inputs:
+def _depth_limit(draw: RandomSource) -> Inputs:
     """More mirrors than the limit lets a ray see."""
     most = draw.whole(1, 5)
     return _trace(draw, _scripted(draw, most + 2, 0.3, 0.9), 1, most)
 
 
-def _deepest(draw: Draw) -> Inputs:
+def _deepest(draw: RandomSource) -> Inputs:
     """The depth at the start is the last that counts."""
     most = draw.whole(1, 6)
     return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most, most)
 
 
-def _too_deep(draw: Draw) -> Inputs:
+def _too_deep(draw: RandomSource) -> Inputs:
     most = draw.whole(1, 6)
     return _trace(draw, _scripted(draw, 2, 0.3, 0.9), most + draw.whole(1, 3), most)
 
 
-def _faint(draw: Draw) -> Inputs:
+def _faint(draw: RandomSource) -> Inputs:
     """Any ks above 0 is a mirror, and so is a whole one."""
     low, high = (0.001, 0.01) if draw.chance(0.5) else (1.0, 1.0)
     return _trace(draw, _scripted(draw, draw.whole(1, 3), low, high), 1, 5)
 
 
-def _corridor(draw: Draw) -> Inputs:
+def _corridor(draw: RandomSource) -> Inputs:
     """Very many mirrors in a row; the last rays miss, or the limit ends them."""
     return _trace(draw, _scripted(draw, draw.whole(12, 20), 0.8, 0.95), 1, draw.whole(10, 25))
 
@@ -133,12 +133,12 @@ TRACE = Function(
 )
 
 
-def _hit(draw: Draw, low: float = 0.15, high: float = 1.0, reach: float = 3.0) -> Inputs:
+def _hit(draw: RandomSource, low: float = 0.15, high: float = 1.0, reach: float = 3.0) -> Inputs:
     normal = draw.direction()
     return {"hit": Hit(draw.point(reach), normal, rounded(times(-1.0, draw.above(normal, low, high))))}
 
 
-def _simple_hit(draw: Draw) -> Inputs:
+def _simple_hit(draw: RandomSource) -> Inputs:
     normal = draw.axis()
     side = next_axis(normal)
     straight = draw.chance(0.4)
@@ -146,13 +146,13 @@ def _simple_hit(draw: Draw) -> Inputs:
     return {"hit": Hit(draw.simple_point(3), normal, direction)}
 
 
-def _far_hit(draw: Draw) -> Inputs:
+def _far_hit(draw: RandomSource) -> Inputs:
     normal = draw.direction()
     position = rounded(add((100.0, -100.0, 100.0), draw.point(3)))
     return {"hit": Hit(position, normal, rounded(times(-1.0, draw.above(normal, 0.3))))}
 
 
-def _head_on(draw: Draw) -> Inputs:
+def _head_on(draw: RandomSource) -> Inputs:
     normal = draw.axis() if draw.chance(0.3) else draw.direction()
     return {"hit": Hit(draw.point(3), normal, times(-1.0, normal))}
 

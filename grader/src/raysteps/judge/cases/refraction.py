@@ -7,8 +7,8 @@ from raysteps.judge.compare import Answer, channels, direction, first
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import TRANSMITTED_RAY, hit_of
 from raysteps.judge.numbers import Vector, dot, f32, length, minus, rounded, times
-from raysteps.judge.protocol import Fill, Garbled, Hit, Inputs, Ray, Real, Tokens, Vec, Whole, vector_words
-from raysteps.judge.random_source import Draw
+from raysteps.judge.protocol import Fill, Hit, Inputs, ProtocolError, Ray, Real, TokenReader, Vec, Whole, vector_words
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.scripted_tracer import MOST_ASKED
 
 # What the cases of step 08 share: glass, and rays that meet it on this or that side of the critical angle.
@@ -16,12 +16,12 @@ from raysteps.judge.scripted_tracer import MOST_ASKED
 _CLEAR = 0.05  # how far the sine of a refracted ray keeps from 1, where rounding decides
 
 
-def index_of_glass(draw: Draw) -> float:
+def index_of_glass(draw: RandomSource) -> float:
     """Also the eta of a ray that leaves it."""
     return draw.real(1.2, 2.2)
 
 
-def into(draw: Draw) -> float:
+def into(draw: RandomSource) -> float:
     """The eta of a ray that enters glass."""
     return f32(1 / index_of_glass(draw))
 
@@ -30,7 +30,7 @@ def _sine(eta: float, cosine: float) -> float:
     return eta * math.sqrt(1 - min(1.0, cosine * cosine))
 
 
-def directions(draw: Draw, eta: float, *, total: bool) -> tuple[Vector, Vector]:
+def directions(draw: RandomSource, eta: float, *, total: bool) -> tuple[Vector, Vector]:
     """Ray and normal, on this or that side of the critical angle."""
 
     def make() -> tuple[Vector, Vector]:
@@ -44,20 +44,20 @@ def directions(draw: Draw, eta: float, *, total: bool) -> tuple[Vector, Vector]:
     return draw.until(clear, make)
 
 
-def hit_on_glass(draw: Draw, index: float, *, outside: bool, total: bool = False) -> Hit:
+def hit_on_glass(draw: RandomSource, index: float, *, outside: bool, total: bool = False) -> Hit:
     eta = (1 / index if outside else index) if index > 0 else 1.0
     ray, normal = directions(draw, eta, total=total)
     fill = replace(draw.fill(), transmittance=draw.real(0.2, 1.0), index=index)
     return Hit(draw.point(3), normal, ray, draw.real(1, 9), fill, outside)
 
 
-def any_hit(draw: Draw) -> Hit:
+def any_hit(draw: RandomSource) -> Hit:
     if draw.chance(0.2):
         return hit_on_glass(draw, index_of_glass(draw), outside=False, total=True)
     return hit_on_glass(draw, index_of_glass(draw), outside=draw.chance(0.5))
 
 
-def simple_hit(draw: Draw) -> Hit:
+def simple_hit(draw: RandomSource) -> Hit:
     """Straight down into or out of glass of index 1.5."""
     normal = draw.axis()
     fill = Fill(transmittance=0.5, index=1.5)
@@ -74,10 +74,10 @@ class _Refracted:
     direction: Vector | None
 
 
-def _read_refracted(tokens: Tokens) -> _Refracted:
+def _read_refracted(tokens: TokenReader) -> _Refracted:
     word = tokens.word()
     if word not in ("none", "direction"):
-        raise Garbled("the answer is neither a direction nor nothing")
+        raise ProtocolError("the answer is neither a direction nor nothing")
     return _Refracted(tokens.vector() if word == "direction" else None)
 
 
@@ -93,24 +93,24 @@ def _refracted_problem(_inputs: Inputs, expected: _Refracted, actual: _Refracted
     return direction("the direction", expected.direction, actual.direction)
 
 
-def _refract(draw: Draw, eta: float, *, total: bool = False) -> Inputs:
+def _refract(draw: RandomSource, eta: float, *, total: bool = False) -> Inputs:
     ray, normal = directions(draw, eta, total=total)
     return {"direction": Vec(ray), "normal": Vec(normal), "eta": Real(eta)}
 
 
-def _any_refract(draw: Draw) -> Inputs:
+def _any_refract(draw: RandomSource) -> Inputs:
     if draw.chance(0.2):
         return _refract(draw, index_of_glass(draw), total=True)
     return _refract(draw, into(draw) if draw.chance(0.5) else index_of_glass(draw))
 
 
-def _straight(draw: Draw) -> Inputs:
+def _straight(draw: RandomSource) -> Inputs:
     normal = draw.axis()
     eta = (f32(1 / 1.5), 1.0, 1.5)[draw.whole(0, 2)]
     return {"direction": Vec(times(-1.0, normal)), "normal": Vec(normal), "eta": Real(eta)}
 
 
-def _close_to_critical(draw: Draw) -> Inputs:
+def _close_to_critical(draw: RandomSource) -> Inputs:
     """Out of glass, a little before total reflection or beyond it."""
     eta, normal = index_of_glass(draw), draw.direction()
     sine = (draw.fine(0.97, 0.985) if draw.chance(0.5) else draw.fine(1.015, 1.03)) / eta
@@ -122,14 +122,14 @@ def _close_to_critical(draw: Draw) -> Inputs:
     }
 
 
-def _head_on(draw: Draw) -> Inputs:
+def _head_on(draw: RandomSource) -> Inputs:
     """1 - cos^2 is 0, or by rounding a little less."""
     normal = draw.direction()
     eta = into(draw) if draw.chance(0.5) else index_of_glass(draw)
     return {"direction": Vec(times(-1.0, normal)), "normal": Vec(normal), "eta": Real(eta)}
 
 
-def _grazing(draw: Draw) -> Inputs:
+def _grazing(draw: RandomSource) -> Inputs:
     """Into glass, almost along its surface."""
     normal = draw.direction()
     direction = rounded(times(-1.0, draw.above(normal, 0.02, 0.08)))
@@ -167,7 +167,7 @@ class _Brought:
     traced: tuple[tuple[Ray, int], ...]
 
 
-def _read_brought(tokens: Tokens) -> _Brought:
+def _read_brought(tokens: TokenReader) -> _Brought:
     color = tokens.vector()
     count = tokens.whole(0, MOST_ASKED)
     return _Brought(
@@ -202,18 +202,18 @@ def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> st
     return first(*problems, channels("the colour", expected.color, actual.color))
 
 
-def _light(draw: Draw, hit: Hit) -> Inputs:
+def _light(draw: RandomSource, hit: Hit) -> Inputs:
     return {"hit": hit, "depth": Whole(draw.whole(1, 6)), "traced": Vec(draw.color())}
 
 
-def _faint(draw: Draw) -> Inputs:
+def _faint(draw: RandomSource) -> Inputs:
     """Any transmittance above 0 lets light through, and 1 all of it."""
     hit = any_hit(draw)
     share = draw.real(0.001, 0.01) if draw.chance(0.5) else 1.0
     return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=share)))
 
 
-def _not_glass(draw: Draw) -> Inputs:
+def _not_glass(draw: RandomSource) -> Inputs:
     hit = any_hit(draw)
     return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=0.0)))
 
@@ -235,7 +235,7 @@ TRANSMITTED_LIGHT = Function(
 )
 
 
-def _unbent(draw: Draw, index: float) -> Inputs:
+def _unbent(draw: RandomSource, index: float) -> Inputs:
     return {"hit": hit_on_glass(draw, index, outside=draw.chance(0.5))}
 
 

@@ -6,8 +6,8 @@ from raysteps.judge.compare import Answer
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import SHADOW_RAY
 from raysteps.judge.numbers import Vector, add, cross, length, minus, rounded, times, unit
-from raysteps.judge.protocol import Hit, Inputs, Light, Tokens
-from raysteps.judge.random_source import Draw, next_axis
+from raysteps.judge.protocol import Hit, Inputs, Light, TokenReader
+from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
 # Cases of step 04: hits, lights, and things in the way of a light or beside it.
@@ -17,11 +17,11 @@ def hit_at(position: Vector, normal: Vector) -> Hit:
     return Hit(rounded(position), rounded(normal), rounded(times(-1.0, normal)))
 
 
-def any_hit(draw: Draw, reach: float = 3.0) -> Hit:
+def any_hit(draw: RandomSource, reach: float = 3.0) -> Hit:
     return hit_at(draw.point(reach), draw.direction())
 
 
-def light_above(draw: Draw, hit: Hit, near: float, far: float) -> Light:
+def light_above(draw: RandomSource, hit: Hit, near: float, far: float) -> Light:
     return Light(rounded(add(hit.position, draw.above(hit.normal, 0.25, 1.0), draw.real(near, far))))
 
 
@@ -29,17 +29,17 @@ def scene(surfaces: list[Surface], hit: Hit, light: Light) -> Inputs:
     return {"surfaces": Surfaces(tuple(surfaces)), "hit": hit, "light": light}
 
 
-def _between(draw: Draw, hit: Hit, light: Light, low: float, high: float) -> Vector:
+def _between(draw: RandomSource, hit: Hit, light: Light, low: float, high: float) -> Vector:
     """A point on the way to the light."""
     return add(hit.position, minus(light.position, hit.position), draw.real(low, high))
 
 
-def sideways(draw: Draw, hit: Hit, light: Light) -> Vector:
+def sideways(draw: RandomSource, hit: Hit, light: Light) -> Vector:
     way = unit(minus(light.position, hit.position))
     return unit(cross(way, draw.across(way)))
 
 
-def ball(draw: Draw, hit: Hit, light: Light, *, blocks: bool) -> Sphere:
+def ball(draw: RandomSource, hit: Hit, light: Light, *, blocks: bool) -> Sphere:
     """In the way of the light, or clearly beside it."""
     gap = length(minus(light.position, hit.position))
     radius = draw.real(0.1, 0.3) * gap
@@ -48,7 +48,7 @@ def ball(draw: Draw, hit: Hit, light: Light, *, blocks: bool) -> Sphere:
     return Sphere(rounded(place), radius)
 
 
-def _board(draw: Draw, hit: Hit, light: Light, *, blocks: bool) -> Triangle:
+def _board(draw: RandomSource, hit: Hit, light: Light, *, blocks: bool) -> Triangle:
     """Around a point on the way, or clearly beside it."""
     gap = length(minus(light.position, hit.position))
     way = unit(minus(light.position, hit.position))
@@ -66,7 +66,7 @@ def _board(draw: Draw, hit: Hit, light: Light, *, blocks: bool) -> Triangle:
     return Triangle(rounded(tilted[0]), rounded(tilted[1]), rounded(tilted[2]))
 
 
-def several(draw: Draw, hit: Hit, light: Light, *, blocked: bool) -> list[Surface]:
+def several(draw: RandomSource, hit: Hit, light: Light, *, blocked: bool) -> list[Surface]:
     """Several beside the way, and one in it where the light is blocked."""
     things: list[Surface] = []
     for _ in range(draw.whole(1, 3)):
@@ -81,7 +81,7 @@ def several(draw: Draw, hit: Hit, light: Light, *, blocked: bool) -> list[Surfac
 # Cases of step 04: things close to one of the two ends of a shadow ray.
 
 
-def pebble(draw: Draw) -> Inputs:
+def pebble(draw: RandomSource) -> Inputs:
     """Little, and close to the surface: a threshold of its height would lose it."""
     hit = any_hit(draw)
     light = Light(rounded(add(hit.position, draw.above(hit.normal, 0.97, 1.0), draw.real(5, 15))))
@@ -89,7 +89,7 @@ def pebble(draw: Draw) -> Inputs:
     return scene([Sphere(rounded(add(hit.position, way, draw.real(0.05, 0.08))), 0.02)], hit, light)
 
 
-def other_side(draw: Draw) -> Inputs:
+def other_side(draw: RandomSource) -> Inputs:
     """Behind the surface of the hit, opposite to the light."""
     hit = any_hit(draw)
     light = light_above(draw, hit, 2, 10)
@@ -98,7 +98,7 @@ def other_side(draw: Draw) -> Inputs:
     return scene([Sphere(rounded(add(hit.position, way, -radius - draw.real(0.2, 3))), radius)], hit, light)
 
 
-def behind_light(draw: Draw) -> Inputs:
+def behind_light(draw: RandomSource) -> Inputs:
     """On the way, but beyond the light."""
     hit = any_hit(draw)
     light = light_above(draw, hit, 2, 10)
@@ -108,7 +108,7 @@ def behind_light(draw: Draw) -> Inputs:
     return scene([Sphere(rounded(add(hit.position, way, distance)), radius)], hit, light)
 
 
-def before_light(draw: Draw) -> Inputs:
+def before_light(draw: RandomSource) -> Inputs:
     """Ends close before the light, or begins close behind it."""
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 12)
@@ -118,7 +118,7 @@ def before_light(draw: Draw) -> Inputs:
     return scene([Sphere(rounded(add(light.position, way, gap)), radius)], hit, light)
 
 
-def light_in_shell(draw: Draw) -> Inputs:
+def light_in_shell(draw: RandomSource) -> Inputs:
     """A ball around the light is in its way."""
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 12)
@@ -129,7 +129,7 @@ def light_in_shell(draw: Draw) -> Inputs:
 # Cases of step 04: does the surface that a hit lies on hide the light?
 
 
-def own_ball(draw: Draw) -> Inputs:
+def own_ball(draw: RandomSource) -> Inputs:
     """The hit lies on the ball up to float's rounding, a little above or below."""
     center = add((50.0, -40.0, 30.0), draw.point(5))
     ball = Sphere(rounded(center), draw.real(0.5, 4))
@@ -138,7 +138,7 @@ def own_ball(draw: Draw) -> Inputs:
     return scene([ball], hit, light_above(draw, hit, 8, 20))
 
 
-def own_triangle(draw: Draw) -> Inputs:
+def own_triangle(draw: RandomSource) -> Inputs:
     shape, place = draw.triangle(8.0), (60.0, -50.0, 40.0)
     floor = Triangle(rounded(add(place, shape.a)), rounded(add(place, shape.b)), rounded(add(place, shape.c)))
     edges = minus(floor.b, floor.a), minus(floor.c, floor.a)
@@ -148,7 +148,7 @@ def own_triangle(draw: Draw) -> Inputs:
     return scene([floor], hit, light_above(draw, hit, 8, 20))
 
 
-def hollow_ball(draw: Draw) -> Inputs:
+def hollow_ball(draw: RandomSource) -> Inputs:
     """The hit is on the wall, seen from inside; the light is inside as well, or outside."""
     room = Sphere(draw.simple_point(3), draw.real(4, 8))
     outward = draw.direction()
@@ -159,7 +159,7 @@ def hollow_ball(draw: Draw) -> Inputs:
     return scene([room], hit, Light(rounded(add(room.center, way, reach * room.radius))))
 
 
-def low_light(draw: Draw) -> Inputs:
+def low_light(draw: RandomSource) -> Inputs:
     """Near the horizon of the ball that the hit is on; nothing is in the way."""
     ball = Sphere(draw.simple_point(2), draw.real(1, 3))
     normal = draw.direction()
@@ -189,20 +189,20 @@ def _lit_problem(_inputs: Inputs, expected: _Lit, actual: _Lit) -> str:
     return "a light that is seen counts as hidden" if expected.lit else "a light that is hidden counts as seen"
 
 
-def _read_lit(tokens: Tokens) -> _Lit:
+def _read_lit(tokens: TokenReader) -> _Lit:
     return _Lit(tokens.flag(), tokens.whole())
 
 
 _LIT = Answer(_read_lit, _lit_words, _lit_problem)
 
 
-def _lit_or_not(draw: Draw) -> Inputs:
+def _lit_or_not(draw: RandomSource) -> Inputs:
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 30)
     return scene(several(draw, hit, light, blocked=draw.chance(0.3)), hit, light)
 
 
-def _simple_scene(draw: Draw) -> Inputs:
+def _simple_scene(draw: RandomSource) -> Inputs:
     """A ball above the hit; the light over it or to the side of it."""
     normal = draw.axis()
     hit = hit_at((0.0, 0.0, 0.0), normal)
@@ -211,27 +211,27 @@ def _simple_scene(draw: Draw) -> Inputs:
     return scene([Sphere(times(5.0, normal), 1.0)], hit, Light(light))
 
 
-def _blocked(draw: Draw) -> Inputs:
+def _blocked(draw: RandomSource) -> Inputs:
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 30)
     return scene(several(draw, hit, light, blocked=True), hit, light)
 
 
-def _glass(draw: Draw) -> Inputs:
+def _glass(draw: RandomSource) -> Inputs:
     """A ball of glass in the way: it blocks as any other."""
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 30)
     return scene([replace(ball(draw, hit, light, blocks=True), glass=True)], hit, light)
 
 
-def _nothing_between(draw: Draw) -> Inputs:
+def _nothing_between(draw: RandomSource) -> Inputs:
     hit = any_hit(draw)
     light = light_above(draw, hit, 4, 30)
     things = several(draw, hit, light, blocked=False) if draw.chance(0.7) else []
     return scene(things, hit, light)
 
 
-def _far_light(draw: Draw) -> Inputs:
+def _far_light(draw: RandomSource) -> Inputs:
     hit = any_hit(draw)
     light = light_above(draw, hit, 1e3, 1e4)
     way = unit(minus(light.position, hit.position))
@@ -265,34 +265,34 @@ IS_LIT = Function(
 )
 
 
-def _ray_case(draw: Draw, hit: Hit, near: float = 2.0, far: float = 30.0) -> Inputs:
+def _ray_case(draw: RandomSource, hit: Hit, near: float = 2.0, far: float = 30.0) -> Inputs:
     return {"hit": hit, "light": light_above(draw, hit, near, far)}
 
 
-def _simple_ray(draw: Draw) -> Inputs:
+def _simple_ray(draw: RandomSource) -> Inputs:
     hit = hit_at(draw.simple_point(3), draw.axis())
     side = next_axis(hit.normal)
     across, up = (0.0, 5.0) if draw.chance(0.5) else (3.0, 4.0)
     return {"hit": hit, "light": Light(add(add(hit.position, hit.normal, up), side, across))}
 
 
-def _light_behind(draw: Draw) -> Inputs:
+def _light_behind(draw: RandomSource) -> Inputs:
     """The ray runs through the surface, and starts on the normal's side of it all the same."""
     hit = any_hit(draw)
     way = draw.above(hit.normal, -1.0, -0.25)
     return {"hit": hit, "light": Light(rounded(add(hit.position, way, draw.real(2, 30))))}
 
 
-def _far_from_origin(draw: Draw) -> Inputs:
+def _far_from_origin(draw: RandomSource) -> Inputs:
     return _ray_case(draw, hit_at(add((100.0, 100.0, 100.0), draw.point(3)), draw.direction()))
 
 
-def _near_or_far(draw: Draw) -> Inputs:
+def _near_or_far(draw: RandomSource) -> Inputs:
     hit = any_hit(draw, 1.0)
     return _ray_case(draw, hit, 0.1, 0.3) if draw.chance(0.5) else _ray_case(draw, hit, 1e3, 1e4)
 
 
-def _low_light(draw: Draw) -> Inputs:
+def _low_light(draw: RandomSource) -> Inputs:
     hit = any_hit(draw)
     return {"hit": hit, "light": Light(rounded(add(hit.position, draw.above(hit.normal, 0.03, 0.1), draw.real(2, 30))))}
 

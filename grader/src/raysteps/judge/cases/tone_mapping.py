@@ -14,7 +14,7 @@ from raysteps.judge.compare import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, f32
 from raysteps.judge.protocol import Inputs, Real, Vec
-from raysteps.judge.random_source import Draw
+from raysteps.judge.random_source import RandomSource
 
 _CLOSE = Tolerance(1e-5, 1e-4)
 _COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colour", e, a, _CLOSE))
@@ -24,7 +24,7 @@ def _byte_problem(_inputs: Inputs, expected: int, actual: int) -> str:
     return "" if expected == actual else "the byte is wrong"
 
 
-def _one_of(draw: Draw, odd: tuple[float, ...]) -> Vector:
+def _one_of(draw: RandomSource, odd: tuple[float, ...]) -> Vector:
     """One or more channels are odd, the others ordinary."""
     channel = draw.whole(0, 2)
     picked = [
@@ -37,12 +37,12 @@ def _color(value: Vector) -> Inputs:
     return {"color": Vec(value)}
 
 
-def _known(draw: Draw) -> Inputs:
+def _known(draw: RandomSource) -> Inputs:
     values = (0.0, 0.25, 1.0, 3.0, 9.0)
     return _color(_each_one_of(draw, values))
 
 
-def _each_one_of(draw: Draw, values: tuple[float, ...]) -> Vector:
+def _each_one_of(draw: RandomSource, values: tuple[float, ...]) -> Vector:
     """Each channel one of the values, not all 0."""
 
     def one() -> float:
@@ -55,7 +55,7 @@ _INFINITE = (math.inf,)
 _NO_COLOR = (-1.0, -0.5, -100.0, -math.inf, math.nan, -0.0)
 
 
-def _channel(draw: Draw) -> float:
+def _channel(draw: RandomSource) -> float:
     """Well away from the border between two bytes."""
     return f32((draw.whole(1, 254) + draw.real(-0.4, 0.4)) / 255)
 
@@ -64,24 +64,24 @@ def _byte(value: float) -> Inputs:
     return {"channel": Real(value)}
 
 
-def _simple_byte(draw: Draw) -> Inputs:
+def _simple_byte(draw: RandomSource) -> Inputs:
     return _byte((0.2, 0.25, 0.4, 0.6, 0.75, 0.8)[draw.whole(0, 5)])
 
 
-def _rounded_up(draw: Draw) -> Inputs:
+def _rounded_up(draw: RandomSource) -> Inputs:
     """Nearer to the next byte: cutting off gives one too few."""
     return _byte(f32((draw.whole(1, 254) - draw.real(0.1, 0.4)) / 255))
 
 
-def _odd_byte(draw: Draw) -> Inputs:
+def _odd_byte(draw: RandomSource) -> Inputs:
     return _byte((*_NO_COLOR, f32(-1e30))[draw.whole(0, 6)])
 
 
-def _bright_byte(draw: Draw) -> Inputs:
+def _bright_byte(draw: RandomSource) -> Inputs:
     return _byte((1.0, f32(1.1), 2.0, 300.0, f32(1e30), math.inf)[draw.whole(0, 5)])
 
 
-def _beside_step(draw: Draw) -> Inputs:
+def _beside_step(draw: RandomSource) -> Inputs:
     """A little below or above the border between two bytes."""
     return _byte(f32((draw.whole(0, 254) + 0.5 + draw.sign() * draw.real(0.02, 0.05)) / 255))
 

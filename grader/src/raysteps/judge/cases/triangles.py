@@ -4,7 +4,7 @@ from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import HIT
 from raysteps.judge.numbers import Vector, add, cross, minus, rounded, times, unit
 from raysteps.judge.protocol import Inputs, Ray
-from raysteps.judge.random_source import Draw, with_zeros
+from raysteps.judge.random_source import RandomSource, with_zeros
 from raysteps.judge.surfaces import Triangle
 
 # Cases of step 02: rays that are aimed at a triangle or beside it.
@@ -12,7 +12,7 @@ from raysteps.judge.surfaces import Triangle
 _STEEP = 0.2  # least cosine between ray and normal: seen edge-on, rounding may decide
 
 
-def case(t: Triangle, ray: Ray, draw: Draw) -> Inputs:
+def case(t: Triangle, ray: Ray, draw: RandomSource) -> Inputs:
     return {"triangle": Triangle(t.a, t.b, t.c, draw.fill()), "ray": ray}
 
 
@@ -20,20 +20,20 @@ def normal_of(t: Triangle) -> Vector:
     return unit(cross(minus(t.b, t.a), minus(t.c, t.a)))
 
 
-def inside(draw: Draw, t: Triangle) -> Vector:
+def inside(draw: RandomSource, t: Triangle) -> Vector:
     """Well within the edges."""
     u = draw.real(0.08, 0.8)
     return t.at(u, draw.real(0.08, 0.92 - u))
 
 
-def beside(draw: Draw, t: Triangle) -> Vector:
+def beside(draw: RandomSource, t: Triangle) -> Vector:
     """A little outside of one edge, between its ends."""
     out, along = -draw.real(0.05, 0.3), draw.real(0.1, 0.9)
     corners = [(out, along), (along, out), (along - out, 1 - along)]
     return t.at(*corners[draw.whole(0, 2)])
 
 
-def towards(draw: Draw, t: Triangle, point: Vector, side: float, distance: float) -> Ray:
+def towards(draw: RandomSource, t: Triangle, point: Vector, side: float, distance: float) -> Ray:
     """Comes from the triangle's front (side 1) or back (side -1)."""
     direction = times(-1.0, draw.above(times(side, normal_of(t)), _STEEP))
     return Ray(rounded(add(point, direction, -distance)), rounded(direction))
@@ -42,7 +42,7 @@ def towards(draw: Draw, t: Triangle, point: Vector, side: float, distance: float
 # Cases of step 02: triangles in planes of the axes, where all numbers are exact.
 
 
-def _flat_triangle(draw: Draw, legs: tuple[int, ...] = (1, 2, 3, 4)) -> tuple[Triangle, int]:
+def _flat_triangle(draw: RandomSource, legs: tuple[int, ...] = (1, 2, 3, 4)) -> tuple[Triangle, int]:
     """In a plane of two axes, with a right angle between two of these legs; and the number of the third axis."""
     axis, corner = draw.whole(0, 2), draw.simple_point(4)
     sizes = [draw.sign() * legs[draw.whole(0, len(legs) - 1)] for _ in range(2)]
@@ -59,13 +59,13 @@ def _along_axis(axis: int, sign: float) -> Vector:
     return (sign * (axis == 0) + 0.0, sign * (axis == 1) + 0.0, sign * (axis == 2) + 0.0)
 
 
-def simple_triangle(draw: Draw) -> Inputs:
+def simple_triangle(draw: RandomSource) -> Inputs:
     t, axis = _flat_triangle(draw)
     direction = _along_axis(axis, draw.sign())
     return case(t, Ray(add(t.at(0.25, 0.375), direction, -float(draw.whole(1, 6))), direction), draw)
 
 
-def in_plane(draw: Draw) -> Inputs:
+def in_plane(draw: RandomSource) -> Inputs:
     """Along the plane, in it or beside it: numbers for which n . d is exactly 0."""
     t, axis = _flat_triangle(draw)
     along = _along_axis((axis + 1) % 3, draw.sign())
@@ -73,12 +73,12 @@ def in_plane(draw: Draw) -> Inputs:
     return case(t, Ray(add(add(t.at(0.25, 0.375), along, -8.0), beside), along), draw)
 
 
-def on_triangle(draw: Draw) -> Inputs:
+def on_triangle(draw: RandomSource) -> Inputs:
     t, axis = _flat_triangle(draw)
     return case(t, Ray(t.at(0.25, 0.375), _along_axis(axis, draw.sign())), draw)
 
 
-def on_edge(draw: Draw) -> Inputs:
+def on_edge(draw: RandomSource) -> Inputs:
     """Exactly through an edge, and not near a corner. Every term is exact, so all methods must agree: a hit."""
     t, axis = _flat_triangle(draw, legs=(1, 2, 4))
     share = draw.whole(1, 3) / 4
@@ -88,7 +88,7 @@ def on_edge(draw: Draw) -> Inputs:
     return case(t, Ray(add(point, direction, -float(draw.whole(1, 6))), direction), draw)
 
 
-def signed_zeros(draw: Draw) -> Inputs:
+def signed_zeros(draw: RandomSource) -> Inputs:
     """Straight at it or past it, along an axis; the zeros of the direction have either sign."""
     t, axis = _flat_triangle(draw)
     u, v = ((0.25, 0.375), (0.5, 0.25), (0.75, 0.75), (-0.25, 0.5))[draw.whole(0, 3)]
@@ -97,35 +97,35 @@ def signed_zeros(draw: Draw) -> Inputs:
     return case(t, Ray(add(t.at(u, v), direction, -distance), direction), draw)
 
 
-def _at_edge(draw: Draw, t: Triangle) -> Vector:
+def _at_edge(draw: RandomSource, t: Triangle) -> Vector:
     """Within an edge or beyond it, by a little that float can tell; or so beside a corner."""
     off, along = draw.real(0.005, 0.02) * draw.sign(), draw.real(0.1, 0.8)
     points = [(off, along), (along, off), (along, 1 - along - off), (-abs(off), -abs(off)), (abs(off), abs(off))]
     return t.at(*points[draw.whole(0, 4)])
 
 
-def _any_triangle(draw: Draw) -> Inputs:
+def _any_triangle(draw: RandomSource) -> Inputs:
     t = draw.triangle()
     point = inside(draw, t) if draw.chance(0.7) else beside(draw, t)
     return case(t, towards(draw, t, point, draw.sign(), draw.real(1, 10)), draw)
 
 
-def _from_side(draw: Draw, side: float) -> Inputs:
+def _from_side(draw: RandomSource, side: float) -> Inputs:
     t = draw.triangle()
     return case(t, towards(draw, t, inside(draw, t), side, draw.real(1, 10)), draw)
 
 
-def _beside_edge(draw: Draw) -> Inputs:
+def _beside_edge(draw: RandomSource) -> Inputs:
     t = draw.triangle()
     return case(t, towards(draw, t, beside(draw, t), draw.sign(), draw.real(1, 10)), draw)
 
 
-def _triangle_behind(draw: Draw) -> Inputs:
+def _triangle_behind(draw: RandomSource) -> Inputs:
     t = draw.triangle()
     return case(t, towards(draw, t, inside(draw, t), draw.sign(), -draw.real(0.5, 10)), draw)
 
 
-def _small_triangle(draw: Draw) -> Inputs:
+def _small_triangle(draw: RandomSource) -> Inputs:
     """Its area is tiny, and nothing else about it is: who compares it with a small number loses it."""
     t, place = draw.triangle(), draw.point(3)
     a, b, c = (rounded(add(place, corner, 0.005)) for corner in (t.a, t.b, t.c))
@@ -133,12 +133,12 @@ def _small_triangle(draw: Draw) -> Inputs:
     return case(t, towards(draw, t, inside(draw, t), draw.sign(), draw.real(1, 4)), draw)
 
 
-def _close_to_edge(draw: Draw) -> Inputs:
+def _close_to_edge(draw: RandomSource) -> Inputs:
     t = draw.triangle()
     return case(t, towards(draw, t, _at_edge(draw, t), draw.sign(), draw.real(1, 5)), draw)
 
 
-def _sliver(draw: Draw) -> Inputs:
+def _sliver(draw: RandomSource) -> Inputs:
     """Long and thin, hit well within or missed beside its long edge."""
     a, along = draw.point(2), draw.direction()
     side = unit(cross(along, draw.across(along)))
@@ -149,20 +149,20 @@ def _sliver(draw: Draw) -> Inputs:
     return case(t, towards(draw, t, t.at(u, v), draw.sign(), draw.real(1, 5)), draw)
 
 
-def _grazing(draw: Draw) -> Inputs:
+def _grazing(draw: RandomSource) -> Inputs:
     t, side = draw.triangle(), draw.sign()
     direction = times(-1.0, draw.above(times(side, normal_of(t)), 0.02, 0.08))
     return case(t, Ray(rounded(add(inside(draw, t), direction, -draw.real(1, 5))), rounded(direction)), draw)
 
 
-def _close_origin(draw: Draw) -> Inputs:
+def _close_origin(draw: RandomSource) -> Inputs:
     """Just before the triangle, or just behind it."""
     t = draw.triangle(2.0)
     distance = draw.real(0.02, 0.08) * draw.sign()
     return case(t, towards(draw, t, inside(draw, t), draw.sign(), distance), draw)
 
 
-def _tiny_or_huge(draw: Draw) -> Inputs:
+def _tiny_or_huge(draw: RandomSource) -> Inputs:
     shape, tiny = draw.triangle(4.0), draw.chance(0.5)
     factor, place = (draw.real(0.006, 0.02), draw.point(0.5)) if tiny else (draw.real(50, 500), draw.point(20))
     a, b, c = (rounded(add(place, corner, factor)) for corner in (shape.a, shape.b, shape.c))
