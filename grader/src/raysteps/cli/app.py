@@ -3,13 +3,13 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
 from typing import Literal
 
-from raysteps.cli.errors import EXITS, console_here, ended
+from raysteps.cli.errors import EXITS, console_here, exit_code_of
 from raysteps.course.project import Project, here
 
 Kit = Literal["any", "whole", "students"]
@@ -92,23 +92,22 @@ def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentPa
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs one command and returns its exit code."""
+    """Runs one command and returns its exit code; without words it prints the help."""
     project = here()
     words = list(sys.argv[1:] if argv is None else argv)
     command = next((one for one in _commands(project) if words[:1] == [one.name]), None)
-
-    def parser() -> argparse.ArgumentParser:
-        return new_parser(project, command.name if command is not None else "")
-
-    def started(words: Sequence[str]) -> int:
-        if command is not None:
-            module = _module(project, command)
-            run_words: Callable[[Project, list[str]], int] | None = getattr(module, "run_words", None)
-            if run_words is not None:  # what follows is for a program, and not read here
-                return run_words(project, list(words[1:]))
-        arguments = parser().parse_args(words)
-        assert command is not None, "the parser lets no other word pass"
-        code: int = _module(project, command).run(project, arguments, console_here())
+    try:
+        if command is None:
+            parser = new_parser(project, "")
+            if words:
+                parser.parse_args(words)  # which says what is wrong with them, or prints the help
+            parser.print_help(sys.stderr)
+            return 2
+        module = _module(project, command)
+        if hasattr(module, "run_words"):  # what follows is for a program, and not read here
+            code: int = module.run_words(project, words[1:])
+        else:
+            code = module.run(project, new_parser(project, command.name).parse_args(words), console_here())
         return code
-
-    return ended(started, parser, words)
+    except BaseException as error:
+        return exit_code_of(error)

@@ -1,9 +1,7 @@
 """How a command ends: with what exit code, and with what words when something went wrong."""
 
-import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
 
 from rich.console import Console
 
@@ -19,24 +17,16 @@ def console_here() -> Console:
     return Console() if sys.stdout.isatty() else Console(width=_NO_TERMINAL)
 
 
-def ended(
-    run: Callable[[Sequence[str]], int], parser: Callable[[], argparse.ArgumentParser], words: Sequence[str]
-) -> int:
-    """Runs what the words of the command line ask for; without words it prints the help."""
-    if not words:
-        parser().print_help(sys.stderr)
-        return 2
-    try:
-        return run(words)
-    except RaystepsError as error:
+def exit_code_of(error: BaseException) -> int:
+    """Says what went wrong; SystemExit and the like are none of its business, and with RAYSTEPS_DEBUG no fault is."""
+    if isinstance(error, RaystepsError):
         print(f"raysteps: {error}", file=sys.stderr)
         return error.exit_code
-    except KeyboardInterrupt:
+    if isinstance(error, KeyboardInterrupt):
         print("raysteps: interrupted", file=sys.stderr)
         return 130
-    except Exception:
-        if os.environ.get("RAYSTEPS_DEBUG"):
-            raise
-        Console(stderr=True).print_exception(max_frames=4)
-        print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
-        return 4
+    if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):
+        raise error
+    Console(stderr=True).print_exception(max_frames=4)
+    print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
+    return 4

@@ -11,10 +11,10 @@ from raysteps.course.manifest import Step
 from raysteps.grading.hidden import HiddenStepGrader
 from raysteps.grading.options import Settings, withhold
 from raysteps.grading.scoring import is_right
-from raysteps.grading.self_check import AccountingSandbox
-from raysteps.grading.step import GradingContext, StepGrader, compile_steps
-from raysteps.results.model import Results, StepResult, Timing
+from raysteps.grading.step import GradingContext, compile_steps
+from raysteps.results.model import Results, Timing
 from raysteps.results.store import write_document
+from raysteps.sandbox.accounting import AccountingSandbox
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -43,14 +43,10 @@ def grade_submission(
             say("building the steps")
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
-            def grade(grader: StepGrader) -> StepResult:
-                say(f"checking {grader.step.id}")
-                return grader.grade()
-
             graders = [
                 HiddenStepGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
             ]
-            right = {result.id for result in pool.map(grade, graders) if is_right(result)}
+            right = {result.id for result in pool.map(HiddenStepGrader.grade, graders) if is_right(result)}
             steps = list(pool.map(lambda grader: grader.finish(right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)

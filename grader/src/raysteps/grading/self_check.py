@@ -1,7 +1,6 @@
 """Checks steps in a students' kit: visible tests and pictures, with the student's own steps before each."""
 
 import tempfile
-import threading
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -16,7 +15,8 @@ from raysteps.grading.step import GradingContext, StepGrader, compile_steps
 from raysteps.images.render import reference_image_path
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_document
-from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
+from raysteps.sandbox.accounting import AccountingSandbox
+from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
@@ -49,38 +49,6 @@ class SelfCheckGrader(StepGrader):
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
-
-
-# A sandbox that adds up what its tasks cost, and tells of limits in round numbers.
-
-
-def _as_limited(ran: TaskResult, limits: Limits) -> TaskResult:
-    """A task that was stopped took as long as it may, however late the grader looked: so the same submission always
-    gets the same words."""
-    if ran.stopped not in ("wall", "cpu"):
-        return ran
-    seconds = limits.wall_seconds if ran.stopped == "wall" else limits.cpu_seconds
-    return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
-
-
-class AccountingSandbox:
-    """Hands each task on and keeps the sum of processor seconds. Safe for several threads."""
-
-    def __init__(self, sandbox: Sandbox) -> None:
-        self._sandbox = sandbox
-        self._lock = threading.Lock()
-        self.cpu_seconds = 0.0
-
-    @property
-    def isolation(self) -> Isolation:
-        return self._sandbox.isolation
-
-    def run(self, task: Task) -> TaskResult:
-        """Runs the task in the sandbox."""
-        ran = self._sandbox.run(task)
-        with self._lock:
-            self.cpu_seconds += ran.cpu_seconds
-        return _as_limited(ran, task.limits)
 
 
 _TROUBLE = {
@@ -116,10 +84,8 @@ def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Seque
         compiled = compile_steps(work, list(steps), pool, {})
 
         def check(step: Step) -> StepResult:
-            shown = step in chosen
-            if shown:
-                work.say(f"checking {step.id}")
-            here = work if shown else replace(work, out=work.folder / "unseen")
+            unseen = replace(work, out=work.folder / "unseen", say=lambda text: None)
+            here = work if step in chosen else unseen
             return SelfCheckGrader(here, step, limits_of(step, {}), compiled).check()
 
         found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))

@@ -73,6 +73,7 @@ class StepGrader:
     def grade(self) -> StepResult:
         """What goes wrong in the student's code is a result; only the kit's own trouble is raised."""
         step, result = self.step, self._result
+        self._work.say(f"checking {step.id}")
         source = self._work.source(step)
         if source is None:
             handed_in = step.id in self._work.submission.sources
