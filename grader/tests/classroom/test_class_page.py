@@ -1,0 +1,168 @@
+"""Figures of a class, who needs a look, and where the page comes from."""
+
+import json
+import shutil
+from pathlib import Path
+
+import class_fakes
+import pytest
+from class_documents import STEPS, document, missing, result, student, submission
+from class_fakes import grade_class, write_entry
+
+from raysteps.classroom.class_files import class_source, remake_class_page
+from raysteps.common.errors import UsageError
+from raysteps.report.class_attention import common_mistakes, groups, marks
+from raysteps.report.class_page import aliases, class_page, table_rows
+from raysteps.report.class_statistics import divided, histogram, share_bars, span, step_figures, times, total_bars
+
+_FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
+
+
+def test_the_figures_of_a_step_leave_out_what_was_not_graded() -> None:
+    facts = document(
+        [
+            submission("ann", {_FIRST: result(10, 10)}),
+            submission("bob", {_FIRST: result(4, 10)}),
+            submission("cid", {_FIRST: result(1, 10)}),
+            missing("dot", "unreadable", points=0, final=0),
+            missing("eve", "fault", fault="oops"),
+        ]
+    )
+    first, second = step_figures(facts)[:2]
+    assert (first.mean, first.median, first.passed, first.graded) == (5, 4, 1, 3)
+    assert (second.mean, second.median, second.graded) == (None, None, 0)
+
+
+def test_every_total_falls_into_one_column() -> None:
+    bars = total_bars([0, 9.99, 10, 55, 119.5, 120], 120)
+    assert {bar.words: bar.count for bar in bars if bar.count} == {
+        "0 to under 10": 2,
+        "10 to under 20": 1,
+        "50 to under 60": 1,
+        "110 to 120": 2,
+    }
+    assert sum(bar.count for bar in total_bars([250.0], 120)) == 1
+
+
+def test_none_and_all_of_the_points_have_columns_of_their_own() -> None:
+    assert [bar.count for bar in share_bars([0, 0.1, 2.5, 2.6, 9.9, 10, 10], 10)] == [1, 2, 1, 0, 1, 2]
+
+
+def test_a_histogram_is_told_in_words_and_stays_within_its_drawing() -> None:
+    drawing = histogram(total_bars([3, 3, 95], 100), 640, 200)
+    assert drawing.words == "0 to under 10: 2 submissions; 90 to 100: 1 submission"
+    assert all(column.x >= 0 and column.x + column.width <= 640 for column in drawing.columns)
+    assert max(column.height for column in drawing.columns) <= drawing.floor
+    assert histogram(total_bars([], 100), 640, 200).words == "nothing to show"
+
+
+def test_a_divided_bar_is_filled_to_its_end() -> None:
+    parts = divided([("passed", 3), ("failed", 0), ("crashed", 1)], 240)
+    assert [(part.status, part.x, part.width) for part in parts] == [("passed", 0, 180), ("crashed", 180, 60)]
+
+
+def test_the_slowest_come_first() -> None:
+    facts = document([submission("ann", seconds=3.0), submission("bob", seconds=9.0), missing("cid", "not-graded")])
+    known = times(facts)
+    assert known is not None
+    assert (known.total, known.mean, list(known.slowest)) == (12, 6, [(1, 9.0), (0, 3.0)])
+    assert times(document([missing("cid", "not-graded")])) is None
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.25, "0.2 s"), (99.4, "99.4 s"), (133, "2 min 13 s"), (3599.7, "1 h 0 min"), (11_100, "3 h 5 min")],
+)
+def test_times_are_told_as_people_say_them(seconds: float, words: str) -> None:
+    assert span(seconds) == words
+
+
+def test_common_mistakes_know_who_made_them() -> None:
+    unit, root = "the normal is not of unit length", "the root behind the eye is taken"
+    facts = document(
+        [
+            submission("ann", mistakes={_SECOND: [unit]}),
+            submission("bob"),
+            submission("cid", mistakes={_SECOND: [root, unit]}),
+        ]
+    )
+    found = [(one.step, one.title, one.submissions, list(one.rows)) for one in common_mistakes(facts)]
+    assert found == [(_SECOND, unit, 2, [0, 2]), (_SECOND, root, 1, [2])]
+
+
+def test_a_class_of_an_older_kit_tells_how_many_made_a_mistake_but_not_who() -> None:
+    facts = document([submission("ann", mistakes={_SECOND: ["too bright"]})])
+    del facts["submissions"][0]["mistakes"], facts["submissions"][0]["seconds"]
+    assert [(one.submissions, list(one.rows)) for one in common_mistakes(facts)] == [(1, [])]
+    assert "too bright" in class_page(facts, lambda name: None)
+
+
+def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
+    claims = {_SECOND: ["It says that it is right."]}
+    late = {"days": 1, "percent": 10, "points": 9, "deadline": "d", "words": "w"}
+    facts = document(
+        [
+            submission("ann", inconsistent=claims),
+            submission("bob"),
+            missing("cid", "fault", fault="the moon\nis in the way"),
+            submission("dot", late=late, submitted_from="files", submitted_at="2026-11-21T01:00:00+00:00"),
+        ],
+        students_without_submission=[{**student("Eve", "5"), "note": ""}],
+        gone=["fay"],
+    )
+    found = {group.heading: [(item.who, list(item.words)) for item in group.items] for group in groups(facts)}
+    assert found == {
+        "Faults of the grader": [("cid", ["the moon"])],
+        "Inconsistent": [("ann", ["02: It says that it is right."])],
+        "Late by the time of the file": [("dot", ["2026-11-21T01:00:00+00:00, 1 day begun"])],
+        "On the roster, but without a submission": [("5 Eve", [])],
+        "Graded earlier, but no longer in the folder": [("fay", [])],
+    }
+    assert marks(groups(facts)) == {0: ["inconsistent"], 2: ["fault"], 3: ["late by file time"]}
+
+
+def test_an_alias_stays_the_same_when_the_order_of_the_class_changes() -> None:
+    names = ["ann", "bob", "cid", "dot"]
+    first = dict(zip(names, aliases(names), strict=True))
+    assert dict(zip(reversed(names), aliases(names[::-1]), strict=True)) == first
+    assert sorted(first.values()) == ["student 1", "student 2", "student 3", "student 4"]
+
+
+def test_a_row_shows_the_student_and_is_found_by_everything_that_names_him() -> None:
+    facts = document([submission("x17", students=[student("Ann Lee", "4711", "Ann@example.edu")]), submission("bob")])
+    ann, bob = table_rows(facts, {}, lambda name: None)
+    assert (ann.who, ann.more, ann.words) == ("Ann Lee", "4711 · x17", "x17 x17.zip 4711 ann lee ann@example.edu")
+    assert (bob.who, bob.more) == ("bob", "")
+
+
+@pytest.mark.parametrize("submissions", [[], [missing("ann", "not-graded")]])
+def test_a_class_without_a_single_grade_has_a_page(submissions: list[dict[str, object]]) -> None:
+    assert "Nothing graded yet" in class_page(document(submissions), lambda name: None)
+
+
+def test_a_graded_class_has_a_page_that_links_to_what_is_there_and_can_be_made_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
+    write_entry(tmp_path / "in", "ann & co", "// points 7\n")
+    write_entry(tmp_path / "in", "bob", "// fault\n")
+    out = tmp_path / "grades"
+    assert grade_class(tmp_path / "in", "--out", out) == 4
+    page = (out / "class.html").read_text("utf-8")
+    name = json.loads((out / "class.json").read_text())["submissions"][0]["name"]
+    assert f'href="submissions/{name}/' in page
+    assert 'href="submissions/bob/fault.txt"' in page
+    (out / "class.html").unlink()
+    for source in (out, out / "class.json"):
+        found = class_source(source)
+        assert found is not None
+        assert remake_class_page(found) == out / "class.html"
+        assert (out / "class.html").read_text("utf-8") == page
+    alone = tmp_path / "alone"
+    alone.mkdir()
+    shutil.copy(out / "class.json", alone)
+    assert class_source(alone) == alone / "class.json"
+    (alone / "class.json").write_text('{"schema": "raysteps/class/v1"}')
+    with pytest.raises(UsageError, match=r"class.json: is not a class.json of this kit"):
+        remake_class_page(alone / "class.json")
+    assert class_source(tmp_path / "in") is None

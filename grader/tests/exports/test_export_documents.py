@@ -1,0 +1,16 @@
+"""Proof that the hand-made results are as the grader writes them."""
+
+import random
+
+import pytest
+from export_documents import HOSTILE, document, full, step_result
+
+from raysteps.course.manifest import Step
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_grader_would_accept_them(steps: list[Step], seed: int) -> None:
+    share = random.Random(seed).random()
+    made = document([step_result(step, share=share, text=HOSTILE) for step in steps])
+    assert 0 < made["total"]["points"] < made["total"]["max"]
+    assert full(steps)["total"] == {"points": 120.0, "max": 100.0, "bonus": {"points": 20.0, "max": 20.0}}

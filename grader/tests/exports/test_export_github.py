@@ -1,0 +1,130 @@
+"""Classroom 50 and the older GitHub Classroom."""
+
+import ast
+import base64
+import json
+import os
+import subprocess
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from export_documents import HOSTILE, document, full, mixed, step_result
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.manifest import Step
+from raysteps.exports.autograders import classroom50_autograder, github_workflow
+from raysteps.exports.formats import validate
+from raysteps.exports.github import output_line, to_classroom50, to_legacy, whole_points
+from raysteps.exports.hosted import by_id, deliver_github, submitted_at
+from raysteps.exports.items import harmless_log
+
+ENVIRONMENT = {
+    "CLASSROOM": "graphics",
+    "ASSIGNMENT": "raysteps",
+    "SUBMISSION_TAG": "submit/2026-10-01T12-00-00Z-a1b2c3d",
+    "COMMIT_URL": "https://github.com/o/r/commit/1",
+    "RELEASE_URL": "https://github.com/o/r/releases/tag/1",
+    "REVIEW_URL": "",
+    "OWNER": "ann",
+    "ASSIGNMENT_TYPE": "individual",
+}
+WHEN = datetime(2026, 10, 1, 14, 0, tzinfo=UTC)
+
+
+def test_classroom50(steps: list[Step]) -> None:
+    made = mixed(steps)
+    result = to_classroom50(made, by_id(steps), ENVIRONMENT, WHEN)
+    validate(result, "classroom50")
+    assert result["datetime"] == "2026-10-01T14:00:00Z"
+    assert result["review"] == ENVIRONMENT["COMMIT_URL"]
+    assert (result["owner"], result["assignment_type"]) == ("ann", "individual")
+    assert result["score"] == sum(test["score"] for test in result["tests"]) == round(made["total"]["points"])
+    assert result["max-score"] == sum(test["max-score"] for test in result["tests"]) == 120
+    assert [test["passed"] for test in result["tests"]] == [True, *[False] * 4, True, *[False] * 3]
+
+
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.37, 0.5, 0.83, 0.99, 1.0])
+def test_whole_points(steps: list[Step], share: float) -> None:
+    made = document([step_result(step, share=share) for step in steps])
+    pairs = whole_points(made)
+    assert sum(points for points, _ in pairs) == int(made["total"]["points"] + 0.5)
+    assert [most for _, most in pairs] == [10, 20, 15, 10, 15, 20, 10, 10, 10]
+    for (points, most), result in zip(pairs, made["steps"], strict=True):
+        assert 0 <= points <= most
+        assert abs(points - result["points"]) < 1
+
+
+def test_what_the_runner_did_not_set_is_named(steps: list[Step]) -> None:
+    with pytest.raises(UsageError, match="CLASSROOM, RELEASE_URL"):
+        to_classroom50(mixed(steps), by_id(steps), {**ENVIRONMENT, "CLASSROOM": "", "RELEASE_URL": ""}, WHEN)
+
+
+def test_numbers_must_be_whole(steps: list[Step]) -> None:
+    result = to_classroom50(mixed(steps), by_id(steps), ENVIRONMENT, WHEN)
+    result["tests"][0]["score"] = 2.5
+    with pytest.raises(GraderFault, match=r"tests\[0\].score"):
+        validate(result, "classroom50")
+
+
+def test_legacy_output(steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sink = tmp_path / "output"
+    sink.write_text("before=1\n")
+    monkeypatch.setenv("GITHUB_OUTPUT", str(sink))
+    deliver_github(mixed(steps, HOSTILE), by_id(steps), None, tmp_path, legacy=True)
+    first, second = sink.read_text().splitlines()
+    assert first == "before=1"
+    result = json.loads(base64.b64decode(second.removeprefix("result=")))
+    validate(result, "github-legacy")
+    assert result["status"] == "fail"
+    assert result["max_score"] == 120
+    assert "##[" not in json.dumps(result)
+    assert not any(line.lstrip().startswith("::") for test in result["tests"] for line in test["message"].splitlines())
+    assert result["tests"][1]["filename"] == "steps/02-intersection/intersection.cpp"
+
+
+def test_legacy_status(steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = full(steps)
+    made["steps"][7] |= {"status": "not-started", "points": 0.0}
+    assert to_legacy(made, by_id(steps))["status"] == "pass", "a bonus need not be started"
+    assert output_line({"version": 1}).count("\n") == 1
+    monkeypatch.delenv("GITHUB_OUTPUT", raising=False)
+    with pytest.raises(UsageError, match="GITHUB_OUTPUT"):
+        deliver_github(made, by_id(steps), None, tmp_path, legacy=True)
+
+
+def test_the_commit_says_when(tmp_path: Path) -> None:
+    assert abs(submitted_at(tmp_path) - datetime.now(UTC)) < timedelta(minutes=1)
+    environment = {**os.environ, "GIT_COMMITTER_DATE": "2026-09-30T10:00:00+02:00", "GIT_CONFIG_GLOBAL": "/dev/null"}
+    for words in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", "x"]):
+        who = ["-c", "user.name=a", "-c", "user.email=a@x"]
+        subprocess.run(["git", *who, *words], cwd=tmp_path, check=True, env=environment)
+    assert submitted_at(tmp_path) == datetime(2026, 9, 30, 8, 0, tzinfo=UTC)
+
+
+@pytest.mark.parametrize("legacy", [False, True])
+def test_workflow(legacy: bool) -> None:
+    text = github_workflow("org/kit.private", ["--minutes", "9", "--seed", "5"], legacy=legacy).decode()
+    assert "repository: org/kit.private\n" in text
+    assert "--run ../submission" in text
+    assert "--minutes 9 --seed 5" in text
+    assert "@" not in text.replace("actions/checkout@v4", "").replace("upload-artifact@v4", "").replace(
+        "reporter@v1", ""
+    )
+    assert ("--legacy" in text) == legacy
+    for bad in (None, "kit", "a/b\n- run: evil", "a/b c", "../x"):
+        with pytest.raises(UsageError, match="--kit"):
+            github_workflow(bad, [], legacy=legacy)
+
+
+def test_autograder_is_python() -> None:
+    words = ["--minutes", "9", "--limit", "memory_mb='512'"]
+    text = classroom50_autograder(words).decode()
+    found = next(node for node in ast.parse(text).body if isinstance(node, ast.Assign))
+    assert ast.literal_eval(found.value) == words
+
+
+def test_no_form_of_a_command_is_left() -> None:
+    assert harmless_log("a ##[set-output name=x]1\n  ::error::b\nc::d ###[x") == (
+        "a # #[set-output name=x]1\n  : :error::b\nc::d ## #[x"
+    )
