@@ -143,8 +143,8 @@ public:
         return asked.tfar < 0.0F;
     }
 
-    [[nodiscard]] StructureSize size() const override {
-        StructureSize size;
+    [[nodiscard]] AcceleratorStats size() const override {
+        AcceleratorStats size;
         for (const SurfaceList& list : lists_) {
             size.references += list.size();
         }

@@ -1,7 +1,7 @@
 #include "inspect/meeting.hpp"
 
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -14,7 +14,7 @@ SurfaceInfo describe(const Surface& surface) {
         info.kind = "sphere";
         info.points = {sphere->center()};
         info.radii = {sphere->radius()};
-    } else if (const auto* hollow = dynamic_cast<const HollowSphere*>(&surface)) {
+    } else if (const auto* hollow = dynamic_cast<const InwardSphere*>(&surface)) {
         info.kind = "hollow-sphere";
         info.points = {hollow->center()};
         info.radii = {hollow->radius()};

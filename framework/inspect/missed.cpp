@@ -63,7 +63,7 @@ public:
     Inquiry(const Surface& surface, const glm::vec3& point, const Recorder& recorder)
         : surface_(surface), point_(point), recorder_(recorder) {}
 
-    void look_at(const BoxPlace& place) {
+    void look_at(const NodeInfo& place) {
         any_ = true;
         if (!contains(place.box, point_)) {
             return;
@@ -138,7 +138,7 @@ std::optional<Missed> find_missed(const RayNode& node, float limit, const Surfac
                   MissReason::not_chosen, std::nullopt};
     if (!recorder.asked(*nearest.surface)) {
         Inquiry inquiry(*nearest.surface, node.ray.origin + nearest.hit.distance * node.ray.direction, recorder);
-        accelerator.visit_boxes(nearest.surface, [&](const BoxPlace& place) { inquiry.look_at(place); });
+        accelerator.visit_nodes(nearest.surface, [&](const NodeInfo& place) { inquiry.look_at(place); });
         inquiry.conclude(missed);
         const bool by_building = missed.reason == MissReason::no_box || missed.reason == MissReason::not_listed;
         Missed deeper = missed;

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -71,7 +71,7 @@ private:
     void write_surface(const Surface& surface) {
         if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
             line("s", sphere->center(), {sphere->radius()});
-        } else if (const auto* hollow = dynamic_cast<const HollowSphere*>(&surface)) {
+        } else if (const auto* hollow = dynamic_cast<const InwardSphere*>(&surface)) {
             line("s", hollow->center(), {-hollow->radius()});
         } else if (const auto* cone = dynamic_cast<const Cone*>(&surface)) {
             write_cone(*cone);
@@ -95,7 +95,7 @@ private:
     }
 
     void write_cone(const Cone& cone) {
-        const float sign = cone.visible() == Cone::Visible::inside ? -1.0F : 1.0F;
+        const float sign = cone.sidedness() == Cone::Sidedness::inside ? -1.0F : 1.0F;
         line("c", cone.base().center, {sign * cone.base().radius});
         line("", cone.apex().center, {sign * cone.apex().radius});
     }

@@ -4,8 +4,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "render/every_surface.hpp"
-#include "render/paper_boxes.hpp"
+#include "render/linear_accelerator.hpp"
+#include "render/paper_grid.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
 
@@ -29,24 +29,24 @@ public:
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
         return any_hit_in(root_, ray, distance);
     }
-    [[nodiscard]] StructureSize size() const override { return size_below(root_); }
+    [[nodiscard]] AcceleratorStats size() const override { return size_below(root_); }
 
-    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override {
+    void visit_nodes(const Surface* wanted, const NodeVisitor& visit) const override {
         visit_below(root_, 0, wanted, visit);
     }
 
 private:
-    static void visit_below(const Node& node, int level, const Surface* wanted, const BoxVisitor& visit) {
+    static void visit_below(const Node& node, int level, const Surface* wanted, const NodeVisitor& visit) {
         visit({node.box, level, node.surfaces.size(), holds(node.surfaces.begin(), node.surfaces.end(), wanted)});
         for (const Node& child : node.children) {
             visit_below(child, level + 1, wanted, visit);
         }
     }
 
-    static StructureSize size_below(const Node& node) {
-        StructureSize sum{1, node.surfaces.size(), sizeof(Node) + node.surfaces.size() * sizeof(const Surface*)};
+    static AcceleratorStats size_below(const Node& node) {
+        AcceleratorStats sum{1, node.surfaces.size(), sizeof(Node) + node.surfaces.size() * sizeof(const Surface*)};
         for (const Node& child : node.children) {
-            const StructureSize below = size_below(child);
+            const AcceleratorStats below = size_below(child);
             sum.boxes += below.boxes;
             sum.references += below.references;
             sum.bytes += below.bytes;
@@ -57,9 +57,9 @@ private:
     Node root_;
 };
 
-class BoundingVolumes final : public Accelerator {
+class BvhAccelerator final : public Accelerator {
 public:
-    explicit BoundingVolumes(const SurfaceList& surfaces) : bvh_(build_bvh(surfaces)) {}
+    explicit BvhAccelerator(const SurfaceList& surfaces) : bvh_(build_bvh(surfaces)) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return closest_hit_in_bvh(bvh_, ray);
@@ -69,13 +69,13 @@ public:
         return any_hit_in_bvh(bvh_, ray, distance);
     }
 
-    [[nodiscard]] StructureSize size() const override {
+    [[nodiscard]] AcceleratorStats size() const override {
         return {bvh_.nodes.size(), bvh_.surfaces.size(),
                 bvh_.nodes.size() * sizeof(BvhNode) + bvh_.surfaces.size() * sizeof(const Surface*)};
     }
 
     /// Node by node and not from the root on, as a student's tree may point anywhere, even in a circle.
-    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override {
+    void visit_nodes(const Surface* wanted, const NodeVisitor& visit) const override {
         std::vector<int> levels(bvh_.nodes.size(), 0);
         for (std::size_t i = 0; i < bvh_.nodes.size(); ++i) {
             const BvhNode& node = bvh_.nodes[i];
@@ -109,7 +109,7 @@ bool offer_accelerator(Acceleration kind, AcceleratorMaker make) {
 bool has_accelerator(Acceleration kind) {
     switch (kind) {
         case Acceleration::boxes:
-            return paper_boxes() != nullptr;
+            return paper_grid() != nullptr;
         case Acceleration::wide:
         case Acceleration::wide_octree:
             return offered().contains(kind);
@@ -137,13 +137,13 @@ std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceLi
     }
     switch (kind) {
         case Acceleration::none:
-            return every_surface(surfaces);
+            return linear_accelerator(surfaces);
         case Acceleration::boxes:
-            return paper_boxes()(surfaces);
+            return paper_grid()(surfaces);
         case Acceleration::octree:
             return std::make_unique<Octree>(surfaces);
         case Acceleration::bvh:
-            return std::make_unique<BoundingVolumes>(surfaces);
+            return std::make_unique<BvhAccelerator>(surfaces);
         case Acceleration::wide:
         case Acceleration::wide_octree:
             return offered()[kind](surfaces);

@@ -21,28 +21,28 @@ enum class Acceleration {
 };
 
 /// What a structure costs before the first ray.
-struct StructureSize {
+struct AcceleratorStats {
     std::uint64_t boxes = 0;
     std::uint64_t references = 0;  ///< entries in the lists of its boxes; a surface may be in several
     std::uint64_t bytes = 0;       ///< of boxes and lists, without the surfaces themselves
 };
 
 /// A box of a structure, as it is shown to whoever looks at the structure itself.
-struct BoxPlace {
+struct NodeInfo {
     const Box& box;             ///< the very one that rays are tested against
     int level = 0;              ///< 0: the root
     std::uint64_t listed = 0;   ///< surfaces in its own list
     bool lists_wanted = false;  ///< whether the surface that was asked for is one of them
 };
 
-using BoxVisitor = std::function<void(const BoxPlace& place)>;
+using NodeVisitor = std::function<void(const NodeInfo& place)>;
 
 class Accelerator : public SceneQuery {
 public:
-    [[nodiscard]] virtual StructureSize size() const { return {}; }
+    [[nodiscard]] virtual AcceleratorStats size() const { return {}; }
 
     /// Shows every box, each before those within it. `wanted` may be null.
-    virtual void visit_boxes(const Surface* /*wanted*/, const BoxVisitor& /*visit*/) const {}
+    virtual void visit_nodes(const Surface* /*wanted*/, const NodeVisitor& /*visit*/) const {}
 };
 
 using AcceleratorMaker = std::unique_ptr<Accelerator> (*)(const SurfaceList& surfaces);

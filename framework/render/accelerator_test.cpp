@@ -188,15 +188,15 @@ TEST_CASE("Each structure tells its size", "[render][accelerator]") {
     Random random;
     INFO(random);
     const Scene scene = random_scene(random, 300, 0.5F);
-    const StructureSize none = make_accelerator(Acceleration::none, scene.surfaces())->size();
+    const AcceleratorStats none = make_accelerator(Acceleration::none, scene.surfaces())->size();
     CHECK(none.boxes + none.references + none.bytes == 0);
-    const StructureSize boxes = make_accelerator(Acceleration::boxes, scene.surfaces())->size();
+    const AcceleratorStats boxes = make_accelerator(Acceleration::boxes, scene.surfaces())->size();
     CHECK(boxes.boxes == 1 + 8 + 64);
     CHECK(boxes.references >= 300);
-    const StructureSize octree = make_accelerator(Acceleration::octree, scene.surfaces())->size();
+    const AcceleratorStats octree = make_accelerator(Acceleration::octree, scene.surfaces())->size();
     CHECK(octree.references >= 300);
     CHECK(octree.bytes > octree.boxes * sizeof(Box));
-    const StructureSize bvh = make_accelerator(Acceleration::bvh, scene.surfaces())->size();
+    const AcceleratorStats bvh = make_accelerator(Acceleration::bvh, scene.surfaces())->size();
     INFO("each surface is in one leaf");
     CHECK(bvh.references == 300);
     CHECK(bvh.boxes > 30);
@@ -210,10 +210,10 @@ TEST_CASE("Each structure shows all its boxes, and which of them list a surface"
     for (const Acceleration kind : {Acceleration::boxes, Acceleration::octree, Acceleration::bvh}) {
         INFO("structure " << static_cast<int>(kind));
         const auto structure = make_accelerator(kind, scene.surfaces());
-        StructureSize seen;
+        AcceleratorStats seen;
         int listing = 0;
         int deepest = 0;
-        structure->visit_boxes(wanted, [&](const BoxPlace& place) {
+        structure->visit_nodes(wanted, [&](const NodeInfo& place) {
             CHECK((place.level == 0) == (seen.boxes == 0));
             ++seen.boxes;
             seen.references += place.listed;

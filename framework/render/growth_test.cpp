@@ -15,7 +15,7 @@ using namespace raysteps::testing;
 namespace {
 
 constexpr std::size_t k_surfaces = 6000;  // enough for the octree to be built on several threads
-constexpr std::uint64_t k_most_references = 24;  // of a surface: what the octree promises
+constexpr std::uint64_t k_max_references = 24;  // of a surface: what the octree promises
 
 Fill marked(std::size_t number) {
     Fill fill;
@@ -107,9 +107,9 @@ TEST_CASE("No scene makes a tree grow without bound, or lose a hit", "[render][a
     const Scene scene = scene_of(kind, random);
     const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
     const auto tree = make_accelerator(GENERATE(from_range(growing_trees())), scene.surfaces());
-    const StructureSize size = tree->size();
+    const AcceleratorStats size = tree->size();
     CHECK(size.references >= k_surfaces);
-    CHECK(size.references <= k_most_references * k_surfaces + 8);
+    CHECK(size.references <= k_max_references * k_surfaces + 8);
     CHECK(size.boxes <= 2 * size.references);
     for (int i = 0; i < 150; ++i) {
         const glm::vec3 origin = 4.0F * random.unit_vector();

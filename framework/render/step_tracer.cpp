@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/stats.hpp"
-#include "render/own_pictures.hpp"
+#include "render/shading_hooks.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"
@@ -105,7 +105,7 @@ Color StepTracer::primary_color(const Ray& ray) {
     const Color color = color_of(ray);
     next_ = RayKind::eye;
     next_depth_ = 1;
-    return with_own_pictures(*this, ray, color, options_.step);
+    return apply_shading_hooks(*this, ray, color, options_.step);
 }
 
 }  // namespace raysteps

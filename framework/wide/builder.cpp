@@ -65,7 +65,7 @@ void fill_all(std::vector<Block>& blocks, const SurfaceList& surfaces) {
 }
 
 std::uint32_t place(std::size_t size) {
-    if (size > Reference::k_most_first) {
+    if (size > Reference::k_max_first) {
         throw std::length_error("this scene has too many surfaces for the wide tree: 16 million blocks are the most");
     }
     return static_cast<std::uint32_t>(size);
@@ -97,7 +97,7 @@ void Builder::add_blocks(Kind kind, std::vector<Block>& blocks, const Box& box, 
     while (done < surfaces.size()) {
         const std::uint32_t first = place(blocks.size());
         std::uint32_t count = 0;
-        for (; count < Reference::k_most_blocks && done < surfaces.size(); ++count) {
+        for (; count < Reference::k_max_blocks && done < surfaces.size(); ++count) {
             Block& block = blocks.emplace_back();
             for (; block.count < k_lanes && done < surfaces.size(); ++block.count, ++done) {
                 block.surface[block.count] = static_cast<std::uint32_t>(tree_.surfaces.size());
@@ -123,7 +123,7 @@ void Builder::add_surfaces(const Box& box, std::span<const Surface* const> surfa
     add_blocks(Kind::spheres, tree_.spheres, box, spheres, items);
     add_blocks(Kind::cones, tree_.cones, box, cones, items);
     for (std::size_t done = 0; done < others.size();) {
-        const std::size_t count = std::min<std::size_t>(Reference::k_most_blocks, others.size() - done);
+        const std::size_t count = std::min<std::size_t>(Reference::k_max_blocks, others.size() - done);
         const Reference to(Kind::others, place(tree_.others.size()), static_cast<std::uint32_t>(count));
         items.push_back({box, to});
         for (std::size_t end = done + count; done < end; ++done) {
@@ -169,7 +169,7 @@ Item Builder::add_node(std::span<const Item> items) {
 
 Tree Builder::finish(std::span<const Item> items) {
     const std::vector<Item> few = grouped(items);
-    if (levels_below(few) + 1 > k_most_levels) {
+    if (levels_below(few) + 1 > k_max_levels) {
         throw std::length_error("the tree has too many levels to be searched eight boxes at a time");
     }
     write_node(tree_.nodes.front(), few);

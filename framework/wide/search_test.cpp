@@ -1,6 +1,6 @@
 // The wide trees give Surface::hit's own answers, also where single precision is at its end.
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
 #include "core/stats.hpp"
@@ -33,10 +33,10 @@ Scene scene_of_all_kinds(Random& random, int surfaces, float scale, const glm::v
         } else if (i % 5 == 2) {
             scene.add(std::make_unique<Sphere>(at, 0.5F * size, Fill{}));
         } else if (i % 5 == 3) {
-            const Cone::Ring end{at + random.point(size), 0.1F * size};
-            scene.add(std::make_unique<Cone>(Cone::Ring{at, 0.3F * size}, end, Cone::Visible::both, Fill{}));
+            const Cone::End end{at + random.point(size), 0.1F * size};
+            scene.add(std::make_unique<Cone>(Cone::End{at, 0.3F * size}, end, Cone::Sidedness::both, Fill{}));
         } else {
-            scene.add(std::make_unique<HollowSphere>(at, 0.3F * size, Fill{}));
+            scene.add(std::make_unique<InwardSphere>(at, 0.3F * size, Fill{}));
         }
     }
     return scene;

@@ -24,7 +24,7 @@ namespace {
 constexpr int k_max_depth = 12;
 constexpr std::size_t k_leaf_size = 8;
 constexpr std::size_t k_max_growth = 4;          // children may hold this many times the parent's surfaces
-constexpr std::uint64_t k_most_references = 24;  // of a surface on average, whatever the scene
+constexpr std::uint64_t k_max_references = 24;  // of a surface on average, whatever the scene
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
 
@@ -300,7 +300,7 @@ Node build_octree(const SurfaceList& surfaces) {
     Node root{{all.min - padding, all.max + padding}, large, {}};
     if (!others.empty()) {
         const Box box = bounds_of(others);
-        const std::uint64_t most_references = k_most_references * others.size();
+        const std::uint64_t most_references = k_max_references * others.size();
         build_all({&root.children.emplace_back(), box, std::move(others), most_references, 0}, padding);
     }
     return root;

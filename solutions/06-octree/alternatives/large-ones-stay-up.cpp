@@ -13,8 +13,8 @@ namespace raysteps {
 namespace {
 
 constexpr std::size_t k_short_list = 6;
-constexpr int k_most_levels = 7;
-constexpr std::size_t k_most_parts = 4;
+constexpr int k_max_levels = 7;
+constexpr std::size_t k_max_parts = 4;
 constexpr float k_share = 1e-5F;  // of the numbers, by which boxes are held to be larger than they are
 
 float size_of_numbers(const Box& box) { return glm::length(box.min) + glm::length(box.max); }
@@ -23,7 +23,7 @@ Box with_margin(const Box& box, float margin) { return {box.min - margin, box.ma
 
 Node sort_in(const Box& box, SurfaceList surfaces, int level, float margin) {
     Node node{with_margin(box, margin), {}, {}};
-    if (level == k_most_levels || surfaces.size() <= k_short_list) {
+    if (level == k_max_levels || surfaces.size() <= k_short_list) {
         node.surfaces = std::move(surfaces);
         return node;
     }
@@ -36,7 +36,7 @@ Node sort_in(const Box& box, SurfaceList surfaces, int level, float margin) {
                 touched.push_back(i);
             }
         }
-        if (touched.size() > k_most_parts) {
+        if (touched.size() > k_max_parts) {
             node.surfaces.push_back(surface);
         } else {
             for (const std::size_t i : touched) {

@@ -4,6 +4,6 @@
 
 namespace raysteps {
 
-[[nodiscard]] std::unique_ptr<Accelerator> every_surface(const SurfaceList& surfaces);
+[[nodiscard]] std::unique_ptr<Accelerator> linear_accelerator(const SurfaceList& surfaces);
 
 }  // namespace raysteps

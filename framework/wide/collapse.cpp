@@ -1,4 +1,4 @@
-#include "wide/from_steps.hpp"
+#include "wide/collapse.hpp"
 
 #include <glm/common.hpp>
 #include <stdexcept>
@@ -137,9 +137,9 @@ std::vector<Item> items_of(const raysteps::Node& node, int depth, Builder& build
 
 }  // namespace
 
-Tree from_bvh(const Bvh& bvh) { return bvh.nodes.empty() ? Builder(0.0F).finish({}) : BvhFolder(bvh).fold(); }
+Tree collapse(const Bvh& bvh) { return bvh.nodes.empty() ? Builder(0.0F).finish({}) : BvhFolder(bvh).fold(); }
 
-Tree from_octree(const raysteps::Node& root) {
+Tree collapse(const raysteps::Node& root) {
     Builder builder(padding_within(root.box));
     return builder.finish(items_of(root, 0, builder));
 }

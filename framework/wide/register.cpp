@@ -4,7 +4,7 @@
 #include "render/accelerator.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
-#include "wide/from_steps.hpp"
+#include "wide/collapse.hpp"
 #include "wide/search.hpp"
 
 namespace raysteps::wide {
@@ -22,7 +22,7 @@ public:
         return wide::any_hit(tree_, ray, distance);
     }
 
-    [[nodiscard]] StructureSize size() const override {
+    [[nodiscard]] AcceleratorStats size() const override {
         return {tree_.nodes.size(), tree_.surfaces.size(), tree_.bytes()};
     }
 
@@ -31,11 +31,11 @@ private:
 };
 
 std::unique_ptr<Accelerator> over_bvh(const SurfaceList& surfaces) {
-    return std::make_unique<WideTree>(from_bvh(build_bvh(surfaces)));
+    return std::make_unique<WideTree>(collapse(build_bvh(surfaces)));
 }
 
 std::unique_ptr<Accelerator> over_octree(const SurfaceList& surfaces) {
-    return std::make_unique<WideTree>(from_octree(build_octree(surfaces)));
+    return std::make_unique<WideTree>(collapse(build_octree(surfaces)));
 }
 
 [[maybe_unused]] const bool k_offered = offer_accelerator(Acceleration::wide, over_bvh) &&

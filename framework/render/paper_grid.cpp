@@ -1,4 +1,4 @@
-#include "render/paper_boxes.hpp"
+#include "render/paper_grid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -58,14 +58,14 @@ bool hits_untested(const std::vector<std::uint64_t>& members, std::vector<std::u
     return false;
 }
 
-class PaperBoxes final : public Accelerator {
+class PaperGrid final : public Accelerator {
 public:
-    explicit PaperBoxes(const SurfaceList& surfaces);
+    explicit PaperGrid(const SurfaceList& surfaces);
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
-    [[nodiscard]] StructureSize size() const override;
-    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override;
+    [[nodiscard]] AcceleratorStats size() const override;
+    void visit_nodes(const Surface* wanted, const NodeVisitor& visit) const override;
 
 private:
     /// A small box and its intersect list: bit i of word w stands for surface 64 w + i.
@@ -83,7 +83,7 @@ private:
     std::array<Middle, 8> middle_;
 };
 
-PaperBoxes::PaperBoxes(const SurfaceList& surfaces) : surfaces_(surfaces) {
+PaperGrid::PaperGrid(const SurfaceList& surfaces) : surfaces_(surfaces) {
     if (surfaces_.empty()) {
         return;
     }
@@ -101,7 +101,7 @@ PaperBoxes::PaperBoxes(const SurfaceList& surfaces) : surfaces_(surfaces) {
     }
 }
 
-std::optional<HitRecord> PaperBoxes::closest_hit(const Ray& ray) const {
+std::optional<HitRecord> PaperGrid::closest_hit(const Ray& ray) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return std::nullopt;
     }
@@ -125,7 +125,7 @@ std::optional<HitRecord> PaperBoxes::closest_hit(const Ray& ray) const {
     return raysteps::closest_hit(list, ray);
 }
 
-bool PaperBoxes::any_hit(const Ray& ray, float distance) const {
+bool PaperGrid::any_hit(const Ray& ray, float distance) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return false;
     }
@@ -139,8 +139,8 @@ bool PaperBoxes::any_hit(const Ray& ray, float distance) const {
     });
 }
 
-StructureSize PaperBoxes::size() const {
-    StructureSize sum{1, 0, sizeof middle_ + sizeof main_};
+AcceleratorStats PaperGrid::size() const {
+    AcceleratorStats sum{1, 0, sizeof middle_ + sizeof main_};
     for (const Middle& middle : middle_) {
         sum.boxes += 1 + middle.small.size();
         for (const Small& small : middle.small) {
@@ -151,7 +151,7 @@ StructureSize PaperBoxes::size() const {
     return sum;
 }
 
-void PaperBoxes::visit_boxes(const Surface* wanted, const BoxVisitor& visit) const {
+void PaperGrid::visit_nodes(const Surface* wanted, const NodeVisitor& visit) const {
     if (surfaces_.empty()) {
         return;
     }
@@ -169,9 +169,9 @@ void PaperBoxes::visit_boxes(const Surface* wanted, const BoxVisitor& visit) con
 
 }  // namespace
 
-AcceleratorMaker paper_boxes() {
+AcceleratorMaker paper_grid() {
     return [](const SurfaceList& surfaces) -> std::unique_ptr<Accelerator> {
-        return std::make_unique<PaperBoxes>(surfaces);
+        return std::make_unique<PaperGrid>(surfaces);
     };
 }
 
