@@ -4,6 +4,7 @@
 
 #include "core/scene.hpp"
 #include "core/stats.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps::bench {
 namespace {

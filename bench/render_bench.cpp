@@ -15,6 +15,7 @@
 #include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/read_file.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps::bench {
 

@@ -13,7 +13,7 @@
 #include "io/read_file.hpp"
 #include "io/terminal.hpp"
 #include "io/write_file.hpp"
-#include "render/acceleration_choice.hpp"
+#include "render/accelerator_registry.hpp"
 #include "render/cost_heatmap.hpp"
 #if __has_include("render/spd.hpp")
 #include "apps/spd_report.hpp"
@@ -29,7 +29,7 @@ using namespace raysteps;
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
     const int step = options.spd ? std::max(options.step, 6) : options.step;  // SPD scenes are large
-    return options.acceleration.value_or(usual_acceleration(step));
+    return options.acceleration.value_or(default_accelerator(step));
 }
 
 void check_crop(const Rect& crop, const Camera& camera) {

@@ -6,6 +6,7 @@
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
 #include "inspect/inspect_pixel.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps::testing {
 

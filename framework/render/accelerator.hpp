@@ -2,20 +2,18 @@
 // The structures that the renderer can look for hits with. All give the same hits.
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "core/scene.hpp"
+#include "core/box.hpp"
 #include "core/scene_query.hpp"
+#include "core/surface.hpp"
 
 namespace raysteps {
 
 enum class Acceleration {
-    none,    ///< every ray against every surface: step 02
-    boxes,   ///< the paper's three levels: a main box, 8 boxes, 64 boxes
-    octree,  ///< the tree of step 06
-    bvh,     ///< the tree of step 09
+    none,         ///< every ray against every surface: step 02
+    boxes,        ///< the paper's three levels: a main box, 8 boxes, 64 boxes
+    octree,       ///< the tree of step 06
+    bvh,          ///< the tree of step 09
     wide,         ///< the same tree, eight boxes or surfaces at a time
     wide_octree,  ///< the tree of step 06, eight at a time
 };
@@ -44,22 +42,5 @@ public:
     /// Shows every box, each before those within it. `wanted` may be null.
     virtual void visit_nodes(const Surface* /*wanted*/, const NodeVisitor& /*visit*/) const {}
 };
-
-using AcceleratorMaker = std::unique_ptr<Accelerator> (*)(const SurfaceList& surfaces);
-
-/// A program that is linked with the wide trees offers them here, before main begins. Always true.
-bool offer_accelerator(Acceleration kind, AcceleratorMaker make);
-
-/// Whether this program has the structure.
-[[nodiscard]] bool has_accelerator(Acceleration kind);
-
-/// What to say where it has not, and what to take instead.
-[[nodiscard]] std::string why_without(Acceleration kind);
-
-/// Of these structures, those that this program has.
-[[nodiscard]] std::vector<Acceleration> available(std::vector<Acceleration> kinds);
-
-/// Builds the structure. The surfaces must outlive it. Throws std::invalid_argument for one that the program lacks.
-[[nodiscard]] std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces);
 
 }  // namespace raysteps

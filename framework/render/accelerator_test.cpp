@@ -1,5 +1,5 @@
 // All structures give brute force's hits, to the last bit.
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +60,13 @@ Ray ray_in_a_face(Random& random, const Scene& scene, int i) {
 }
 
 std::vector<Acceleration> trees() {
-    return available({Acceleration::boxes, Acceleration::octree, Acceleration::bvh, Acceleration::wide,
-                      Acceleration::wide_octree});
+    std::vector<Acceleration> kinds;
+    for (const AcceleratorEntry& entry : accelerator_registry()) {
+        if (entry.make != nullptr && entry.kind != Acceleration::none) {
+            kinds.push_back(entry.kind);
+        }
+    }
+    return kinds;
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ std::string name_of(CostKind kind) {
         case CostKind::depth:
             return "deepest ray";
         case CostKind::time:
-            break;
+            return "nanoseconds";
     }
-    return "nanoseconds";
+    return "";
 }
 
 /// The next number of one digit and zeros that is good to halve in one's head.

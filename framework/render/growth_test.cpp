@@ -6,7 +6,7 @@
 #include "core/stats.hpp"
 #include "core/threads.hpp"
 #include "core/triangle.hpp"
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -69,7 +69,13 @@ Scene scene_of(int kind, Random& random) {
 }
 
 std::vector<Acceleration> growing_trees() {
-    return available({Acceleration::octree, Acceleration::bvh, Acceleration::wide, Acceleration::wide_octree});
+    std::vector<Acceleration> kinds;
+    for (const AcceleratorEntry& entry : accelerator_registry()) {
+        if (entry.make != nullptr && entry.kind != Acceleration::none && entry.kind != Acceleration::boxes) {
+            kinds.push_back(entry.kind);
+        }
+    }
+    return kinds;
 }
 
 }  // namespace

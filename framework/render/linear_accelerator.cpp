@@ -1,4 +1,4 @@
-#include "render/linear_accelerator.hpp"
+#include "render/accelerators.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-#include "render/paper_grid.hpp"
-
+// The paper's own acceleration: a main box is split in eight, and each of these again, into 64 boxes. A ray
+// tests the surfaces of all small boxes that it hits, each surface once, in the order of the scene.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/rounding.hpp"
+#include "render/accelerators.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
 
@@ -140,7 +141,7 @@ bool PaperGrid::any_hit(const Ray& ray, float distance) const {
 }
 
 AcceleratorStats PaperGrid::size() const {
-    AcceleratorStats sum{1, 0, sizeof middle_ + sizeof main_};
+    AcceleratorStats sum{.boxes = 1, .references = 0, .bytes = sizeof middle_ + sizeof main_};
     for (const Middle& middle : middle_) {
         sum.boxes += 1 + middle.small.size();
         for (const Small& small : middle.small) {
@@ -157,12 +158,15 @@ void PaperGrid::visit_nodes(const Surface* wanted, const NodeVisitor& visit) con
     }
     const auto place = std::find(surfaces_.begin(), surfaces_.end(), wanted);
     const auto bit = static_cast<std::size_t>(place - surfaces_.begin());
-    visit({main_, 0, 0, false});
+    visit({.box = main_, .level = 0});
     for (const Middle& middle : middle_) {
-        visit({middle.box, 1, 0, false});
+        visit({.box = middle.box, .level = 1});
         for (const Small& small : middle.small) {
             const bool member = place != surfaces_.end() && ((small.members[bit / 64] >> (bit % 64)) & 1U) != 0U;
-            visit({small.box, 2, count_members(small.members), member});
+            visit({.box = small.box,
+                   .level = 2,
+                   .listed = count_members(small.members),
+                   .lists_wanted = member});
         }
     }
 }

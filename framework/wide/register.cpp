@@ -1,7 +1,7 @@
 // Brings the wide trees into the program that this file is linked with.
 #include <memory>
 
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
 #include "wide/collapse.hpp"
@@ -23,7 +23,7 @@ public:
     }
 
     [[nodiscard]] AcceleratorStats size() const override {
-        return {tree_.nodes.size(), tree_.surfaces.size(), tree_.bytes()};
+        return {.boxes = tree_.nodes.size(), .references = tree_.surfaces.size(), .bytes = tree_.bytes()};
     }
 
 private:
@@ -38,8 +38,8 @@ std::unique_ptr<Accelerator> over_octree(const SurfaceList& surfaces) {
     return std::make_unique<WideTree>(collapse(build_octree(surfaces)));
 }
 
-[[maybe_unused]] const bool k_offered = offer_accelerator(Acceleration::wide, over_bvh) &&
-                                        offer_accelerator(Acceleration::wide_octree, over_octree);
+[[maybe_unused]] const bool k_registered = register_accelerator(Acceleration::wide, over_bvh) &&
+                                           register_accelerator(Acceleration::wide_octree, over_octree);
 
 }  // namespace
 }  // namespace raysteps::wide

@@ -5,7 +5,7 @@
 #include "core/sphere.hpp"
 #include "core/stats.hpp"
 #include "core/triangle.hpp"
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -13,7 +13,15 @@ using namespace raysteps::testing;
 
 namespace {
 
-std::vector<Acceleration> wide_trees() { return available({Acceleration::wide, Acceleration::wide_octree}); }
+std::vector<Acceleration> wide_trees() {
+    std::vector<Acceleration> kinds;
+    for (const Acceleration kind : {Acceleration::wide, Acceleration::wide_octree}) {
+        if (accelerator_entry(kind).make != nullptr) {
+            kinds.push_back(kind);
+        }
+    }
+    return kinds;
+}
 
 void add_triangle(Scene& scene, Random& random, const glm::vec3& at, float size) {
     const glm::vec3 along = random.point(size);

@@ -1,5 +1,5 @@
 // Asks no more than the closest hit, which is step 02's; how to stop at any hit is part of step 06.
-#include "render/linear_accelerator.hpp"
+#include "render/accelerators.hpp"
 
 #include "steps/02-intersection/intersection.hpp"
 

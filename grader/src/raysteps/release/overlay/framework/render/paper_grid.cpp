@@ -1,5 +1,5 @@
 // Only the whole kit has the paper's boxes: a tree is what step 06 is about.
-#include "render/paper_grid.hpp"
+#include "render/accelerators.hpp"
 
 namespace raysteps {
 
