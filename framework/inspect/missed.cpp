@@ -4,7 +4,6 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "steps/06-octree/octree.hpp"
 
@@ -31,7 +30,7 @@ Nearest nearest_of(const SurfaceList& surfaces, const Ray& ray) {
 
 bool contains(const Box& box, const glm::vec3& point) {
     const float slack = 1e-5F * (glm::length(point) + glm::distance(box.min, box.max));
-    return glm::all(glm::lessThanEqual(box.min - slack, point)) && glm::all(glm::lessThanEqual(point, box.max + slack));
+    return box.padded(slack).contains(point);
 }
 
 /// Whether the functions that a tree is built with lose the point: bounds_of, or split again and again.

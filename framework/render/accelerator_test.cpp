@@ -52,7 +52,7 @@ Ray ray_in_a_face(Random& random, const Scene& scene, int i) {
     const Box box = surfaces[static_cast<std::size_t>(i) % surfaces.size()]->bounds();
     const int along = i % 3;
     const int across = (along + 1) % 3;
-    Ray ray{0.5F * (box.min + box.max), glm::vec3(0.0F)};
+    Ray ray{box.center(), glm::vec3(0.0F)};
     ray.direction[along] = i % 2 == 0 ? 1.0F : -1.0F;
     ray.origin[along] -= ray.direction[along] * random.uniform(0.0F, 20.0F);
     ray.origin[across] = i % 4 < 2 ? box.min[across] : box.max[across];

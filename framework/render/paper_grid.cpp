@@ -14,8 +14,6 @@
 namespace raysteps {
 namespace {
 
-Box grown(const Box& box, float padding) { return {box.min - padding, box.max + padding}; }
-
 std::vector<std::uint64_t> members_of(const Box& box, const SurfaceList& surfaces) {
     std::vector<std::uint64_t> members((surfaces.size() + 63) / 64, 0);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -90,13 +88,13 @@ PaperGrid::PaperGrid(const SurfaceList& surfaces) : surfaces_(surfaces) {
     }
     const Box all = bounds_of(surfaces_);
     const float padding = padding_within(all);
-    main_ = grown(all, padding);
+    main_ = all.padded(padding);
     const std::array<Box, 8> middle_boxes = split(main_);
     for (std::size_t m = 0; m < 8; ++m) {
-        middle_[m].box = grown(middle_boxes[m], padding);
+        middle_[m].box = middle_boxes[m].padded(padding);
         const std::array<Box, 8> small_boxes = split(middle_boxes[m]);
         for (std::size_t s = 0; s < 8; ++s) {
-            const Box box = grown(small_boxes[s], padding);
+            const Box box = small_boxes[s].padded(padding);
             middle_[m].small[s] = {box, members_of(box, surfaces_)};
         }
     }

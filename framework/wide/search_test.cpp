@@ -58,7 +58,7 @@ Ray any_ray(Random& random, const Scene& scene, const Accelerator& brute, float 
     if (number % 3 == 0) {
         ray.direction = glm::normalize(target.bounds().min - ray.origin);
     } else if (number % 3 == 1) {
-        ray.direction = glm::normalize(0.5F * (target.bounds().min + target.bounds().max) - ray.origin);
+        ray.direction = glm::normalize(target.bounds().center() - ray.origin);
     }
     if (number % 4 == 3) {
         const auto* const triangle = dynamic_cast<const Triangle*>(&target);
