@@ -24,6 +24,7 @@ public:
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
     [[nodiscard]] Box bounds() const override;
     [[nodiscard]] bool overlaps(const Box& box) const override;
+    [[nodiscard]] Shape shape() const override { return this; }
 
     [[nodiscard]] const End& base() const { return base_; }
     [[nodiscard]] const End& apex() const { return apex_; }

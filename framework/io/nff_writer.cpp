@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string_view>
+#include <variant>
 
 #include "core/cone.hpp"
 #include "core/inward_sphere.hpp"
@@ -69,25 +70,23 @@ private:
     }
 
     void write_surface(const Surface& surface) {
-        if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
-            line("s", sphere->center(), {sphere->radius()});
-        } else if (const auto* hollow = dynamic_cast<const InwardSphere*>(&surface)) {
-            line("s", hollow->center(), {-hollow->radius()});
-        } else if (const auto* cone = dynamic_cast<const Cone*>(&surface)) {
-            write_cone(*cone);
-        } else if (const auto* smooth = dynamic_cast<const SmoothTriangle*>(&surface)) {
-            text_ += "pp 3\n";
-            corner(smooth->a(), smooth->normal_a());
-            corner(smooth->b(), smooth->normal_b());
-            corner(smooth->c(), smooth->normal_c());
-        } else if (const auto* triangle = dynamic_cast<const Triangle*>(&surface)) {
-            text_ += "p 3\n";
-            line("", triangle->a(), {});
-            line("", triangle->b(), {});
-            line("", triangle->c(), {});
-        } else {
-            text_ += "# a surface that NFF has no entity for\n";
-        }
+        std::visit(ByShape{[this](const Sphere* sphere) { line("s", sphere->center(), {sphere->radius()}); },
+                           [this](const InwardSphere* sphere) { line("s", sphere->center(), {-sphere->radius()}); },
+                           [this](const Triangle* triangle) {
+                               text_ += "p 3\n";
+                               line("", triangle->a(), {});
+                               line("", triangle->b(), {});
+                               line("", triangle->c(), {});
+                           },
+                           [this](const SmoothTriangle* triangle) {
+                               text_ += "pp 3\n";
+                               corner(triangle->a(), triangle->normal_a());
+                               corner(triangle->b(), triangle->normal_b());
+                               corner(triangle->c(), triangle->normal_c());
+                           },
+                           [this](const Cone* cone) { write_cone(*cone); },
+                           [this](std::monostate) { text_ += "# a surface that NFF has no entity for\n"; }},
+                   surface.shape());
     }
 
     void corner(const glm::vec3& position, const glm::vec3& normal) {
