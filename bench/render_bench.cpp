@@ -51,13 +51,13 @@ Wish read_wish(const std::vector<std::string>& words) {
     if (pictures != "yes" && pictures != "no") {
         throw UsageError("--pictures: expected yes or no, found '" + pictures + "'");
     }
-    return {arguments.words().front(),
-            arguments.number("--size", 512, 1, 8192),
-            arguments.number("--depth", 5, 1, 1000),
-            arguments.number("--rounds", 5, 1, 1000),
-            static_cast<std::size_t>(arguments.number("--every", 64, 1, 1000000)),
-            pictures == "yes",
-            chosen_structures(arguments.list("--structures"))};
+    return {.scene = arguments.words().front(),
+            .size = arguments.number("--size", 512, 1, 8192),
+            .depth = arguments.number("--depth", 5, 1, 1000),
+            .rounds = arguments.number("--rounds", 5, 1, 1000),
+            .every = static_cast<std::size_t>(arguments.number("--every", 64, 1, 1000000)),
+            .pictures = pictures == "yes",
+            .structures = chosen_structures(arguments.list("--structures"))};
 }
 
 /// One structure and all that is measured of it.
