@@ -52,7 +52,7 @@ std::string answer(const Accelerator& accelerator, const RecordedRay& asked) {
 
 Agreement compare(const Accelerator& expected, const Accelerator& actual, std::span<const RecordedRay> rays,
                   Measure measure) {
-    Agreement result{rays.size(), 0, std::nullopt};
+    Agreement result{.rays = rays.size(), .differing = 0, .first = std::nullopt};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!agree(expected, actual, rays[i], measure)) {
             ++result.differing;

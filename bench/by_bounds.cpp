@@ -4,6 +4,7 @@
 
 #include "core/scene.hpp"
 #include "core/stats.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps::bench {
 namespace {
@@ -45,7 +46,7 @@ public:
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
         return octree_->any_hit(ray, distance);
     }
-    [[nodiscard]] StructureSize size() const override { return octree_->size(); }
+    [[nodiscard]] AcceleratorStats size() const override { return octree_->size(); }
 
 private:
     Scene scene_;

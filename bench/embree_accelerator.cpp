@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "core/smooth_triangle.hpp"
@@ -42,13 +43,10 @@ struct Context {
 };
 
 Kind kind_of(const Surface& surface) {
-    if (dynamic_cast<const SmoothTriangle*>(&surface) != nullptr) {
-        return k_smooth;
-    }
-    if (dynamic_cast<const Triangle*>(&surface) != nullptr) {
-        return k_flat;
-    }
-    return dynamic_cast<const Sphere*>(&surface) != nullptr ? k_sphere : k_other;
+    return std::visit(ByShape{[](const Triangle*) { return k_flat; }, [](const SmoothTriangle*) { return k_smooth; },
+                              [](const Sphere*) { return k_sphere; }, [](const InwardSphere*) { return k_other; },
+                              [](const Cone*) { return k_other; }, [](std::monostate) { return k_other; }},
+                      surface.shape());
 }
 
 const Surface& surface_at(const void* list, unsigned place) {
@@ -143,8 +141,8 @@ public:
         return asked.tfar < 0.0F;
     }
 
-    [[nodiscard]] StructureSize size() const override {
-        StructureSize size;
+    [[nodiscard]] AcceleratorStats size() const override {
+        AcceleratorStats size;
         for (const SurfaceList& list : lists_) {
             size.references += list.size();
         }
@@ -179,7 +177,12 @@ private:
             normal = glm::dot(unit, ray.direction) > 0.0F ? -unit : unit;
         }
         const float distance = answer.ray.tfar;
-        return {ray.origin + distance * ray.direction, surface.fill(), normal, ray.direction, distance, from_outside};
+        return {.position = ray.origin + distance * ray.direction,
+                .fill = surface.fill(),
+                .normal = normal,
+                .ray_direction = ray.direction,
+                .distance = distance,
+                .from_outside = from_outside};
     }
 
     void attach(const Geometry& geometry, Kind kind) {

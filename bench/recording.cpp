@@ -17,13 +17,13 @@ void Recorder::name_last() const {
 
 std::optional<HitRecord> Recorder::closest_hit(const Ray& ray) const {
     name_last();
-    rays_.push_back({ray, 0.0F, Question::closest, RayKind::eye});
+    rays_.push_back({.ray = ray, .distance = 0.0F, .question = Question::closest, .kind = RayKind::eye});
     return inner_.closest_hit(ray);
 }
 
 bool Recorder::any_hit(const Ray& ray, float distance) const {
     name_last();
-    rays_.push_back({ray, distance, Question::any, RayKind::eye});
+    rays_.push_back({.ray = ray, .distance = distance, .question = Question::any, .kind = RayKind::eye});
     return inner_.any_hit(ray, distance);
 }
 

@@ -21,7 +21,9 @@ struct RecordedRay {
 /// Passes every question on, and writes it down.
 class Recorder final : public Accelerator {
 public:
-    Recorder(const Accelerator& inner, std::vector<RecordedRay>& rays) : inner_(inner), rays_(rays) {}
+    /// known: what the thread had counted when the last ray was asked.
+    Recorder(const Accelerator& inner, std::vector<RecordedRay>& rays, Stats& known)
+        : inner_(inner), rays_(rays), known_(known) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
@@ -34,7 +36,7 @@ private:
 
     const Accelerator& inner_;
     std::vector<RecordedRay>& rays_;
-    mutable Stats known_;
+    Stats& known_;
 };
 
 /// Every n-th of the rays, from the first.

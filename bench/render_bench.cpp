@@ -15,6 +15,7 @@
 #include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/read_file.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps::bench {
 
@@ -29,7 +30,7 @@ const char* const k_render_usage = R"(  raysteps-bench render SCENE.nff [options
 
 namespace {
 
-constexpr double k_most_differing = 0.001;  // share of the rays that Embree may see differently
+constexpr double k_max_differing = 0.001;  // share of the rays that Embree may see differently
 
 struct Wish {
     std::string scene;
@@ -50,13 +51,13 @@ Wish read_wish(const std::vector<std::string>& words) {
     if (pictures != "yes" && pictures != "no") {
         throw UsageError("--pictures: expected yes or no, found '" + pictures + "'");
     }
-    return {arguments.words().front(),
-            arguments.number("--size", 512, 1, 8192),
-            arguments.number("--depth", 5, 1, 1000),
-            arguments.number("--rounds", 5, 1, 1000),
-            static_cast<std::size_t>(arguments.number("--every", 64, 1, 1000000)),
-            pictures == "yes",
-            chosen_structures(arguments.list("--structures"))};
+    return {.scene = arguments.words().front(),
+            .size = arguments.number("--size", 512, 1, 8192),
+            .depth = arguments.number("--depth", 5, 1, 1000),
+            .rounds = arguments.number("--rounds", 5, 1, 1000),
+            .every = static_cast<std::size_t>(arguments.number("--every", 64, 1, 1000000)),
+            .pictures = pictures == "yes",
+            .structures = chosen_structures(arguments.list("--structures"))};
 }
 
 /// One structure and all that is measured of it.
@@ -93,7 +94,7 @@ Workload read_workload(const Wish& wish) {
 void check_agreement(const std::vector<RecordedRay>& rays, const Accelerator& expected, Side& side) {
     const Measure measure = side.structure.foreign ? Measure::near : Measure::exact;
     side.agreement = compare(expected, *side.accelerator, rays, measure);
-    const double bound = side.structure.foreign ? k_most_differing * static_cast<double>(rays.size()) : 0.0;
+    const double bound = side.structure.foreign ? k_max_differing * static_cast<double>(rays.size()) : 0.0;
     if (static_cast<double>(side.agreement.differing) > bound) {
         const std::size_t first = *side.agreement.first;
         throw std::runtime_error(side.structure.name + " sees " + std::to_string(side.agreement.differing) + " of " +
@@ -144,7 +145,7 @@ void write_rays(Json& json, const std::vector<RecordedRay>& rays) {
 }
 
 void write_side(Json& json, const Side& side) {
-    const StructureSize size = side.accelerator->size();
+    const AcceleratorStats size = side.accelerator->size();
     const auto rays = static_cast<double>(side.agreement.rays);
     json.begin_object().field("name", side.structure.name).field("rays", side.agreement.rays);
     json.field("differing", side.agreement.differing).key("build_seconds");

@@ -27,7 +27,7 @@ int count_of(const std::string& text) {
 
 /// What was measured of one structure.
 struct Findings {
-    StructureSize size;
+    AcceleratorStats size;
     Stats work;
     std::optional<std::uint64_t> peak_bytes;  ///< of the program with the scene and the structure
     std::vector<double> build_seconds;
@@ -35,7 +35,7 @@ struct Findings {
 };
 
 std::string report(const std::string& kind, const Workload& workload, const Findings& found) {
-    const StructureSize& size = found.size;
+    const AcceleratorStats& size = found.size;
     const auto rays = static_cast<double>(workload.rays.size());
     Json json;
     json.begin_object().field("schema", std::string("raysteps/bench-structure/v1")).field("scene", kind);

@@ -6,6 +6,7 @@
 #include "bench/arguments.hpp"
 #include "bench/by_bounds.hpp"
 #include "bench/json.hpp"
+#include "render/accelerator_registry.hpp"
 #ifdef RAYSTEPS_EMBREE
 #include "bench/embree_accelerator.hpp"
 #endif
@@ -13,37 +14,25 @@
 namespace raysteps::bench {
 namespace {
 
-struct OwnStructure {
-    const char* name;
-    Acceleration kind;
-    bool slow;
-};
+// In the order of the tables. A new Acceleration needs its place here; its name is the registry's.
+constexpr std::array k_own{Acceleration::none, Acceleration::boxes,       Acceleration::octree,
+                           Acceleration::bvh,  Acceleration::wide_octree, Acceleration::wide};
 
-// A new Acceleration needs one line here; the commands find it by its name.
-constexpr std::array k_own{
-    OwnStructure{"none", Acceleration::none, true},
-    OwnStructure{"boxes", Acceleration::boxes, true},
-    OwnStructure{"octree", Acceleration::octree, false},
-    OwnStructure{"bvh", Acceleration::bvh, false},
-    OwnStructure{"wide-octree", Acceleration::wide_octree, false},
-    OwnStructure{"wide", Acceleration::wide, false},
-};
+bool is_slow(Acceleration kind) { return kind == Acceleration::none || kind == Acceleration::boxes; }
 
 std::vector<Structure> make_table() {
     std::vector<Structure> table;
-    for (const OwnStructure& own : k_own) {
-        if (has_accelerator(own.kind)) {
-            const auto make = [kind = own.kind](const SurfaceList& surfaces) {
-                return make_accelerator(kind, surfaces);
-            };
-            table.push_back({own.name, own.slow, false, make});
+    for (const Acceleration kind : k_own) {
+        const AcceleratorEntry& entry = accelerator_entry(kind);
+        if (entry.make != nullptr) {
+            table.push_back({.name = std::string(entry.name), .slow = is_slow(kind), .foreign = false, .make = entry.make});
         }
     }
-    table.push_back({"octree-by-bounds", false, false, make_octree_by_bounds});
+    table.push_back({.name = "octree-by-bounds", .slow = false, .foreign = false, .make = make_octree_by_bounds});
 #ifdef RAYSTEPS_EMBREE
     const auto add_embree = [&table](const char* name, EmbreeMode mode) {
         const auto make = [mode](const SurfaceList& surfaces) { return make_embree(surfaces, mode); };
-        table.push_back({name, false, true, make});
+        table.push_back({.name = name, .slow = false, .foreign = true, .make = make});
     };
     add_embree("embree", EmbreeMode::fast);
     add_embree("embree-high", EmbreeMode::high);

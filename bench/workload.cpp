@@ -7,7 +7,8 @@ namespace raysteps::bench {
 void record(Workload& workload, const Accelerator& accelerator) {
     thread_stats() = Stats{};
     workload.rays.clear();
-    const Recorder recorder(accelerator, workload.rays);
+    Stats known;
+    const Recorder recorder(accelerator, workload.rays, known);
     (void)draw(workload.scene, recorder, workload.options);
     recorder.finish();
 }

@@ -9,7 +9,7 @@
 #include "io/arguments.hpp"
 #include "io/nff_reader.hpp"
 #include "io/write_file.hpp"
-#include "render/acceleration_choice.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace {
 
@@ -22,7 +22,7 @@ void run(const InspectOptions& options) {
         scene.camera.height = options.picture.size->height;
     }
     check_pixel(options, scene.camera);
-    const Acceleration acceleration = options.picture.acceleration.value_or(usual_acceleration(options.picture.step));
+    const Acceleration acceleration = options.picture.acceleration.value_or(default_accelerator(options.picture.step));
     const auto accelerator = make_accelerator(acceleration, scene.surfaces());
     const StepOptions step{options.picture.step, options.picture.view, options.picture.depth};
     PixelRecord record = inspect_pixel(scene, *accelerator, acceleration, step, options.x, options.y);

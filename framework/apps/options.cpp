@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-#include "render/acceleration_choice.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps {
 
@@ -94,11 +94,11 @@ Rect parse_crop(const std::string& text) {
 }
 
 Acceleration parse_acceleration(const std::string& text) {
-    const std::optional<Acceleration> kind = acceleration_named(text);
-    if (!kind) {
+    const AcceleratorEntry* const entry = find_accelerator(text);
+    if (entry == nullptr) {
         complain("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
     }
-    return *kind;
+    return entry->kind;
 }
 
 View parse_view(const std::string& text) {
@@ -164,8 +164,10 @@ int last_step() { return k_last_step; }
 
 std::string list_accelerations() {
     std::string list;
-    for (const Acceleration kind : available_accelerations()) {
-        list += std::string(acceleration_name(kind)) + "\n";
+    for (const AcceleratorEntry& entry : accelerator_registry()) {
+        if (entry.make != nullptr) {
+            list += std::string(entry.name) + "\n";
+        }
     }
     return list;
 }

@@ -22,14 +22,14 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
         string(REGEX REPLACE "^0" "" index ${number})
         string(APPEND includes "#include \"steps/${step}/${name}.hpp\"\n")
         string(APPEND offers "[[maybe_unused]] const bool k_offered_${number} = "
-                             "raysteps::offer_picture(${index}, raysteps::${function});\n")
+                             "raysteps::register_shading_hook(${index}, raysteps::${function});\n")
     endif()
 endforeach()
-set(RAYSTEPS_OWN_PICTURES "")
+set(RAYSTEPS_SHADING_HOOKS "")
 if(offers)
-    set(RAYSTEPS_OWN_PICTURES "${PROJECT_BINARY_DIR}/steps/own_pictures.cpp")
-    file(CONFIGURE OUTPUT "${RAYSTEPS_OWN_PICTURES}" CONTENT "// Made by CMake from the manifests of the steps.
-#include \"render/own_pictures.hpp\"
+    set(RAYSTEPS_SHADING_HOOKS "${PROJECT_BINARY_DIR}/steps/shading_hooks.cpp")
+    file(CONFIGURE OUTPUT "${RAYSTEPS_SHADING_HOOKS}" CONTENT "// Made by CMake from the manifests of the steps.
+#include \"render/shading_hooks.hpp\"
 ${includes}
 namespace {
 ${offers}}  // namespace

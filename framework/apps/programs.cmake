@@ -3,7 +3,7 @@ set(sources apps/raytrace.cpp apps/options.cpp apps/stats_json.cpp)
 if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/spd_report.cpp")  # a students' kit does without
     list(APPEND sources apps/spd_report.cpp)
 endif()
-add_library(raytrace-app OBJECT ${sources} ${RAYSTEPS_OWN_PICTURES})
+add_library(raytrace-app OBJECT ${sources} ${RAYSTEPS_SHADING_HOOKS})
 target_link_libraries(raytrace-app PRIVATE raysteps-flags raysteps-strict)
 
 # name, then the numbers of the steps that are mine
@@ -25,7 +25,7 @@ if(RAYSTEPS_MODEL STREQUAL "reference")
 endif()
 
 # inspect, the life of one pixel.
-add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp ${RAYSTEPS_OWN_PICTURES})
+add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp ${RAYSTEPS_SHADING_HOOKS})
 target_link_libraries(inspect-app PRIVATE raysteps-flags raysteps-strict)
 
 function(raysteps_add_inspect name)
@@ -43,7 +43,7 @@ endif()
 if(RAYSTEPS_WINDOW)
     file(GLOB sources CONFIGURE_DEPENDS "view/window*.cpp")
     add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources}
-                ${RAYSTEPS_OWN_PICTURES})
+                ${RAYSTEPS_SHADING_HOOKS})
     target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)
     target_compile_definitions(view-app PRIVATE GL_SILENCE_DEPRECATION)  # a Mac calls all of OpenGL deprecated
 

@@ -13,8 +13,8 @@
 #include "io/read_file.hpp"
 #include "io/terminal.hpp"
 #include "io/write_file.hpp"
-#include "render/acceleration_choice.hpp"
-#include "render/work_map.hpp"
+#include "render/accelerator_registry.hpp"
+#include "render/cost_heatmap.hpp"
 #if __has_include("render/spd.hpp")
 #include "apps/spd_report.hpp"
 #include "render/spd.hpp"
@@ -29,7 +29,7 @@ using namespace raysteps;
 
 Acceleration acceleration_of(const RaytraceOptions& options) {
     const int step = options.spd ? std::max(options.step, 6) : options.step;  // SPD scenes are large
-    return options.acceleration.value_or(usual_acceleration(step));
+    return options.acceleration.value_or(default_accelerator(step));
 }
 
 void check_crop(const Rect& crop, const Camera& camera) {
@@ -62,7 +62,7 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
     if (!options.stats.empty()) {
         write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
     }
-    write_ppm(options.map ? work_map(rendering.costs, *options.map, options.map_scale) : rendering.image,
+    write_ppm(options.map ? cost_heatmap(rendering.costs, *options.map, options.map_scale) : rendering.image,
               path_of(options.output));
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/numbers.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps {
 
@@ -48,10 +49,13 @@ Pixel parse_click(const std::string& text) {
 RaytraceOptions shared_options(std::vector<std::string> words) {
     words.insert(words.end(), {"-o", "-"});
     RaytraceOptions options = parse_options(words);
-    if (options.acceleration && !has_accelerator(*options.acceleration)) {
-        const bool boxes = options.acceleration == Acceleration::boxes;
-        throw UsageError(boxes ? "--accel boxes: " + why_without(Acceleration::boxes)
-                               : "--accel: expected none, boxes, octree or bvh; a window has no wide trees");
+    if (options.acceleration) {
+        const AcceleratorEntry& entry = accelerator_entry(*options.acceleration);
+        if (entry.make == nullptr) {
+            throw UsageError(entry.kind == Acceleration::boxes
+                                 ? "--accel boxes: " + std::string(entry.unavailable_reason)
+                                 : "--accel: expected none, boxes, octree or bvh; a window has no wide trees");
+        }
     }
     return options;
 }

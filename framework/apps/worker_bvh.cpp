@@ -1,7 +1,6 @@
 #include "apps/worker_bvh.hpp"
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <unordered_map>
 
 #include "apps/worker_values.hpp"
@@ -19,8 +18,7 @@ using Place = SurfaceList::iterator;
 Box box_around(Place begin, Place end) {
     Box box;
     for (Place at = begin; at != end; ++at) {
-        box.min = glm::min(box.min, (*at)->bounds().min);
-        box.max = glm::max(box.max, (*at)->bounds().max);
+        box.extend((*at)->bounds());
     }
     return box;
 }
@@ -29,7 +27,9 @@ Box box_around(Place begin, Place end) {
 void halve(Bvh& bvh, std::size_t at, Place begin, Place end, int axis, float padding) {
     const Box box = box_around(begin, end);
     const auto first_surface = static_cast<std::uint32_t>(begin - bvh.surfaces.begin());
-    bvh.nodes[at] = {{box.min - padding, box.max + padding}, first_surface, static_cast<std::uint32_t>(end - begin)};
+    bvh.nodes[at] = {.box = box.padded(padding),
+                     .first = first_surface,
+                     .count = static_cast<std::uint32_t>(end - begin)};
     if (end - begin <= k_leaf_size) {
         return;
     }

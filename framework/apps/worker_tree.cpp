@@ -85,8 +85,7 @@ private:
 Node simple_tree(const SurfaceList& surfaces) {
     Box all;
     for (const Surface* surface : surfaces) {
-        all.min = glm::min(all.min, surface->bounds().min);
-        all.max = glm::max(all.max, surface->bounds().max);
+        all.extend(surface->bounds());
     }
     const glm::vec3 padding = 1e-3F * (all.max - all.min) + 1e-3F;
     return surfaces.empty() ? Node{} : simple_node({all.min - padding, all.max + padding}, surfaces, 1);

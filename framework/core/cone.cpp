@@ -24,11 +24,11 @@ std::array<double, 2> roots(double a, double b, double c) {
 
 }  // namespace
 
-Cone::Cone(const Ring& base, const Ring& apex, Visible visible, const Fill& fill)
+Cone::Cone(const End& base, const End& apex, Sidedness sidedness, const Fill& fill)
     : Surface(fill),
       base_(base),
       apex_(apex),
-      visible_(visible),
+      sidedness_(sidedness),
       axis_(glm::normalize(Vec(apex.center) - Vec(base.center))),
       length_(glm::length(Vec(apex.center) - Vec(base.center))),
       slope_((static_cast<double>(apex.radius) - static_cast<double>(base.radius)) / length_) {}
@@ -72,7 +72,7 @@ std::optional<HitRecord> Cone::wall_hit(const Ray& ray, double distance) const {
     const double radius = glm::length(spoke);
     const Vec outward = radius > 0.0 ? glm::normalize(spoke / radius - slope_ * axis_) : -Vec(ray.direction);
     const bool meets_outside = glm::dot(outward, Vec(ray.direction)) <= 0.0;
-    if (visible_ == Visible::inside && meets_outside) {
+    if (sidedness_ == Sidedness::inside && meets_outside) {
         return std::nullopt;
     }
     HitRecord hit;
@@ -81,7 +81,7 @@ std::optional<HitRecord> Cone::wall_hit(const Ray& ray, double distance) const {
     hit.normal = glm::vec3(meets_outside ? outward : -outward);
     hit.ray_direction = ray.direction;
     hit.distance = static_cast<float>(distance);
-    hit.from_outside = meets_outside || visible_ == Visible::inside;
+    hit.from_outside = meets_outside || sidedness_ == Sidedness::inside;
     return hit;
 }
 

@@ -10,31 +10,32 @@ namespace raysteps {
 class Cone final : public Surface {
 public:
     /// One end of the cone.
-    struct Ring {
+    struct End {
         glm::vec3 center{0.0F};
         float radius = 0.0F;
     };
 
     /// `inside`: a wall that the ray would meet from outside is not there (NFF's negative radii).
-    enum class Visible { both, inside };
+    enum class Sidedness { both, inside };
 
     /// The centres differ; both radii are >= 0, one at least above 0.
-    Cone(const Ring& base, const Ring& apex, Visible visible, const Fill& fill);
+    Cone(const End& base, const End& apex, Sidedness sidedness, const Fill& fill);
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
     [[nodiscard]] Box bounds() const override;
     [[nodiscard]] bool overlaps(const Box& box) const override;
+    [[nodiscard]] Shape shape() const override { return this; }
 
-    [[nodiscard]] const Ring& base() const { return base_; }
-    [[nodiscard]] const Ring& apex() const { return apex_; }
-    [[nodiscard]] Visible visible() const { return visible_; }
+    [[nodiscard]] const End& base() const { return base_; }
+    [[nodiscard]] const End& apex() const { return apex_; }
+    [[nodiscard]] Sidedness sidedness() const { return sidedness_; }
 
 private:
     [[nodiscard]] std::optional<HitRecord> wall_hit(const Ray& ray, double distance) const;
 
-    Ring base_;
-    Ring apex_;
-    Visible visible_;
+    End base_;
+    End apex_;
+    Sidedness sidedness_;
     glm::dvec3 axis_;  // unit length, from base to apex
     double length_;
     double slope_;  // growth of the radius per unit along the axis

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "testing/matchers.hpp"
 #include "testing/random.hpp"
 
@@ -15,12 +15,12 @@ using namespace raysteps::testing;
 
 namespace {
 
-Cone cone(const Cone::Ring& base, const Cone::Ring& apex, Cone::Visible visible = Cone::Visible::both) {
-    return {base, apex, visible, Fill{}};
+Cone cone(const Cone::End& base, const Cone::End& apex, Cone::Sidedness sidedness = Cone::Sidedness::both) {
+    return {base, apex, sidedness, Fill{}};
 }
 
-const Cone::Ring k_base{{0, 0, 0}, 1};
-const Cone::Ring k_apex{{0, 0, 2}, 1};
+const Cone::End k_base{{0, 0, 0}, 1};
+const Cone::End k_apex{{0, 0, 2}, 1};
 
 }  // namespace
 
@@ -73,7 +73,7 @@ TEST_CASE("a ray parallel to a cone's side", "[cone]") {
 }
 
 TEST_CASE("with negative radii only the inside is there", "[cone]") {
-    const auto hit = cone(k_base, k_apex, Cone::Visible::inside).hit({{5, 0, 1}, {-1, 0, 0}});
+    const auto hit = cone(k_base, k_apex, Cone::Sidedness::inside).hit({{5, 0, 1}, {-1, 0, 0}});
     REQUIRE(hit);
     CHECK(hit->distance == about(6));
     CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
@@ -135,8 +135,8 @@ TEST_CASE("a thin diagonal cone does not overlap the far corners of its bounds",
     CHECK_FALSE(thin.overlaps(Box{glm::vec3(2), glm::vec3(3)}));
 }
 
-TEST_CASE("a hollow sphere is seen from inside only", "[hollow_sphere]") {
-    const HollowSphere sphere({1, 2, 3}, 2, Fill{});
+TEST_CASE("a hollow sphere is seen from inside only", "[inward_sphere]") {
+    const InwardSphere sphere({1, 2, 3}, 2, Fill{});
     for (const float start : {6.0F, 1.0F}) {  // the near wall is not there
         const auto hit = sphere.hit({{start, 2, 3}, {-1, 0, 0}});
         REQUIRE(hit);

@@ -14,6 +14,7 @@ public:
     SmoothTriangle(const Corner& a, const Corner& b, const Corner& c, const Fill& fill);
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
+    [[nodiscard]] Shape shape() const override { return this; }
 
     [[nodiscard]] const glm::vec3& normal_a() const { return normal_a_; }
     [[nodiscard]] const glm::vec3& normal_b() const { return normal_b_; }

@@ -13,6 +13,7 @@ public:
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;  ///< step 02
     [[nodiscard]] Box bounds() const override;
     [[nodiscard]] bool overlaps(const Box& box) const override;  ///< step 06
+    [[nodiscard]] Shape shape() const override { return this; }
 
     [[nodiscard]] const glm::vec3& center() const { return center_; }
     [[nodiscard]] float radius() const { return radius_; }

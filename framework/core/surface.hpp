@@ -2,6 +2,7 @@
 // What a ray can meet. Sphere and Triangle are the two that the steps deal with.
 #include <cstddef>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "core/box.hpp"
@@ -9,6 +10,25 @@
 #include "core/ray.hpp"
 
 namespace raysteps {
+
+class Sphere;
+class InwardSphere;
+class Triangle;
+class SmoothTriangle;
+class Cone;
+
+/// The shapes that a scene can hold, for whoever treats each in its own way: std::visit with ByShape. Stand-ins that
+/// tests put into scenes are none of them.
+using Shape = std::variant<std::monostate, const Sphere*, const InwardSphere*, const Triangle*, const SmoothTriangle*,
+                           const Cone*>;
+
+/// One function for each shape; the compiler says which one is missing.
+template <typename... Functions>
+struct ByShape : Functions... {
+    using Functions::operator()...;
+};
+template <typename... Functions>
+ByShape(Functions...) -> ByShape<Functions...>;
 
 class Surface {
 public:
@@ -22,6 +42,8 @@ public:
 
     /// Whether the surface may touch the box. A "yes" too many costs time; a "no" too many loses hits.
     [[nodiscard]] virtual bool overlaps(const Box& box) const = 0;
+
+    [[nodiscard]] virtual Shape shape() const { return std::monostate{}; }
 
     [[nodiscard]] const Fill& fill() const { return fill_; }
 

@@ -1,7 +1,9 @@
 #include "inspect/meeting.hpp"
 
+#include <variant>
+
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -9,23 +11,34 @@
 namespace raysteps {
 
 SurfaceInfo describe(const Surface& surface) {
-    SurfaceInfo info{surface.order(), "other", {}, {}, surface.fill().color};
-    if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
-        info.kind = "sphere";
-        info.points = {sphere->center()};
-        info.radii = {sphere->radius()};
-    } else if (const auto* hollow = dynamic_cast<const HollowSphere*>(&surface)) {
-        info.kind = "hollow-sphere";
-        info.points = {hollow->center()};
-        info.radii = {hollow->radius()};
-    } else if (const auto* triangle = dynamic_cast<const Triangle*>(&surface)) {
-        info.kind = dynamic_cast<const SmoothTriangle*>(&surface) != nullptr ? "smooth-triangle" : "triangle";
-        info.points = {triangle->a(), triangle->b(), triangle->c()};
-    } else if (const auto* cone = dynamic_cast<const Cone*>(&surface)) {
-        info.kind = "cone";
-        info.points = {cone->base().center, cone->apex().center};
-        info.radii = {cone->base().radius, cone->apex().radius};
-    }
+    SurfaceInfo info{
+        .order = surface.order(), .kind = "other", .points = {}, .radii = {}, .color = surface.fill().color};
+    const auto corners = [](const Triangle& triangle) { return std::vector{triangle.a(), triangle.b(), triangle.c()}; };
+    std::visit(ByShape{[&](const Sphere* sphere) {
+                           info.kind = "sphere";
+                           info.points = {sphere->center()};
+                           info.radii = {sphere->radius()};
+                       },
+                       [&](const InwardSphere* sphere) {
+                           info.kind = "hollow-sphere";
+                           info.points = {sphere->center()};
+                           info.radii = {sphere->radius()};
+                       },
+                       [&](const Triangle* triangle) {
+                           info.kind = "triangle";
+                           info.points = corners(*triangle);
+                       },
+                       [&](const SmoothTriangle* triangle) {
+                           info.kind = "smooth-triangle";
+                           info.points = corners(*triangle);
+                       },
+                       [&](const Cone* cone) {
+                           info.kind = "cone";
+                           info.points = {cone->base().center, cone->apex().center};
+                           info.radii = {cone->base().radius, cone->apex().radius};
+                       },
+                       [](std::monostate) {}},
+               surface.shape());
     return info;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "steps/06-octree/octree.hpp"
 
@@ -31,7 +30,7 @@ Nearest nearest_of(const SurfaceList& surfaces, const Ray& ray) {
 
 bool contains(const Box& box, const glm::vec3& point) {
     const float slack = 1e-5F * (glm::length(point) + glm::distance(box.min, box.max));
-    return glm::all(glm::lessThanEqual(box.min - slack, point)) && glm::all(glm::lessThanEqual(point, box.max + slack));
+    return box.padded(slack).contains(point);
 }
 
 /// Whether the functions that a tree is built with lose the point: bounds_of, or split again and again.
@@ -63,7 +62,7 @@ public:
     Inquiry(const Surface& surface, const glm::vec3& point, const Recorder& recorder)
         : surface_(surface), point_(point), recorder_(recorder) {}
 
-    void look_at(const BoxPlace& place) {
+    void look_at(const NodeInfo& place) {
         any_ = true;
         if (!contains(place.box, point_)) {
             return;
@@ -138,7 +137,7 @@ std::optional<Missed> find_missed(const RayNode& node, float limit, const Surfac
                   MissReason::not_chosen, std::nullopt};
     if (!recorder.asked(*nearest.surface)) {
         Inquiry inquiry(*nearest.surface, node.ray.origin + nearest.hit.distance * node.ray.direction, recorder);
-        accelerator.visit_boxes(nearest.surface, [&](const BoxPlace& place) { inquiry.look_at(place); });
+        accelerator.visit_nodes(nearest.surface, [&](const NodeInfo& place) { inquiry.look_at(place); });
         inquiry.conclude(missed);
         const bool by_building = missed.reason == MissReason::no_box || missed.reason == MissReason::not_listed;
         Missed deeper = missed;

@@ -1,6 +1,6 @@
 #include "inspect/names.hpp"
 
-#include "render/acceleration_choice.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps {
 
@@ -44,6 +44,6 @@ std::string name_of(MissReason reason) {
     return "";
 }
 
-std::string name_of(Acceleration acceleration) { return std::string(acceleration_name(acceleration)); }
+std::string name_of(Acceleration acceleration) { return std::string(accelerator_entry(acceleration).name); }
 
 }  // namespace raysteps

@@ -99,7 +99,7 @@ struct PixelRecord {
     ViewFrame frame;
     Color background = k_black;
     std::vector<Light> lights;
-    StructureSize structure;
+    AcceleratorStats structure;
     std::uint64_t surfaces = 0;  ///< in the scene
     int x = 0;
     int y = 0;

@@ -1,5 +1,5 @@
 // The two questions that are counted, for programs that also want to know what was asked. Linked as an object, it
-// stands in for core/counted.cpp, so that raytrace pays nothing for it.
+// stands in for core/counting_intersect.cpp, so that raytrace pays nothing for it.
 #include "core/stats.hpp"
 #include "core/surface.hpp"
 #include "inspect/recorder.hpp"

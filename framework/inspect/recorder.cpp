@@ -34,7 +34,7 @@ Unheard::~Unheard() {
 }
 
 Recorder::Recorder(const Accelerator& accelerator, std::size_t surfaces) : last_ray_(surfaces, 0) {
-    accelerator.visit_boxes(nullptr, [this](const BoxPlace& place) {
+    accelerator.visit_nodes(nullptr, [this](const NodeInfo& place) {
         known_.push_back({&place.box, place.level, place.listed});
     });
     std::sort(known_.begin(), known_.end(),

@@ -6,6 +6,7 @@
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
 #include "inspect/inspect_pixel.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps::testing {
 
@@ -27,8 +28,8 @@ inline Scene small_scene() {
     scene.add(std::make_unique<Triangle>(back_left, front_right, glm::vec3(5.0F, -1.0F, -5.0F), k_matte));
     scene.add(std::make_unique<Sphere>(glm::vec3(-1.1F, 0.0F, 0.0F), 1.0F, k_mirror));
     scene.add(std::make_unique<Sphere>(glm::vec3(1.1F, 0.0F, 0.0F), 1.0F, k_glass));
-    scene.add(std::make_unique<Cone>(Cone::Ring{{0.0F, -1.0F, 1.5F}, 0.4F}, Cone::Ring{{0.0F, 0.0F, 1.5F}, 0.0F},
-                                     Cone::Visible::both, k_matte));
+    scene.add(std::make_unique<Cone>(Cone::End{{0.0F, -1.0F, 1.5F}, 0.4F}, Cone::End{{0.0F, 0.0F, 1.5F}, 0.0F},
+                                     Cone::Sidedness::both, k_matte));
     return scene;
 }
 

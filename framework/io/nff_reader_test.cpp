@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "io/nff_reader.hpp"
@@ -87,7 +87,7 @@ TEST_CASE("a surface has the last fill before it", "[nff]") {
 }
 
 TEST_CASE("a negative radius makes a hollow sphere", "[nff]") {
-    const auto& sphere = only<HollowSphere>(read(k_view + k_fill + "s 1 2 3 -4\n"));
+    const auto& sphere = only<InwardSphere>(read(k_view + k_fill + "s 1 2 3 -4\n"));
     CHECK(sphere.center() == glm::vec3(1, 2, 3));
     CHECK(sphere.radius() == 4.0F);
 }
@@ -98,7 +98,7 @@ TEST_CASE("a cone comes on one line or on three", "[nff]") {
         CHECK(cone.base().radius == 1.0F);
         CHECK(cone.apex().center == glm::vec3(0, 0, 2));
         CHECK(cone.apex().radius == 0.5F);
-        CHECK(cone.visible() == Cone::Visible::both);
+        CHECK(cone.sidedness() == Cone::Sidedness::both);
     }
     CHECK(only<Cone>(read(k_view + k_fill + "c 0 0 0 1 0 0 2 0\n")).apex().radius == 0.0F);
 }
@@ -107,7 +107,7 @@ TEST_CASE("negative radii make a cone that is seen from inside", "[nff]") {
     const auto& cone = only<Cone>(read(k_view + k_fill + "c 0 0 0 -1 0 0 2 -.5\n"));
     CHECK(cone.base().radius == 1.0F);
     CHECK(cone.apex().radius == 0.5F);
-    CHECK(cone.visible() == Cone::Visible::inside);
+    CHECK(cone.sidedness() == Cone::Sidedness::inside);
 }
 
 TEST_CASE("a polygon of three keeps its corners in order", "[nff]") {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -83,10 +83,10 @@ void read_sphere(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     const float radius = fields.coordinate("radius of the sphere");
     if (radius > 0.0F) {
         scene.add(std::make_unique<Sphere>(center, radius, fill));
-    } else if (radius < 0.0F && !has_hollow_spheres()) {
+    } else if (radius < 0.0F && !has_inward_spheres()) {
         scanner.fail(place, "radius of the sphere, a number above 0 (only the whole kit has hollow spheres)");
     } else if (radius < 0.0F) {
-        scene.add(std::make_unique<HollowSphere>(center, -radius, fill));
+        scene.add(std::make_unique<InwardSphere>(center, -radius, fill));
     } else {
         scanner.fail(place, "radius of the sphere, a number other than 0");
     }
@@ -94,11 +94,11 @@ void read_sphere(TokenScanner& scanner, const Fill& fill, Scene& scene) {
 
 void read_cone(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     FieldReader fields(scanner);
-    Cone::Ring base;
+    Cone::End base;
     base.center = fields.point("the cone's base");
     base.radius = fields.coordinate("radius of the cone's base");
     const Token place = scanner.peek();
-    Cone::Ring apex;
+    Cone::End apex;
     apex.center = fields.point("the cone's apex");
     const Token radius_place = scanner.peek();
     apex.radius = fields.coordinate("radius of the cone's apex");
@@ -113,10 +113,10 @@ void read_cone(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     if (base.center == apex.center) {
         scanner.fail(place, "the cone's apex apart from its base", "the same point");
     }
-    const Cone::Visible visible = low < 0.0F ? Cone::Visible::inside : Cone::Visible::both;
+    const Cone::Sidedness sidedness = low < 0.0F ? Cone::Sidedness::inside : Cone::Sidedness::both;
     base.radius = std::abs(base.radius);
     apex.radius = std::abs(apex.radius);
-    scene.add(std::make_unique<Cone>(base, apex, visible, fill));
+    scene.add(std::make_unique<Cone>(base, apex, sidedness, fill));
 }
 
 void read_polygon(TokenScanner& scanner, const Fill& fill, Scene& scene) {

@@ -4,9 +4,10 @@
 #include <initializer_list>
 #include <optional>
 #include <string_view>
+#include <variant>
 
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -69,25 +70,23 @@ private:
     }
 
     void write_surface(const Surface& surface) {
-        if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
-            line("s", sphere->center(), {sphere->radius()});
-        } else if (const auto* hollow = dynamic_cast<const HollowSphere*>(&surface)) {
-            line("s", hollow->center(), {-hollow->radius()});
-        } else if (const auto* cone = dynamic_cast<const Cone*>(&surface)) {
-            write_cone(*cone);
-        } else if (const auto* smooth = dynamic_cast<const SmoothTriangle*>(&surface)) {
-            text_ += "pp 3\n";
-            corner(smooth->a(), smooth->normal_a());
-            corner(smooth->b(), smooth->normal_b());
-            corner(smooth->c(), smooth->normal_c());
-        } else if (const auto* triangle = dynamic_cast<const Triangle*>(&surface)) {
-            text_ += "p 3\n";
-            line("", triangle->a(), {});
-            line("", triangle->b(), {});
-            line("", triangle->c(), {});
-        } else {
-            text_ += "# a surface that NFF has no entity for\n";
-        }
+        std::visit(ByShape{[this](const Sphere* sphere) { line("s", sphere->center(), {sphere->radius()}); },
+                           [this](const InwardSphere* sphere) { line("s", sphere->center(), {-sphere->radius()}); },
+                           [this](const Triangle* triangle) {
+                               text_ += "p 3\n";
+                               line("", triangle->a(), {});
+                               line("", triangle->b(), {});
+                               line("", triangle->c(), {});
+                           },
+                           [this](const SmoothTriangle* triangle) {
+                               text_ += "pp 3\n";
+                               corner(triangle->a(), triangle->normal_a());
+                               corner(triangle->b(), triangle->normal_b());
+                               corner(triangle->c(), triangle->normal_c());
+                           },
+                           [this](const Cone* cone) { write_cone(*cone); },
+                           [this](std::monostate) { text_ += "# a surface that NFF has no entity for\n"; }},
+                   surface.shape());
     }
 
     void corner(const glm::vec3& position, const glm::vec3& normal) {
@@ -95,7 +94,7 @@ private:
     }
 
     void write_cone(const Cone& cone) {
-        const float sign = cone.visible() == Cone::Visible::inside ? -1.0F : 1.0F;
+        const float sign = cone.sidedness() == Cone::Sidedness::inside ? -1.0F : 1.0F;
         line("c", cone.base().center, {sign * cone.base().radius});
         line("", cone.apex().center, {sign * cone.apex().radius});
     }

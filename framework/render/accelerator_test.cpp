@@ -1,5 +1,5 @@
 // All structures give brute force's hits, to the last bit.
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ Ray ray_in_a_face(Random& random, const Scene& scene, int i) {
     const Box box = surfaces[static_cast<std::size_t>(i) % surfaces.size()]->bounds();
     const int along = i % 3;
     const int across = (along + 1) % 3;
-    Ray ray{0.5F * (box.min + box.max), glm::vec3(0.0F)};
+    Ray ray{box.center(), glm::vec3(0.0F)};
     ray.direction[along] = i % 2 == 0 ? 1.0F : -1.0F;
     ray.origin[along] -= ray.direction[along] * random.uniform(0.0F, 20.0F);
     ray.origin[across] = i % 4 < 2 ? box.min[across] : box.max[across];
@@ -60,8 +60,13 @@ Ray ray_in_a_face(Random& random, const Scene& scene, int i) {
 }
 
 std::vector<Acceleration> trees() {
-    return available({Acceleration::boxes, Acceleration::octree, Acceleration::bvh, Acceleration::wide,
-                      Acceleration::wide_octree});
+    std::vector<Acceleration> kinds;
+    for (const AcceleratorEntry& entry : accelerator_registry()) {
+        if (entry.make != nullptr && entry.kind != Acceleration::none) {
+            kinds.push_back(entry.kind);
+        }
+    }
+    return kinds;
 }
 
 }  // namespace
@@ -188,15 +193,15 @@ TEST_CASE("Each structure tells its size", "[render][accelerator]") {
     Random random;
     INFO(random);
     const Scene scene = random_scene(random, 300, 0.5F);
-    const StructureSize none = make_accelerator(Acceleration::none, scene.surfaces())->size();
+    const AcceleratorStats none = make_accelerator(Acceleration::none, scene.surfaces())->size();
     CHECK(none.boxes + none.references + none.bytes == 0);
-    const StructureSize boxes = make_accelerator(Acceleration::boxes, scene.surfaces())->size();
+    const AcceleratorStats boxes = make_accelerator(Acceleration::boxes, scene.surfaces())->size();
     CHECK(boxes.boxes == 1 + 8 + 64);
     CHECK(boxes.references >= 300);
-    const StructureSize octree = make_accelerator(Acceleration::octree, scene.surfaces())->size();
+    const AcceleratorStats octree = make_accelerator(Acceleration::octree, scene.surfaces())->size();
     CHECK(octree.references >= 300);
     CHECK(octree.bytes > octree.boxes * sizeof(Box));
-    const StructureSize bvh = make_accelerator(Acceleration::bvh, scene.surfaces())->size();
+    const AcceleratorStats bvh = make_accelerator(Acceleration::bvh, scene.surfaces())->size();
     INFO("each surface is in one leaf");
     CHECK(bvh.references == 300);
     CHECK(bvh.boxes > 30);
@@ -210,10 +215,10 @@ TEST_CASE("Each structure shows all its boxes, and which of them list a surface"
     for (const Acceleration kind : {Acceleration::boxes, Acceleration::octree, Acceleration::bvh}) {
         INFO("structure " << static_cast<int>(kind));
         const auto structure = make_accelerator(kind, scene.surfaces());
-        StructureSize seen;
+        AcceleratorStats seen;
         int listing = 0;
         int deepest = 0;
-        structure->visit_boxes(wanted, [&](const BoxPlace& place) {
+        structure->visit_nodes(wanted, [&](const NodeInfo& place) {
             CHECK((place.level == 0) == (seen.boxes == 0));
             ++seen.boxes;
             seen.references += place.listed;

@@ -15,9 +15,9 @@ std::uint64_t cost_of(const PixelCost& pixel, CostKind kind) {
         case CostKind::depth:
             return pixel.deepest_ray;
         case CostKind::time:
-            break;
+            return pixel.nanoseconds;
     }
-    return pixel.nanoseconds;
+    return 0;
 }
 
 Color measured_color(StepTracer& tracer, const Ray& ray, PixelCost& cost) {
@@ -27,8 +27,10 @@ Color measured_color(StepTracer& tracer, const Ray& ray, PixelCost& cost) {
     const Color color = tracer.primary_color(ray);
     const auto spent = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
     const Stats& after = thread_stats();
-    cost = {after.surface_tests - before.surface_tests, after.box_tests - before.box_tests,
-            static_cast<std::uint64_t>(tracer.deepest_ray()), static_cast<std::uint64_t>(spent.count())};
+    cost = {.surface_tests = after.surface_tests - before.surface_tests,
+            .box_tests = after.box_tests - before.box_tests,
+            .deepest_ray = static_cast<std::uint64_t>(tracer.deepest_ray()),
+            .nanoseconds = static_cast<std::uint64_t>(spent.count())};
     return color;
 }
 

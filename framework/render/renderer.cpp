@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/threads.hpp"
+#include "render/accelerator_registry.hpp"
 #include "render/encode.hpp"
 #include "render/progress.hpp"
 #include "render/tiles.hpp"
@@ -61,7 +62,7 @@ void work(Job& job) {
 }  // namespace
 
 Rendering render(const Scene& scene, const RenderOptions& options) {
-    const Rect crop = options.crop.value_or(Rect{0, 0, scene.camera.width, scene.camera.height});
+    const Rect crop = options.crop.value_or(Rect{.x = 0, .y = 0, .width = scene.camera.width, .height = scene.camera.height});
     const Clock::time_point build_start = Clock::now();
     const std::unique_ptr<Accelerator> accelerator = make_accelerator(options.acceleration, scene.surfaces());
     const double build_seconds = seconds_since(build_start);
@@ -69,23 +70,26 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const Clock::time_point render_start = Clock::now();
     std::vector<Rect> tiles = tiles_of(crop);
     const std::size_t count = tiles.size();
-    Job job{scene,
-            *accelerator,
-            options,
-            view_frame(scene.camera),
-            crop,
-            std::move(tiles),
-            {},
-            {},
-            {},
-            Progress(count, options.show_progress),
-            Image(crop.width, crop.height),
-            options.measure_cost ? CostGrid(crop.width, crop.height) : CostGrid()};
+    Job job{.scene = scene,
+            .accelerator = *accelerator,
+            .options = options,
+            .frame = view_frame(scene.camera),
+            .crop = crop,
+            .tiles = std::move(tiles),
+            .next_tile = {},
+            .mutex = {},
+            .stats = {},
+            .progress = Progress(count, options.show_progress),
+            .image = Image(crop.width, crop.height),
+            .costs = options.measure_cost ? CostGrid(crop.width, crop.height) : CostGrid()};
     run_on_threads(options.threads, [&job] { work(job); });
     job.progress.finish();
-    return {std::move(job.image), job.stats,
-            accelerator->size(),  build_seconds,
-            seconds_since(render_start), std::move(job.costs)};
+    return {.image = std::move(job.image),
+            .stats = job.stats,
+            .structure = accelerator->size(),
+            .build_seconds = build_seconds,
+            .render_seconds = seconds_since(render_start),
+            .costs = std::move(job.costs)};
 }
 
 }  // namespace raysteps

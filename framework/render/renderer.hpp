@@ -29,7 +29,7 @@ struct RenderOptions {
 struct Rendering {
     Image image;
     Stats stats;
-    StructureSize structure;
+    AcceleratorStats structure;
     double build_seconds = 0.0;
     double render_seconds = 0.0;
     CostGrid costs;  ///< as large as the image, or empty

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/stats.hpp"
-#include "render/own_pictures.hpp"
+#include "render/shading_hooks.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"
@@ -12,19 +12,19 @@
 
 namespace raysteps {
 
-std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) {
+std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) const {
     std::optional<HitRecord> hit = accelerator_.closest_hit(ray);
     count(hit.has_value());
     return hit;
 }
 
-bool StepTracer::any_hit(const Ray& ray, float distance) {
+bool StepTracer::any_hit(const Ray& ray, float distance) const {
     const bool hit = accelerator_.any_hit(ray, distance);
     count(hit);
     return hit;
 }
 
-void StepTracer::count(bool hit) {
+void StepTracer::count(bool hit) const {
     Stats& stats = thread_stats();
     switch (next_) {
         case RayKind::eye:
@@ -105,7 +105,7 @@ Color StepTracer::primary_color(const Ray& ray) {
     const Color color = color_of(ray);
     next_ = RayKind::eye;
     next_depth_ = 1;
-    return with_own_pictures(*this, ray, color, options_.step);
+    return apply_shading_hooks(*this, ray, color, options_.step);
 }
 
 }  // namespace raysteps

@@ -13,8 +13,10 @@ namespace raysteps {
     std::vector<Rect> tiles;
     for (int y = 0; y < area.height; y += k_side) {
         for (int x = 0; x < area.width; x += k_side) {
-            tiles.push_back(
-                {area.x + x, area.y + y, std::min(k_side, area.width - x), std::min(k_side, area.height - y)});
+            tiles.push_back({.x = area.x + x,
+                             .y = area.y + y,
+                             .width = std::min(k_side, area.width - x),
+                             .height = std::min(k_side, area.height - y)});
         }
     }
     return tiles;

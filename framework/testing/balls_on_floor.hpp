@@ -16,9 +16,14 @@ inline Scene balls_on_floor() {
     scene.camera.height = 37;
     scene.background = {0.1F, 0.2F, 0.3F};
     scene.lights = {{{4.0F, 5.0F, 3.0F}, k_white}, {{-4.0F, 3.0F, 2.0F}, Color(0.5F)}};
-    const Fill matte{{0.8F, 0.7F, 0.2F}, 0.9F, 0.0F, 1.0F, 0.0F, 1.0F};
-    const Fill mirror{{0.5F, 0.5F, 0.9F}, 0.4F, 0.6F, 30.0F, 0.0F, 1.0F};
-    const Fill glass{{1.0F, 1.0F, 1.0F}, 0.1F, 0.1F, 50.0F, 0.8F, 1.5F};
+    const Fill matte{.color = {0.8F, 0.7F, 0.2F}, .kd = 0.9F};
+    const Fill mirror{.color = {0.5F, 0.5F, 0.9F}, .kd = 0.4F, .ks = 0.6F, .shine = 30.0F};
+    const Fill glass{.color = {1.0F, 1.0F, 1.0F},
+                     .kd = 0.1F,
+                     .ks = 0.1F,
+                     .shine = 50.0F,
+                     .transmittance = 0.8F,
+                     .index_of_refraction = 1.5F};
     const glm::vec3 back_left{-5.0F, -1.0F, -5.0F};
     const glm::vec3 front_right{5.0F, -1.0F, 5.0F};
     scene.add(std::make_unique<Triangle>(back_left, glm::vec3(-5.0F, -1.0F, 5.0F), front_right, matte));

@@ -1,6 +1,5 @@
 #pragma once
 // Everything that a step's tests use.
-#include "testing/boxes.hpp"
 #include "testing/catch.hpp"
 #include "testing/fake_tracer.hpp"
 #include "testing/hits.hpp"

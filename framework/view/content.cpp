@@ -1,7 +1,7 @@
 #include "view/content.hpp"
 
 #include "render/encode.hpp"
-#include "render/work_map.hpp"
+#include "render/cost_heatmap.hpp"
 #include "view/exposure.hpp"
 #include "view/strip.hpp"
 
@@ -37,7 +37,7 @@ Image exposed(const Grid<Color>& colors, int step, float stops) {
 
 Image content(const Frame& frame, const Settings& settings, const std::string& status) {
     if (settings.map) {
-        return work_map(frame.costs, *settings.map, std::nullopt);
+        return cost_heatmap(frame.costs, *settings.map, std::nullopt);
     }
     return stacked(exposed(frame.colors, settings.step.step, settings.stops),
                    strip_for(frame.colors.width(), settings, status));

@@ -2,7 +2,7 @@
 #include "view/content.hpp"
 
 #include "render/encode.hpp"
-#include "render/work_map.hpp"
+#include "render/cost_heatmap.hpp"
 #include "testing/testing.hpp"
 #include "view/exposure.hpp"
 #include "view/strip.hpp"
@@ -69,5 +69,5 @@ TEST_CASE("A work map takes the place of the picture", "[view]") {
     const Frame frame = frame_of(k_white);
     Settings settings = settings_of(8);
     settings.map = CostKind::boxes;
-    CHECK(content(frame, settings, "") == work_map(frame.costs, CostKind::boxes, std::nullopt));
+    CHECK(content(frame, settings, "") == cost_heatmap(frame.costs, CostKind::boxes, std::nullopt));
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "render/acceleration_choice.hpp"
+#include "render/accelerator_registry.hpp"
 #include "view/camera_moves.hpp"
 #include "view/exposure.hpp"
 #include "view/strip.hpp"
@@ -25,7 +25,7 @@ bool same_view(const Camera& a, const Camera& b) { return a.from == b.from && a.
 
 Shot Controls::shot() const {
     return {settings_.camera, settings_.step,
-            settings_.acceleration.value_or(usual_acceleration(settings_.step.step))};
+            settings_.acceleration.value_or(default_accelerator(settings_.step.step))};
 }
 
 bool Controls::camera_moved() const { return !same_view(settings_.camera, home_); }
@@ -125,8 +125,12 @@ void Controls::choose_step(int step) {
 }
 
 void Controls::next_acceleration() {
-    std::vector<Acceleration> all = available_accelerations();
-    std::erase_if(all, [this](Acceleration kind) { return step_of(kind) > settings_.last_step; });
+    std::vector<Acceleration> all;
+    for (const AcceleratorEntry& entry : accelerator_registry()) {
+        if (entry.make != nullptr && entry.step <= settings_.last_step) {
+            all.push_back(entry.kind);
+        }
+    }
     const Acceleration now = shot().acceleration;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i] == now) {

@@ -6,6 +6,7 @@
 #include "inspect/inspect_pixel.hpp"
 #include "inspect/inspect_text.hpp"
 #include "io/nff_writer.hpp"
+#include "render/accelerator_registry.hpp"
 #include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 

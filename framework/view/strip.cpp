@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "render/tiny_font.hpp"
-#include "render/work_map.hpp"
+#include "render/cost_heatmap.hpp"
 #include "view/exposure.hpp"
 
 namespace raysteps {

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "core/scene.hpp"
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 
 namespace raysteps {
 

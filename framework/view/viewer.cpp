@@ -10,7 +10,7 @@
 #include "io/arguments.hpp"
 #include "io/ppm.hpp"
 #include "io/read_file.hpp"
-#include "render/acceleration_choice.hpp"
+#include "render/accelerator_registry.hpp"
 #include "view/content.hpp"
 #include "view/pixel_asker.hpp"
 #include "view/window.hpp"
@@ -140,7 +140,7 @@ private:
         const std::string made = progressed.problem.empty()
                                      ? std::to_string(std::lround(std::floor(100.0 * progressed.share))) + "%"
                                      : "failed, see the terminal";
-        return "step " + std::to_string(shot.step.step) + "  " + std::string(acceleration_name(shot.acceleration)) +
+        return "step " + std::to_string(shot.step.step) + "  " + std::string(accelerator_entry(shot.acceleration).name) +
                "  " + made;
     }
 

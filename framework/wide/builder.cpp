@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <variant>
 
 #include "core/cone.hpp"
 #include "core/sphere.hpp"
@@ -65,7 +66,7 @@ void fill_all(std::vector<Block>& blocks, const SurfaceList& surfaces) {
 }
 
 std::uint32_t place(std::size_t size) {
-    if (size > Reference::k_most_first) {
+    if (size > Reference::k_max_first) {
         throw std::length_error("this scene has too many surfaces for the wide tree: 16 million blocks are the most");
     }
     return static_cast<std::uint32_t>(size);
@@ -74,8 +75,7 @@ std::uint32_t place(std::size_t size) {
 Box around(std::span<const Item> items) {
     Box all;
     for (const Item& item : items) {
-        all.min = glm::min(all.min, item.box.min);
-        all.max = glm::max(all.max, item.box.max);
+        all.extend(item.box);
     }
     return all;
 }
@@ -97,14 +97,14 @@ void Builder::add_blocks(Kind kind, std::vector<Block>& blocks, const Box& box, 
     while (done < surfaces.size()) {
         const std::uint32_t first = place(blocks.size());
         std::uint32_t count = 0;
-        for (; count < Reference::k_most_blocks && done < surfaces.size(); ++count) {
+        for (; count < Reference::k_max_blocks && done < surfaces.size(); ++count) {
             Block& block = blocks.emplace_back();
             for (; block.count < k_lanes && done < surfaces.size(); ++block.count, ++done) {
                 block.surface[block.count] = static_cast<std::uint32_t>(tree_.surfaces.size());
                 tree_.surfaces.push_back(surfaces[done]);
             }
         }
-        items.push_back({box, Reference(kind, first, count)});
+        items.push_back({.box = box, .to = Reference(kind, first, count)});
     }
 }
 
@@ -114,18 +114,21 @@ void Builder::add_surfaces(const Box& box, std::span<const Surface* const> surfa
     SurfaceList cones;
     SurfaceList others;
     for (const Surface* surface : surfaces) {
-        const bool flat = dynamic_cast<const Triangle*>(surface) != nullptr;
-        const bool round = !flat && dynamic_cast<const Sphere*>(surface) != nullptr;
-        const bool tapered = !flat && !round && dynamic_cast<const Cone*>(surface) != nullptr;
-        (flat ? triangles : round ? spheres : tapered ? cones : others).push_back(surface);
+        std::visit(ByShape{[&](const Sphere*) { spheres.push_back(surface); },
+                           [&](const Triangle*) { triangles.push_back(surface); },
+                           [&](const SmoothTriangle*) { triangles.push_back(surface); },
+                           [&](const Cone*) { cones.push_back(surface); },
+                           [&](const InwardSphere*) { others.push_back(surface); },
+                           [&](std::monostate) { others.push_back(surface); }},
+                   surface->shape());
     }
     add_blocks(Kind::triangles, tree_.triangles, box, triangles, items);
     add_blocks(Kind::spheres, tree_.spheres, box, spheres, items);
     add_blocks(Kind::cones, tree_.cones, box, cones, items);
     for (std::size_t done = 0; done < others.size();) {
-        const std::size_t count = std::min<std::size_t>(Reference::k_most_blocks, others.size() - done);
+        const std::size_t count = std::min<std::size_t>(Reference::k_max_blocks, others.size() - done);
         const Reference to(Kind::others, place(tree_.others.size()), static_cast<std::uint32_t>(count));
-        items.push_back({box, to});
+        items.push_back({.box = box, .to = to});
         for (std::size_t end = done + count; done < end; ++done) {
             tree_.others.push_back(static_cast<std::uint32_t>(tree_.surfaces.size()));
             tree_.surfaces.push_back(others[done]);
@@ -134,11 +137,11 @@ void Builder::add_surfaces(const Box& box, std::span<const Surface* const> surfa
 }
 
 void Builder::write_node(Node& node, std::span<const Item> items) const {
-    const Box nowhere;
     for (std::size_t lane = 0; lane < k_lanes; ++lane) {
         const bool used = lane < items.size();
-        set(node.low, lane, used ? items[lane].box.min - padding_ : nowhere.min);
-        set(node.high, lane, used ? items[lane].box.max + padding_ : nowhere.max);
+        const Box box = used ? items[lane].box.padded(padding_) : Box{};
+        set(node.low, lane, box.min);
+        set(node.high, lane, box.max);
         node.to[lane] = used ? items[lane].to : Reference(Kind::node, 0, 0);
     }
     node.count = static_cast<std::uint32_t>(items.size());
@@ -164,12 +167,12 @@ Item Builder::add_node(std::span<const Item> items) {
     }
     const std::uint32_t at = place(tree_.nodes.size());
     write_node(tree_.nodes.emplace_back(), few);
-    return {around(few), Reference(Kind::node, at, 0), levels_below(few) + 1};
+    return {.box = around(few), .to = Reference(Kind::node, at, 0), .levels = levels_below(few) + 1};
 }
 
 Tree Builder::finish(std::span<const Item> items) {
     const std::vector<Item> few = grouped(items);
-    if (levels_below(few) + 1 > k_most_levels) {
+    if (levels_below(few) + 1 > k_max_levels) {
         throw std::length_error("the tree has too many levels to be searched eight boxes at a time");
     }
     write_node(tree_.nodes.front(), few);

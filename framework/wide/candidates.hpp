@@ -11,7 +11,7 @@
 namespace raysteps::wide {
 
 /// A stretch of the ray in which a surface is surely hit.
-struct Sure {
+struct CertainHit {
     const Surface* surface;
     float least;
     float most;
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] float limit() const { return limit_; }
 
     /// To be asked at the end, if nothing surely nearer turns up.
-    void add(const Sure& sure) {
+    void add(const CertainHit& sure) {
         if (sure.least > limit_) {
             return;
         }
@@ -73,7 +73,7 @@ private:
     }
 
     const Ray& ray_;
-    std::array<Sure, 12> sure_;  // the first count_ of them
+    std::array<CertainHit, 12> sure_;  // the first count_ of them
     std::size_t count_ = 0;
     std::optional<HitRecord> best_;
     std::size_t order_ = 0;

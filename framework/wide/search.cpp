@@ -45,7 +45,7 @@ public:
     [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
-    std::array<Open, k_lanes * static_cast<std::size_t>(k_most_levels)> entries_;
+    std::array<Open, k_lanes * static_cast<std::size_t>(k_max_levels)> entries_;
     std::size_t size_ = 0;
 };
 

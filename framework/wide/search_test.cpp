@@ -1,11 +1,11 @@
 // The wide trees give Surface::hit's own answers, also where single precision is at its end.
 #include "core/cone.hpp"
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
 #include "core/stats.hpp"
 #include "core/triangle.hpp"
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -13,7 +13,15 @@ using namespace raysteps::testing;
 
 namespace {
 
-std::vector<Acceleration> wide_trees() { return available({Acceleration::wide, Acceleration::wide_octree}); }
+std::vector<Acceleration> wide_trees() {
+    std::vector<Acceleration> kinds;
+    for (const Acceleration kind : {Acceleration::wide, Acceleration::wide_octree}) {
+        if (accelerator_entry(kind).make != nullptr) {
+            kinds.push_back(kind);
+        }
+    }
+    return kinds;
+}
 
 void add_triangle(Scene& scene, Random& random, const glm::vec3& at, float size) {
     const glm::vec3 along = random.point(size);
@@ -33,10 +41,10 @@ Scene scene_of_all_kinds(Random& random, int surfaces, float scale, const glm::v
         } else if (i % 5 == 2) {
             scene.add(std::make_unique<Sphere>(at, 0.5F * size, Fill{}));
         } else if (i % 5 == 3) {
-            const Cone::Ring end{at + random.point(size), 0.1F * size};
-            scene.add(std::make_unique<Cone>(Cone::Ring{at, 0.3F * size}, end, Cone::Visible::both, Fill{}));
+            const Cone::End end{at + random.point(size), 0.1F * size};
+            scene.add(std::make_unique<Cone>(Cone::End{at, 0.3F * size}, end, Cone::Sidedness::both, Fill{}));
         } else {
-            scene.add(std::make_unique<HollowSphere>(at, 0.3F * size, Fill{}));
+            scene.add(std::make_unique<InwardSphere>(at, 0.3F * size, Fill{}));
         }
     }
     return scene;
@@ -50,7 +58,7 @@ Ray any_ray(Random& random, const Scene& scene, const Accelerator& brute, float 
     if (number % 3 == 0) {
         ray.direction = glm::normalize(target.bounds().min - ray.origin);
     } else if (number % 3 == 1) {
-        ray.direction = glm::normalize(0.5F * (target.bounds().min + target.bounds().max) - ray.origin);
+        ray.direction = glm::normalize(target.bounds().center() - ray.origin);
     }
     if (number % 4 == 3) {
         const auto* const triangle = dynamic_cast<const Triangle*>(&target);

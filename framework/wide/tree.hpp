@@ -19,17 +19,17 @@ enum class Kind : std::uint32_t { node, triangles, spheres, cones, others };
 /// A node, or a run of blocks of surfaces of one kind, in 32 bits: 3 for the kind, 5 for the count.
 class Reference {
 public:
-    static constexpr std::uint32_t k_most_blocks = 31;
-    static constexpr std::uint32_t k_most_first = (1U << 24U) - 1;
+    static constexpr std::uint32_t k_max_blocks = 31;
+    static constexpr std::uint32_t k_max_first = (1U << 24U) - 1;
 
     Reference() = default;  ///< to nowhere in particular: a stack of many costs nothing
-    /// first <= k_most_first, count <= k_most_blocks
+    /// first <= k_max_first, count <= k_max_blocks
     Reference(Kind kind, std::uint32_t first, std::uint32_t count)
         : bits_(static_cast<std::uint32_t>(kind) << 29U | count << 24U | first) {}
 
     [[nodiscard]] Kind kind() const { return static_cast<Kind>(bits_ >> 29U); }
-    [[nodiscard]] std::uint32_t first() const { return bits_ & k_most_first; }
-    [[nodiscard]] std::uint32_t count() const { return bits_ >> 24U & k_most_blocks; }
+    [[nodiscard]] std::uint32_t first() const { return bits_ & k_max_first; }
+    [[nodiscard]] std::uint32_t count() const { return bits_ >> 24U & k_max_blocks; }
 
 private:
     std::uint32_t bits_;
@@ -72,7 +72,7 @@ struct alignas(32) ConeBlock {
 };
 
 /// Levels of nodes that a search is ready for.
-inline constexpr int k_most_levels = 64;
+inline constexpr int k_max_levels = 64;
 
 struct Tree {
     std::vector<Node> nodes;  ///< nodes[0] is the root

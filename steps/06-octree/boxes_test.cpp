@@ -90,11 +90,11 @@ TEST_CASE("Box::clip: the interval holds what is inside for any box", "[06-octre
         CAPTURE(*part);
         REQUIRE(part->enter >= 0.0F);
         REQUIRE(part->enter <= part->leave);
-        REQUIRE(holds(box, ray.origin + part->enter * ray.direction, 1e-3F));
-        REQUIRE(holds(box, ray.origin + part->leave * ray.direction, 1e-3F));
+        REQUIRE(box.padded(1e-3F).contains(ray.origin + part->enter * ray.direction));
+        REQUIRE(box.padded(1e-3F).contains(ray.origin + part->leave * ray.direction));
         INFO("a little before and behind, the ray is outside (unless it starts inside)");
-        REQUIRE_FALSE(holds(box, ray.origin + (part->leave + 1e-2F) * ray.direction, -1e-3F));
-        REQUIRE((part->enter < 1e-2F || !holds(box, ray.origin + (part->enter - 1e-2F) * ray.direction, -1e-3F)));
+        REQUIRE_FALSE(box.padded(-1e-3F).contains(ray.origin + (part->leave + 1e-2F) * ray.direction));
+        REQUIRE((part->enter < 1e-2F || !box.padded(-1e-3F).contains(ray.origin + (part->enter - 1e-2F) * ray.direction)));
     }
 }
 

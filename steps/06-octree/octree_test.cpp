@@ -49,8 +49,8 @@ void look_for(const Node& node, const Surface* surface, const glm::vec3& point, 
         look_for(child, surface, point, seen, sight);
     }
     if (node.children.empty()) {
-        sight.in_some_leaf = sight.in_some_leaf || (seen && holds(node.box, point, margin));
-        sight.in_every_leaf = sight.in_every_leaf && (seen || !holds(node.box, point, -margin));
+        sight.in_some_leaf = sight.in_some_leaf || (seen && node.box.padded(margin).contains(point));
+        sight.in_every_leaf = sight.in_every_leaf && (seen || !node.box.padded(-margin).contains(point));
     }
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
         for (int i = 0; i < 20; ++i) {
             // A random point of the surface: where a ray towards the middle of its bounds meets it.
             const Box box = surface->bounds();
-            const std::optional<HitRecord> hit = surface->hit(random.ray_towards(0.5F * (box.min + box.max), 30.0F));
+            const std::optional<HitRecord> hit = surface->hit(random.ray_towards(box.center(), 30.0F));
             if (!hit) {
                 continue;
             }

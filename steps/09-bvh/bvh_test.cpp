@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <map>
 #include <memory>
 #include <vector>
@@ -22,8 +21,7 @@ const glm::vec3 k_down{0.0F, 0.0F, -1.0F};
 bool inside(const Box& inner, const Box& outer) {
     // Boxes may be grown a little against rounding, each by itself.
     const float margin = 1e-3F + 1e-5F * (glm::length(outer.min) + glm::length(outer.max));
-    return glm::all(glm::greaterThanEqual(inner.min, outer.min - margin)) &&
-           glm::all(glm::lessThanEqual(inner.max, outer.max + margin));
+    return outer.padded(margin).contains(inner);
 }
 
 /// Walks through the whole tree, and counts in how many leaves each surface is.

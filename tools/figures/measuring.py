@@ -30,7 +30,7 @@ _BOUNCES = range(1, 11)
 _DEPTH_KNOB = {
     "constexpr int k_max_depth = 12;": "const int k_max_depth = static_cast<int>(knob(0));",
     "constexpr std::size_t k_max_growth = 4; ": "constexpr std::size_t k_max_growth = 1000000; ",
-    "constexpr std::uint64_t k_most_references = 24;": "constexpr std::uint64_t k_most_references = 1000000;",
+    "constexpr std::uint64_t k_max_references = 24;": "constexpr std::uint64_t k_max_references = 1000000;",
     "    // Separating axes": "    if (knob(1) > 0.0F) {\n        return true;\n    }\n    // Separating axes",
 }
 _THRESHOLD_KNOB = {"k_shadow_threshold * hit.normal": "knob(0) * hit.normal"}

@@ -43,7 +43,7 @@ bool gap_along(const glm::dvec3& axis, const Corners& corners, const glm::dvec3&
 }
 
 Node grow(const Box& box, const SurfaceList& candidates, int level, float slack) {
-    const Box reach{box.min - slack, box.max + slack};
+    const Box reach = box.padded(slack);
     SurfaceList mine;
     std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(mine),
                  [&reach](const Surface* surface) { return surface->overlaps(reach); });

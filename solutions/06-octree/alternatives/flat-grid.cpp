@@ -53,8 +53,7 @@ int cells_along_an_axis(std::size_t surfaces) {
 Box bounds_of(const SurfaceList& surfaces) {
     Box all;
     for (const Surface* surface : surfaces) {
-        all.min = glm::min(all.min, surface->bounds().min);
-        all.max = glm::max(all.max, surface->bounds().max);
+        all.extend(surface->bounds());
     }
     return all;
 }

@@ -13,17 +13,15 @@ namespace raysteps {
 namespace {
 
 constexpr std::size_t k_short_list = 6;
-constexpr int k_most_levels = 7;
-constexpr std::size_t k_most_parts = 4;
+constexpr int k_max_levels = 7;
+constexpr std::size_t k_max_parts = 4;
 constexpr float k_share = 1e-5F;  // of the numbers, by which boxes are held to be larger than they are
 
 float size_of_numbers(const Box& box) { return glm::length(box.min) + glm::length(box.max); }
 
-Box with_margin(const Box& box, float margin) { return {box.min - margin, box.max + margin}; }
-
 Node sort_in(const Box& box, SurfaceList surfaces, int level, float margin) {
-    Node node{with_margin(box, margin), {}, {}};
-    if (level == k_most_levels || surfaces.size() <= k_short_list) {
+    Node node{box.padded(margin), {}, {}};
+    if (level == k_max_levels || surfaces.size() <= k_short_list) {
         node.surfaces = std::move(surfaces);
         return node;
     }
@@ -32,11 +30,11 @@ Node sort_in(const Box& box, SurfaceList surfaces, int level, float margin) {
     for (const Surface* surface : surfaces) {
         std::vector<std::size_t> touched;
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            if (surface->overlaps(with_margin(parts[i], margin))) {
+            if (surface->overlaps(parts[i].padded(margin))) {
                 touched.push_back(i);
             }
         }
-        if (touched.size() > k_most_parts) {
+        if (touched.size() > k_max_parts) {
             node.surfaces.push_back(surface);
         } else {
             for (const std::size_t i : touched) {
@@ -119,7 +117,7 @@ bool Sphere::overlaps(const Box& box) const {
 }
 
 bool Triangle::overlaps(const Box& box) const {
-    const Box own = with_margin(bounds(), k_share * size_of_numbers(bounds()));
+    const Box own = bounds().padded(k_share * size_of_numbers(bounds()));
     const glm::bvec3 below = glm::lessThanEqual(own.min, box.max);
     const glm::bvec3 above = glm::lessThanEqual(box.min, own.max);
     return below.x && below.y && below.z && above.x && above.y && above.z;

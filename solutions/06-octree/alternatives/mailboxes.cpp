@@ -78,7 +78,7 @@ float largest_coordinate(const Box& box) {
 /// `cell` divides the space; the node's own box is a little larger than it.
 Node divide(const Box& cell, const SurfaceList& surfaces, int depth, float slack) {
     Node node;
-    node.box = {cell.min - slack, cell.max + slack};
+    node.box = cell.padded(slack);
     if (surfaces.size() <= k_leaf_size || depth == k_deepest) {
         node.surfaces = surfaces;
         return node;
@@ -86,7 +86,7 @@ Node divide(const Box& cell, const SurfaceList& surfaces, int depth, float slack
     std::vector<Node> children;
     std::size_t shared = 0;
     for (const Box& part : split(cell)) {
-        const Box reach{part.min - slack, part.max + slack};
+        const Box reach = part.padded(slack);
         SurfaceList inside;
         for (const Surface* surface : surfaces) {
             if (surface->overlaps(reach)) {

@@ -35,11 +35,9 @@ bool bounds_overlap(const Box& a, const Box& b) {
     return true;
 }
 
-Box grown(const Box& box, float by) { return {box.min - by, box.max + by}; }
-
 Node make_box(const Box& box, const SurfaceList& surfaces, int level, float slack) {
     Node node;
-    node.box = grown(box, slack);
+    node.box = box.padded(slack);
     SurfaceList inside;
     for (const Surface* surface : surfaces) {
         if (surface->overlaps(node.box)) {

@@ -14,12 +14,7 @@ constexpr std::ptrdiff_t k_leaf_size = 4;
 
 using Place = SurfaceList::iterator;
 
-glm::vec3 middle_of(const Surface& surface) { return 0.5F * (surface.bounds().min + surface.bounds().max); }
-
-void grow(Box& box, const glm::vec3& low, const glm::vec3& high) {
-    box.min = glm::min(box.min, low);
-    box.max = glm::max(box.max, high);
-}
+glm::vec3 middle_of(const Surface& surface) { return surface.bounds().center(); }
 
 int widest_axis(const Box& box) {
     const glm::vec3 size = box.max - box.min;
@@ -31,8 +26,8 @@ void build(Bvh& bvh, std::size_t at, Place begin, Place end, float margin) {
     Box box;
     Box middles;
     for (Place place = begin; place != end; ++place) {
-        grow(box, (*place)->bounds().min - margin, (*place)->bounds().max + margin);
-        grow(middles, middle_of(**place), middle_of(**place));
+        box.extend((*place)->bounds().padded(margin));
+        middles.extend(middle_of(**place));
     }
     bvh.nodes[at].box = box;
     if (end - begin <= k_leaf_size) {
@@ -129,7 +124,7 @@ Bvh build_bvh(const SurfaceList& surfaces) {
     if (!surfaces.empty()) {
         Box all;
         for (const Surface* surface : surfaces) {
-            grow(all, surface->bounds().min, surface->bounds().max);
+            all.extend(surface->bounds());
         }
         const glm::vec3 reach = glm::max(glm::abs(all.min), glm::abs(all.max));
         bvh.surfaces = surfaces;

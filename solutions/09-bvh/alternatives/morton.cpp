@@ -38,21 +38,15 @@ std::uint32_t code_of(const glm::vec3& share) {
     return code;
 }
 
-void grow(Box& box, const Box& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
-}
-
 std::vector<Coded> sorted_by_code(const SurfaceList& surfaces) {
     Box middles;
     for (const Surface* surface : surfaces) {
-        const glm::vec3 middle = 0.5F * surface->bounds().min + 0.5F * surface->bounds().max;
-        grow(middles, {middle, middle});
+        middles.extend(surface->bounds().center());
     }
     const glm::vec3 size = glm::max(middles.max - middles.min, glm::vec3(1e-20F));
     std::vector<Coded> list;
     for (const Surface* surface : surfaces) {
-        const glm::vec3 middle = 0.5F * surface->bounds().min + 0.5F * surface->bounds().max;
+        const glm::vec3 middle = surface->bounds().center();
         list.push_back({code_of((middle - middles.min) / size), surface});
     }
     std::sort(list.begin(), list.end(), [](const Coded& a, const Coded& b) {
@@ -80,19 +74,19 @@ void fit_boxes(Bvh& bvh, float margin) {
     for (std::size_t at = bvh.nodes.size(); at-- > 0;) {
         BvhNode& node = bvh.nodes[at];
         for (std::uint32_t i = 0; i < node.count; ++i) {
-            grow(node.box, bvh.surfaces[node.first + i]->bounds());
+            node.box.extend(bvh.surfaces[node.first + i]->bounds());
         }
         if (node.is_leaf()) {
             node.box.min -= margin;
             node.box.max += margin;
         } else {
-            grow(node.box, bvh.nodes[node.first].box);
-            grow(node.box, bvh.nodes[node.first + 1].box);
+            node.box.extend(bvh.nodes[node.first].box);
+            node.box.extend(bvh.nodes[node.first + 1].box);
         }
     }
 }
 
-glm::vec3 middle_of(const BvhNode& node) { return 0.5F * (node.box.min + node.box.max); }
+glm::vec3 middle_of(const BvhNode& node) { return node.box.center(); }
 
 }  // namespace
 
@@ -142,7 +136,7 @@ Bvh build_bvh(const SurfaceList& surfaces) {
     }
     Box all;
     for (const Surface* surface : surfaces) {
-        grow(all, surface->bounds());
+        all.extend(surface->bounds());
     }
     fit_boxes(bvh, 4e-6F * (glm::length(all.min) + glm::length(all.max)));
     return bvh;

@@ -12,11 +12,6 @@
 namespace raysteps {
 namespace {
 
-void grow(Box& box, const Box& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
-}
-
 double area_of(const Box& box) {
     const glm::dvec3 size = glm::dvec3(box.max) - glm::dvec3(box.min);
     if (size.x < 0.0 || size.y < 0.0 || size.z < 0.0) {
@@ -57,11 +52,11 @@ Cut best_cut(const Box& whole, Place begin, Place end) {
         std::vector<Box> from_right(static_cast<std::size_t>(size) + 1);
         for (std::ptrdiff_t i = size; i-- > 0;) {
             from_right[static_cast<std::size_t>(i)] = from_right[static_cast<std::size_t>(i) + 1];
-            grow(from_right[static_cast<std::size_t>(i)], begin[i]->bounds());
+            from_right[static_cast<std::size_t>(i)].extend(begin[i]->bounds());
         }
         Box left;
         for (std::ptrdiff_t i = 1; i < size; ++i) {
-            grow(left, begin[i - 1]->bounds());
+            left.extend(begin[i - 1]->bounds());
             const double cost = cost_of(left, static_cast<std::size_t>(i), from_right[static_cast<std::size_t>(i)],
                                         static_cast<std::size_t>(size - i), whole);
             if (cost < best.cost) {
@@ -75,7 +70,7 @@ Cut best_cut(const Box& whole, Place begin, Place end) {
 void build(Bvh& bvh, std::size_t at, Place begin, Place end, int level) {
     Box box;
     for (Place place = begin; place != end; ++place) {
-        grow(box, (*place)->bounds());
+        box.extend((*place)->bounds());
     }
     bvh.nodes[at] = {box, static_cast<std::uint32_t>(begin - bvh.surfaces.begin()),
                      static_cast<std::uint32_t>(end - begin)};

@@ -22,15 +22,7 @@ struct Made {
     std::unique_ptr<Made> right;
 };
 
-void grow(Box& box, const Box& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
-}
-
-float middle_of(const Surface* surface, int axis) {
-    const Box box = surface->bounds();
-    return 0.5F * box.min[axis] + 0.5F * box.max[axis];
-}
+float middle_of(const Surface* surface, int axis) { return surface->bounds().center()[axis]; }
 
 /// Where to cut the list, which is sorted along the axis.
 std::size_t best_cut(const SurfaceList& list, int axis, const Box& whole) {
@@ -45,7 +37,7 @@ std::size_t best_cut(const SurfaceList& list, int axis, const Box& whole) {
         std::size_t count = 0;
         for (const Surface* surface : list) {
             const bool is_left = middle_of(surface, axis) < plane;
-            grow(is_left ? left : right, surface->bounds());
+            (is_left ? left : right).extend(surface->bounds());
             count += is_left ? 1U : 0U;
         }
         if (count > 0 && count < list.size()) {
@@ -64,8 +56,8 @@ std::unique_ptr<Made> make(SurfaceList list, int level) {
     Box middles;
     for (const Surface* surface : list) {
         const Box box = surface->bounds();
-        grow(made->box, box);
-        grow(middles, {box.min + box.max, box.min + box.max});
+        made->box.extend(box);
+        middles.extend(box.min + box.max);
     }
     if (list.size() == 1) {
         made->surface = list.front();
@@ -84,7 +76,7 @@ std::unique_ptr<Made> make(SurfaceList list, int level) {
 }
 
 void write(const Made& made, Bvh& bvh, std::size_t at, float margin) {
-    bvh.nodes[at].box = {made.box.min - margin, made.box.max + margin};
+    bvh.nodes[at].box = made.box.padded(margin);
     if (made.surface != nullptr) {
         bvh.nodes[at].first = static_cast<std::uint32_t>(bvh.surfaces.size());
         bvh.nodes[at].count = 1;

@@ -1,5 +1,5 @@
-#include "render/paper_boxes.hpp"
-
+// The paper's own acceleration: a main box is split in eight, and each of these again, into 64 boxes. A ray
+// tests the surfaces of all small boxes that it hits, each surface once, in the order of the scene.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "core/rounding.hpp"
+#include "render/accelerators.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/06-octree/octree.hpp"
 
 namespace raysteps {
 namespace {
-
-Box grown(const Box& box, float padding) { return {box.min - padding, box.max + padding}; }
 
 std::vector<std::uint64_t> members_of(const Box& box, const SurfaceList& surfaces) {
     std::vector<std::uint64_t> members((surfaces.size() + 63) / 64, 0);
@@ -58,14 +57,14 @@ bool hits_untested(const std::vector<std::uint64_t>& members, std::vector<std::u
     return false;
 }
 
-class PaperBoxes final : public Accelerator {
+class PaperGrid final : public Accelerator {
 public:
-    explicit PaperBoxes(const SurfaceList& surfaces);
+    explicit PaperGrid(const SurfaceList& surfaces);
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
-    [[nodiscard]] StructureSize size() const override;
-    void visit_boxes(const Surface* wanted, const BoxVisitor& visit) const override;
+    [[nodiscard]] AcceleratorStats size() const override;
+    void visit_nodes(const Surface* wanted, const NodeVisitor& visit) const override;
 
 private:
     /// A small box and its intersect list: bit i of word w stands for surface 64 w + i.
@@ -83,25 +82,25 @@ private:
     std::array<Middle, 8> middle_;
 };
 
-PaperBoxes::PaperBoxes(const SurfaceList& surfaces) : surfaces_(surfaces) {
+PaperGrid::PaperGrid(const SurfaceList& surfaces) : surfaces_(surfaces) {
     if (surfaces_.empty()) {
         return;
     }
     const Box all = bounds_of(surfaces_);
     const float padding = padding_within(all);
-    main_ = grown(all, padding);
+    main_ = all.padded(padding);
     const std::array<Box, 8> middle_boxes = split(main_);
     for (std::size_t m = 0; m < 8; ++m) {
-        middle_[m].box = grown(middle_boxes[m], padding);
+        middle_[m].box = middle_boxes[m].padded(padding);
         const std::array<Box, 8> small_boxes = split(middle_boxes[m]);
         for (std::size_t s = 0; s < 8; ++s) {
-            const Box box = grown(small_boxes[s], padding);
+            const Box box = small_boxes[s].padded(padding);
             middle_[m].small[s] = {box, members_of(box, surfaces_)};
         }
     }
 }
 
-std::optional<HitRecord> PaperBoxes::closest_hit(const Ray& ray) const {
+std::optional<HitRecord> PaperGrid::closest_hit(const Ray& ray) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return std::nullopt;
     }
@@ -125,7 +124,7 @@ std::optional<HitRecord> PaperBoxes::closest_hit(const Ray& ray) const {
     return raysteps::closest_hit(list, ray);
 }
 
-bool PaperBoxes::any_hit(const Ray& ray, float distance) const {
+bool PaperGrid::any_hit(const Ray& ray, float distance) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return false;
     }
@@ -139,8 +138,8 @@ bool PaperBoxes::any_hit(const Ray& ray, float distance) const {
     });
 }
 
-StructureSize PaperBoxes::size() const {
-    StructureSize sum{1, 0, sizeof middle_ + sizeof main_};
+AcceleratorStats PaperGrid::size() const {
+    AcceleratorStats sum{.boxes = 1, .references = 0, .bytes = sizeof middle_ + sizeof main_};
     for (const Middle& middle : middle_) {
         sum.boxes += 1 + middle.small.size();
         for (const Small& small : middle.small) {
@@ -151,27 +150,30 @@ StructureSize PaperBoxes::size() const {
     return sum;
 }
 
-void PaperBoxes::visit_boxes(const Surface* wanted, const BoxVisitor& visit) const {
+void PaperGrid::visit_nodes(const Surface* wanted, const NodeVisitor& visit) const {
     if (surfaces_.empty()) {
         return;
     }
     const auto place = std::find(surfaces_.begin(), surfaces_.end(), wanted);
     const auto bit = static_cast<std::size_t>(place - surfaces_.begin());
-    visit({main_, 0, 0, false});
+    visit({.box = main_, .level = 0});
     for (const Middle& middle : middle_) {
-        visit({middle.box, 1, 0, false});
+        visit({.box = middle.box, .level = 1});
         for (const Small& small : middle.small) {
             const bool member = place != surfaces_.end() && ((small.members[bit / 64] >> (bit % 64)) & 1U) != 0U;
-            visit({small.box, 2, count_members(small.members), member});
+            visit({.box = small.box,
+                   .level = 2,
+                   .listed = count_members(small.members),
+                   .lists_wanted = member});
         }
     }
 }
 
 }  // namespace
 
-AcceleratorMaker paper_boxes() {
+AcceleratorMaker paper_grid() {
     return [](const SurfaceList& surfaces) -> std::unique_ptr<Accelerator> {
-        return std::make_unique<PaperBoxes>(surfaces);
+        return std::make_unique<PaperGrid>(surfaces);
     };
 }
 

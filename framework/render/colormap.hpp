@@ -10,6 +10,6 @@ namespace raysteps {
 inline constexpr Rgb8 k_above_scale{255, 255, 255};
 
 /// From 0 to `most` in even steps of lightness; most >= 1.
-[[nodiscard]] Rgb8 work_color(std::uint64_t value, std::uint64_t most);
+[[nodiscard]] Rgb8 colormap(std::uint64_t value, std::uint64_t most);
 
 }  // namespace raysteps

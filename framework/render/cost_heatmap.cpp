@@ -1,4 +1,4 @@
-#include "render/work_map.hpp"
+#include "render/cost_heatmap.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/tiny_font.hpp"
-#include "render/work_colors.hpp"
+#include "render/colormap.hpp"
 
 namespace raysteps {
 namespace {
@@ -25,9 +25,9 @@ std::string name_of(CostKind kind) {
         case CostKind::depth:
             return "deepest ray";
         case CostKind::time:
-            break;
+            return "nanoseconds";
     }
-    return "nanoseconds";
+    return "";
 }
 
 /// The next number of one digit and zeros that is good to halve in one's head.
@@ -63,7 +63,7 @@ struct Bar {
     int cap = 0;  ///< what follows it in the colour of all that is above the scale, a dot of space included
 };
 
-Bar bar_in(int strip_width, int dot, const WorkScale& scale) {
+Bar bar_in(int strip_width, int dot, const HeatmapScale& scale) {
     const int left = k_gap * dot;
     const int cap = scale.anything_above ? 3 * k_gap * dot : 0;
     return {left, std::max(2, strip_width - 2 * left - cap), cap};
@@ -72,13 +72,13 @@ Bar bar_in(int strip_width, int dot, const WorkScale& scale) {
 void draw_bar(Image& strip, const Bar& bar, int top, int dot) {
     const int height = k_bar_height * dot;
     for (int x = 0; x < bar.width; ++x) {
-        const Rgb8 color = work_color(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(bar.width - 1));
+        const Rgb8 color = colormap(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(bar.width - 1));
         fill(strip, bar.left + x, top, 1, height, color);
     }
     fill(strip, bar.left + bar.width + dot, top, bar.cap - dot, height, k_above_scale);
 }
 
-void draw_numbers(Image& strip, const Bar& bar, int top, int dot, const WorkScale& scale) {
+void draw_numbers(Image& strip, const Bar& bar, int top, int dot, const HeatmapScale& scale) {
     const std::string most = short_number(scale.most) + (scale.anything_above ? "+" : "");
     const std::string half = half_of(scale.most);
     const int after_zero = bar.left + text_width("0", dot) + k_gap * dot;
@@ -95,7 +95,7 @@ void draw_numbers(Image& strip, const Bar& bar, int top, int dot, const WorkScal
 
 }  // namespace
 
-WorkScale work_scale(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most) {
+HeatmapScale heatmap_scale(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most) {
     if (costs.pixels().empty()) {
         return {most.value_or(1), false};
     }
@@ -114,7 +114,7 @@ int legend_dot(int width) { return std::max(1, width / 400); }
 
 int legend_height(int width) { return (2 * k_letter_height + k_bar_height + 4 * k_gap) * legend_dot(width); }
 
-Image work_legend(int width, CostKind kind, const WorkScale& scale) {
+Image heatmap_legend(int width, CostKind kind, const HeatmapScale& scale) {
     const int dot = legend_dot(width);
     const int gap = k_gap * dot;
     Image strip(width, legend_height(width));
@@ -127,13 +127,13 @@ Image work_legend(int width, CostKind kind, const WorkScale& scale) {
     return strip;
 }
 
-Image work_map(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most) {
-    const WorkScale scale = work_scale(costs, kind, most);
-    const Image legend = work_legend(costs.width(), kind, scale);
+Image cost_heatmap(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most) {
+    const HeatmapScale scale = heatmap_scale(costs, kind, most);
+    const Image legend = heatmap_legend(costs.width(), kind, scale);
     Image map(costs.width(), costs.height() + legend.height());
     for (int y = 0; y < map.height(); ++y) {
         for (int x = 0; x < map.width(); ++x) {
-            map.at(x, y) = y < costs.height() ? work_color(cost_of(costs.at(x, y), kind), scale.most)
+            map.at(x, y) = y < costs.height() ? colormap(cost_of(costs.at(x, y), kind), scale.most)
                                               : legend.at(x, y - costs.height());
         }
     }

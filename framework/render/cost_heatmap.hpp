@@ -7,13 +7,13 @@
 namespace raysteps {
 
 /// From 0 to `most`; what is more has a colour of its own.
-struct WorkScale {
+struct HeatmapScale {
     std::uint64_t most = 1;
     bool anything_above = false;
 };
 
 /// The scale on which all but the dearest 0.5 % of the pixels lie, up to a round number; or the one that is given.
-[[nodiscard]] WorkScale work_scale(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most);
+[[nodiscard]] HeatmapScale heatmap_scale(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most);
 
 /// Pixels per dot of the legend's letters: larger ones under larger pictures.
 [[nodiscard]] int legend_dot(int width);
@@ -22,9 +22,9 @@ struct WorkScale {
 [[nodiscard]] int legend_height(int width);
 
 /// The strip: what is shown, the colours, and the numbers that they stand for.
-[[nodiscard]] Image work_legend(int width, CostKind kind, const WorkScale& scale);
+[[nodiscard]] Image heatmap_legend(int width, CostKind kind, const HeatmapScale& scale);
 
 /// As wide as the picture; higher by the legend.
-[[nodiscard]] Image work_map(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most);
+[[nodiscard]] Image cost_heatmap(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most);
 
 }  // namespace raysteps

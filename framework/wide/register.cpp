@@ -1,10 +1,10 @@
 // Brings the wide trees into the program that this file is linked with.
 #include <memory>
 
-#include "render/accelerator.hpp"
+#include "render/accelerator_registry.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
-#include "wide/from_steps.hpp"
+#include "wide/collapse.hpp"
 #include "wide/search.hpp"
 
 namespace raysteps::wide {
@@ -22,8 +22,8 @@ public:
         return wide::any_hit(tree_, ray, distance);
     }
 
-    [[nodiscard]] StructureSize size() const override {
-        return {tree_.nodes.size(), tree_.surfaces.size(), tree_.bytes()};
+    [[nodiscard]] AcceleratorStats size() const override {
+        return {.boxes = tree_.nodes.size(), .references = tree_.surfaces.size(), .bytes = tree_.bytes()};
     }
 
 private:
@@ -31,15 +31,15 @@ private:
 };
 
 std::unique_ptr<Accelerator> over_bvh(const SurfaceList& surfaces) {
-    return std::make_unique<WideTree>(from_bvh(build_bvh(surfaces)));
+    return std::make_unique<WideTree>(collapse(build_bvh(surfaces)));
 }
 
 std::unique_ptr<Accelerator> over_octree(const SurfaceList& surfaces) {
-    return std::make_unique<WideTree>(from_octree(build_octree(surfaces)));
+    return std::make_unique<WideTree>(collapse(build_octree(surfaces)));
 }
 
-[[maybe_unused]] const bool k_offered = offer_accelerator(Acceleration::wide, over_bvh) &&
-                                        offer_accelerator(Acceleration::wide_octree, over_octree);
+[[maybe_unused]] const bool k_registered = register_accelerator(Acceleration::wide, over_bvh) &&
+                                           register_accelerator(Acceleration::wide_octree, over_octree);
 
 }  // namespace
 }  // namespace raysteps::wide

@@ -1,4 +1,4 @@
-#include "render/every_surface.hpp"
+#include "render/accelerators.hpp"
 
 #include <algorithm>
 
@@ -14,9 +14,9 @@ bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
     });
 }
 
-class EverySurface final : public Accelerator {
+class LinearAccelerator final : public Accelerator {
 public:
-    explicit EverySurface(const SurfaceList& surfaces) : surfaces_(surfaces) {}
+    explicit LinearAccelerator(const SurfaceList& surfaces) : surfaces_(surfaces) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return raysteps::closest_hit(surfaces_, ray);
@@ -32,8 +32,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Accelerator> every_surface(const SurfaceList& surfaces) {
-    return std::make_unique<EverySurface>(surfaces);
+std::unique_ptr<Accelerator> linear_accelerator(const SurfaceList& surfaces) {
+    return std::make_unique<LinearAccelerator>(surfaces);
 }
 
 }  // namespace raysteps

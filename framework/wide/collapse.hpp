@@ -7,9 +7,9 @@
 namespace raysteps::wide {
 
 /// Throws std::invalid_argument where the nodes are no tree: an index is too large, or a node is reached twice.
-[[nodiscard]] Tree from_bvh(const Bvh& bvh);
+[[nodiscard]] Tree collapse(const Bvh& bvh);
 
 /// Both throw std::length_error for a tree of too many levels, or with too many surfaces.
-[[nodiscard]] Tree from_octree(const raysteps::Node& root);
+[[nodiscard]] Tree collapse(const raysteps::Node& root);
 
 }  // namespace raysteps::wide

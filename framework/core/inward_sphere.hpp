@@ -6,14 +6,15 @@ namespace raysteps {
 
 /// Its own normal points to the centre, so every hit is one from_outside. A ray from outside passes the near wall
 /// and meets the far one.
-class HollowSphere final : public Surface {
+class InwardSphere final : public Surface {
 public:
     /// radius > 0
-    HollowSphere(const glm::vec3& center, float radius, const Fill& fill);
+    InwardSphere(const glm::vec3& center, float radius, const Fill& fill);
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
     [[nodiscard]] Box bounds() const override;
     [[nodiscard]] bool overlaps(const Box& box) const override;
+    [[nodiscard]] Shape shape() const override { return this; }
 
     [[nodiscard]] const glm::vec3& center() const { return center_; }
     [[nodiscard]] float radius() const { return radius_; }
@@ -24,6 +25,6 @@ private:
 };
 
 /// A students' kit has none: they are met much as the spheres of steps 02 and 06.
-[[nodiscard]] bool has_hollow_spheres();
+[[nodiscard]] bool has_inward_spheres();
 
 }  // namespace raysteps

@@ -1,11 +1,11 @@
 // Work maps tell what each pixel cost, and nothing else.
-#include "render/work_map.hpp"
+#include "render/cost_heatmap.hpp"
 
 #include <algorithm>
 
 #include "render/renderer.hpp"
 #include "render/tiny_font.hpp"
-#include "render/work_colors.hpp"
+#include "render/colormap.hpp"
 #include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 
@@ -89,49 +89,49 @@ TEST_CASE("A work map has the same bytes for any number of threads", "[render]")
     options.threads = 3;
     const CostGrid together = render(scene, options).costs;
     for (const CostKind kind : {CostKind::tests, CostKind::boxes, CostKind::depth}) {
-        CHECK(work_map(together, kind, std::nullopt) == work_map(alone, kind, std::nullopt));
+        CHECK(cost_heatmap(together, kind, std::nullopt) == cost_heatmap(alone, kind, std::nullopt));
     }
 }
 
 TEST_CASE("A uniform cost gives one colour over a legend", "[render]") {
-    const Image map = work_map(uniform(120, 20, 6), CostKind::tests, std::nullopt);
+    const Image map = cost_heatmap(uniform(120, 20, 6), CostKind::tests, std::nullopt);
     REQUIRE(map.width() == 120);
     REQUIRE(map.height() == 20 + legend_height(120));
     for (int y = 0; y < 20; ++y) {
         for (int x = 0; x < 120; ++x) {
-            REQUIRE(map.at(x, y) == work_color(6, 6));
+            REQUIRE(map.at(x, y) == colormap(6, 6));
         }
     }
-    const Image legend = work_legend(120, CostKind::tests, {6, false});
+    const Image legend = heatmap_legend(120, CostKind::tests, {6, false});
     for (int y = 0; y < legend.height(); ++y) {
         for (int x = 0; x < 120; ++x) {
             REQUIRE(map.at(x, 20 + y) == legend.at(x, y));
         }
     }
-    CHECK_FALSE(legend == work_legend(120, CostKind::boxes, {6, false}));
-    CHECK_FALSE(legend == work_legend(120, CostKind::tests, {8, false}));
-    CHECK_FALSE(legend == work_legend(120, CostKind::tests, {6, true}));
+    CHECK_FALSE(legend == heatmap_legend(120, CostKind::boxes, {6, false}));
+    CHECK_FALSE(legend == heatmap_legend(120, CostKind::tests, {8, false}));
+    CHECK_FALSE(legend == heatmap_legend(120, CostKind::tests, {6, true}));
 }
 
 TEST_CASE("The scale is a round number above all but the dearest pixels", "[render]") {
     CostGrid costs = uniform(40, 25, 41);
-    CHECK(work_scale(costs, CostKind::tests, std::nullopt).most == 50);
-    CHECK_FALSE(work_scale(costs, CostKind::tests, std::nullopt).anything_above);
+    CHECK(heatmap_scale(costs, CostKind::tests, std::nullopt).most == 50);
+    CHECK_FALSE(heatmap_scale(costs, CostKind::tests, std::nullopt).anything_above);
     costs.at(3, 4).surface_tests = 7000;
-    const WorkScale scale = work_scale(costs, CostKind::tests, std::nullopt);
+    const HeatmapScale scale = heatmap_scale(costs, CostKind::tests, std::nullopt);
     CHECK(scale.most == 50);
     CHECK(scale.anything_above);
-    CHECK(work_map(costs, CostKind::tests, std::nullopt).at(3, 4) == k_above_scale);
-    CHECK(work_scale(costs, CostKind::tests, 8000).most == 8000);
-    CHECK_FALSE(work_scale(costs, CostKind::tests, 8000).anything_above);
-    CHECK(work_scale(costs, CostKind::boxes, std::nullopt).most == 1);  // all zero
+    CHECK(cost_heatmap(costs, CostKind::tests, std::nullopt).at(3, 4) == k_above_scale);
+    CHECK(heatmap_scale(costs, CostKind::tests, 8000).most == 8000);
+    CHECK_FALSE(heatmap_scale(costs, CostKind::tests, 8000).anything_above);
+    CHECK(heatmap_scale(costs, CostKind::boxes, std::nullopt).most == 1);  // all zero
 }
 
 TEST_CASE("More work is lighter", "[render]") {
     for (std::uint64_t value = 1; value <= 100; ++value) {
-        CHECK(lightness(work_color(value, 100)) > lightness(work_color(value - 1, 100)));
+        CHECK(lightness(colormap(value, 100)) > lightness(colormap(value - 1, 100)));
     }
-    CHECK(lightness(work_color(101, 100)) > lightness(work_color(100, 100)));
+    CHECK(lightness(colormap(101, 100)) > lightness(colormap(100, 100)));
 }
 
 TEST_CASE("Text is cut off at the edge of the picture", "[render]") {
@@ -145,6 +145,6 @@ TEST_CASE("Text is cut off at the edge of the picture", "[render]") {
 TEST_CASE("A map of a picture of any width has its legend", "[render]") {
     for (const int width : {1, 2, 7, 33, 399, 1000}) {
         INFO("width " << width);
-        CHECK(work_map(uniform(width, 3, 5), CostKind::time, 2).height() == 3 + legend_height(width));
+        CHECK(cost_heatmap(uniform(width, 3, 5), CostKind::time, 2).height() == 3 + legend_height(width));
     }
 }

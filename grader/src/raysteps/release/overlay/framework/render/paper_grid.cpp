@@ -1,8 +1,8 @@
 // Only the whole kit has the paper's boxes: a tree is what step 06 is about.
-#include "render/paper_boxes.hpp"
+#include "render/accelerators.hpp"
 
 namespace raysteps {
 
-AcceleratorMaker paper_boxes() { return nullptr; }
+AcceleratorMaker paper_grid() { return nullptr; }
 
 }  // namespace raysteps

@@ -1,4 +1,4 @@
-#include "core/hollow_sphere.hpp"
+#include "core/inward_sphere.hpp"
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -6,12 +6,12 @@
 
 namespace raysteps {
 
-HollowSphere::HollowSphere(const glm::vec3& center, float radius, const Fill& fill)
+InwardSphere::InwardSphere(const glm::vec3& center, float radius, const Fill& fill)
     : Surface(fill), center_(center), radius_(radius) {}
 
 // From the point of the ray closest to the centre the wall is equally far in both directions. The far side is
 // the one that the ray meets from within.
-std::optional<HitRecord> HollowSphere::intersect(const Ray& ray) const {
+std::optional<HitRecord> InwardSphere::intersect(const Ray& ray) const {
     const glm::dvec3 direction(ray.direction);
     const glm::dvec3 origin = glm::dvec3(ray.origin) - glm::dvec3(center_);
     const double square = glm::dot(direction, direction);
@@ -36,10 +36,10 @@ std::optional<HitRecord> HollowSphere::intersect(const Ray& ray) const {
     return hit;
 }
 
-Box HollowSphere::bounds() const { return {center_ - glm::vec3(radius_), center_ + glm::vec3(radius_)}; }
+Box InwardSphere::bounds() const { return {center_ - glm::vec3(radius_), center_ + glm::vec3(radius_)}; }
 
 // The wall touches the box unless the whole box is outside of the sphere or the whole box is within.
-bool HollowSphere::overlaps(const Box& box) const {
+bool InwardSphere::overlaps(const Box& box) const {
     const glm::dvec3 low = glm::dvec3(box.min) - glm::dvec3(center_);
     const glm::dvec3 high = glm::dvec3(box.max) - glm::dvec3(center_);
     const glm::dvec3 nearest = glm::clamp(glm::dvec3(0.0), low, high);
@@ -49,6 +49,6 @@ bool HollowSphere::overlaps(const Box& box) const {
     return glm::length(nearest) <= radius * (1.0 + k_slack) && glm::length(farthest) >= radius * (1.0 - k_slack);
 }
 
-bool has_hollow_spheres() { return true; }
+bool has_inward_spheres() { return true; }
 
 }  // namespace raysteps

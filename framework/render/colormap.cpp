@@ -1,4 +1,4 @@
-#include "render/work_colors.hpp"
+#include "render/colormap.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ std::uint8_t between(std::uint8_t low, std::uint8_t high, double share) {
 
 }  // namespace
 
-Rgb8 work_color(std::uint64_t value, std::uint64_t most) {
+Rgb8 colormap(std::uint64_t value, std::uint64_t most) {
     if (value > most) {
         return k_above_scale;
     }

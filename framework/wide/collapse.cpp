@@ -1,20 +1,15 @@
-#include "wide/from_steps.hpp"
+#include "wide/collapse.hpp"
 
-#include <glm/common.hpp>
 #include <stdexcept>
 
 #include "core/rounding.hpp"
+#include "steps/09-bvh/bvh.hpp"
 #include "wide/builder.hpp"
 
 namespace raysteps::wide {
 namespace {
 
 constexpr int k_deepest = 48;  // of the step's levels; what lies deeper is put into one list
-
-float half_area(const Box& box) {
-    const glm::vec3 size = glm::max(box.max - box.min, 0.0F);
-    return size.x * size.y + size.y * size.z + size.z * size.x;
-}
 
 /// A binary tree is folded into one of eight: the largest box is opened until there are eight.
 class BvhFolder {
@@ -55,8 +50,8 @@ private:
         while (parts.size() < k_lanes) {
             auto largest = parts.end();
             for (auto part = parts.begin(); part != parts.end(); ++part) {
-                const bool larger = largest == parts.end() || half_area(bvh_.nodes[*part].box) >
-                                                                  half_area(bvh_.nodes[*largest].box);
+                const bool larger = largest == parts.end() || surface_area(bvh_.nodes[*part].box) >
+                                                                  surface_area(bvh_.nodes[*largest].box);
                 largest = can_be_opened(*part) && larger ? part : largest;
             }
             if (largest == parts.end()) {
@@ -91,7 +86,7 @@ private:
             const Box& box = bvh_.nodes[part].box;
             if (can_be_opened(part) && depth < k_deepest) {
                 const Item below = builder_.add_node(items_below(part, depth + 1));
-                items.push_back({box, below.to, below.levels});
+                items.push_back({.box = box, .to = below.to, .levels = below.levels});
             } else {
                 builder_.add_surfaces(box, surfaces_below(part), items);
             }
@@ -129,7 +124,7 @@ std::vector<Item> items_of(const raysteps::Node& node, int depth, Builder& build
         const std::vector<Item> below = items_of(child, depth + 1, builder);
         if (!below.empty()) {
             const Item node_below = builder.add_node(below);
-            items.push_back({child.box, node_below.to, node_below.levels});
+            items.push_back({.box = child.box, .to = node_below.to, .levels = node_below.levels});
         }
     }
     return items;
@@ -137,9 +132,9 @@ std::vector<Item> items_of(const raysteps::Node& node, int depth, Builder& build
 
 }  // namespace
 
-Tree from_bvh(const Bvh& bvh) { return bvh.nodes.empty() ? Builder(0.0F).finish({}) : BvhFolder(bvh).fold(); }
+Tree collapse(const Bvh& bvh) { return bvh.nodes.empty() ? Builder(0.0F).finish({}) : BvhFolder(bvh).fold(); }
 
-Tree from_octree(const raysteps::Node& root) {
+Tree collapse(const raysteps::Node& root) {
     Builder builder(padding_within(root.box));
     return builder.finish(items_of(root, 0, builder));
 }

@@ -1,14 +1,14 @@
 // Asks no more than the closest hit, which is step 02's; how to stop at any hit is part of step 06.
-#include "render/every_surface.hpp"
+#include "render/accelerators.hpp"
 
 #include "steps/02-intersection/intersection.hpp"
 
 namespace raysteps {
 namespace {
 
-class EverySurface final : public Accelerator {
+class LinearAccelerator final : public Accelerator {
 public:
-    explicit EverySurface(const SurfaceList& surfaces) : surfaces_(surfaces) {}
+    explicit LinearAccelerator(const SurfaceList& surfaces) : surfaces_(surfaces) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return raysteps::closest_hit(surfaces_, ray);
@@ -25,8 +25,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Accelerator> every_surface(const SurfaceList& surfaces) {
-    return std::make_unique<EverySurface>(surfaces);
+std::unique_ptr<Accelerator> linear_accelerator(const SurfaceList& surfaces) {
+    return std::make_unique<LinearAccelerator>(surfaces);
 }
 
 }  // namespace raysteps

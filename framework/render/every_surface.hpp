@@ -1,9 +1,0 @@
-#pragma once
-// No structure at all: every ray is tested against every surface.
-#include "render/accelerator.hpp"
-
-namespace raysteps {
-
-[[nodiscard]] std::unique_ptr<Accelerator> every_surface(const SurfaceList& surfaces);
-
-}  // namespace raysteps

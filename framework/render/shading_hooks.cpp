@@ -1,0 +1,30 @@
+#include "render/shading_hooks.hpp"
+
+#include <map>
+
+namespace raysteps {
+namespace {
+
+std::map<int, ShadingHook>& registered() {
+    static std::map<int, ShadingHook> hooks;
+    return hooks;
+}
+
+}  // namespace
+
+bool register_shading_hook(int step, ShadingHook hook) {
+    registered()[step] = hook;
+    return true;
+}
+
+Color apply_shading_hooks(Tracer& tracer, const Ray& ray, const Color& color, int step) {
+    Color seen = color;
+    for (const auto& [own_step, hook] : registered()) {
+        if (own_step <= step) {
+            seen = hook(tracer, ray, seen);
+        }
+    }
+    return seen;
+}
+
+}  // namespace raysteps
