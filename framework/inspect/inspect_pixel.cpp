@@ -29,8 +29,8 @@ public:
         if (node.hit && node.hit->surface) {
             add(*node.hit->surface);
         }
-        if (node.missed) {
-            add(node.missed->surface);
+        if (node.lost) {
+            add(node.lost->surface);
         }
     }
 

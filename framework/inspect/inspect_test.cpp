@@ -60,7 +60,7 @@ TEST_CASE("A pixel that is inspected has the bytes and the counts of one that is
                 const SearchCounts sum = sum_of(record.eye);
                 REQUIRE(sum.surface_tests == record.stats.surface_tests);
                 REQUIRE(sum.box_tests == record.stats.box_tests);
-                REQUIRE_FALSE(record.eye.missed.has_value());
+                REQUIRE_FALSE(record.eye.lost.has_value());
             }
         }
     }
@@ -70,10 +70,10 @@ TEST_CASE("A surface that the structure loses is found and named", "[inspect]") 
     const Scene scene = one_mirror();
     const Forgetful structure(scene.surfaces(), 0);
     const PixelRecord record = inspect_pixel(scene, structure, Acceleration::octree, options_of(5), 4, 4);
-    REQUIRE(record.eye.missed.has_value());
-    CHECK(record.eye.missed->surface == 0);
-    CHECK(record.eye.missed->distance == Approx(4.0F));
-    CHECK(record.eye.missed->reason == MissReason::not_tested);
+    REQUIRE(record.eye.lost.has_value());
+    CHECK(record.eye.lost->surface == 0);
+    CHECK(record.eye.lost->distance == Approx(4.0F));
+    CHECK(record.eye.lost->reason == LossReason::not_tested);
     CHECK(inspect_text(record).find("LOST") != std::string::npos);
     CHECK(record.counts.surface_tests == record.stats.surface_tests);
 }

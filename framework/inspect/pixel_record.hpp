@@ -12,7 +12,7 @@
 #include "core/image.hpp"
 #include "core/light.hpp"
 #include "core/stats.hpp"
-#include "inspect/meeting.hpp"
+#include "inspect/hit_trace.hpp"
 #include "render/step_tracer.hpp"
 
 namespace raysteps {
@@ -58,8 +58,8 @@ struct RayNode {
     std::optional<bool> any;      ///< the answer, where the ray asked no more than whether anything is hit
     std::vector<BoxEvent> boxes;
     std::vector<SurfaceEvent> tests;
-    std::optional<Meeting> hit;    ///< of any hit: the surface that ended the search
-    std::optional<Missed> missed;  ///< where a search through all surfaces finds something else
+    std::optional<HitTrace> hit;    ///< of any hit: the surface that ended the search
+    std::optional<LostHit> lost;    ///< where a search through all surfaces finds something else
     std::vector<LightRecord> lights;
     std::optional<Color> direct;       ///< step 03's sum over the lights that reach the hit
     std::optional<Color> transmitted;  ///< what shines through, weighed with the transmittance

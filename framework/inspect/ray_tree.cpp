@@ -89,7 +89,7 @@ RayNode* RayTree::open_shadow_ray(LightRecord* light, int depth, const Ray& ray,
     return &node;
 }
 
-CastRay* RayTree::caster_of(const HitRecord& hit) const {
+CastRay* RayTree::ray_of_hit(const HitRecord& hit) const {
     const auto rays = rays_of_call();
     const auto found = std::find_if(rays.rbegin(), rays.rend(), [&](const CastRay* cast) {
         return cast->hit && cast->hit->distance == hit.distance && cast->hit->position == hit.position;

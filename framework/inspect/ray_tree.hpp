@@ -36,7 +36,7 @@ public:
     [[nodiscard]] RayNode* open_shadow_ray(LightRecord* light, int depth, const Ray& ray, std::optional<float> limit);
 
     /// The ray of the call that gave this hit; the last one where none did; null where there is none.
-    [[nodiscard]] CastRay* caster_of(const HitRecord& hit) const;
+    [[nodiscard]] CastRay* ray_of_hit(const HitRecord& hit) const;
 
 private:
     struct Call {

@@ -110,7 +110,7 @@ void Recorder::surface(const Surface& surface, const std::optional<HitRecord>& h
         {surface.order(), hit ? std::optional(hit->distance) : std::nullopt, counts_.box_tests});
 }
 
-const Surface* Recorder::giver_of(const Ray& ray, const HitRecord& hit) const {
+const Surface* Recorder::surface_of_hit(const Ray& ray, const HitRecord& hit) const {
     const Surface* found = nullptr;
     const Unheard unheard;
     for (const auto& [surface, distance] : hits_) {

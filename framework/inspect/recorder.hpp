@@ -29,7 +29,7 @@ public:
     void surface(const Surface& surface, const std::optional<HitRecord>& hit);
 
     /// The surface whose answer this hit is, among those that the last ray asked.
-    [[nodiscard]] const Surface* giver_of(const Ray& ray, const HitRecord& hit) const;
+    [[nodiscard]] const Surface* surface_of_hit(const Ray& ray, const HitRecord& hit) const;
 
     /// The last surface that was hit nearer than `distance`: the one that ended the search for any hit.
     [[nodiscard]] const Surface* blocker(float distance) const;

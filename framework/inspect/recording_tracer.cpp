@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "inspect/light_terms.hpp"
-#include "inspect/missed.hpp"
+#include "inspect/lost_hit.hpp"
+#include "inspect/shading_trace.hpp"
 #include "steps/05-reflection/reflection.hpp"
 #include "steps/08-refraction/refraction.hpp"
 
@@ -59,7 +59,7 @@ std::optional<HitRecord> RecordingTracer::search(RayNode* node, const Ray& ray) 
     if (node != nullptr) {
         node->counts = counts;
         if (hit) {
-            meet(*node, *hit, recorder_.giver_of(ray, *hit));
+            meet(*node, *hit, recorder_.surface_of_hit(ray, *hit));
         }
         check(*node, std::numeric_limits<float>::infinity());
     }
@@ -67,13 +67,13 @@ std::optional<HitRecord> RecordingTracer::search(RayNode* node, const Ray& ray) 
 }
 
 void RecordingTracer::meet(RayNode& node, const HitRecord& hit, const Surface* surface) {
-    Meeting& meeting = node.hit.emplace();
-    meeting.hit = hit;
+    HitTrace& trace = node.hit.emplace();
+    trace.hit = hit;
     if (surface != nullptr) {
-        meeting.surface = surface->order();
-        meeting.kind = raysteps::describe(*surface).kind;
+        trace.surface = surface->order();
+        trace.kind = raysteps::describe(*surface).kind;
     }
-    describe_meeting(options(), node, meeting);
+    describe_hit(options(), node, trace);
 }
 
 void RecordingTracer::check(RayNode& node, float limit) {
@@ -81,7 +81,7 @@ void RecordingTracer::check(RayNode& node, float limit) {
         return;
     }
     checks_left_ -= scene_.surfaces().size();
-    node.missed = find_missed(node, limit, scene_.surfaces(), accelerator_, recorder_);
+    node.lost = find_lost_hit(node, limit, scene_.surfaces(), accelerator_, recorder_);
 }
 
 bool RecordingTracer::any_hit(const Ray& ray, float distance) {
@@ -121,7 +121,7 @@ bool RecordingTracer::reaches(const HitRecord& hit, const Light& light) {
 }
 
 Color RecordingTracer::local_light(const HitRecord& hit, int depth) {
-    CastRay* const cast = tree_.caster_of(hit);
+    CastRay* const cast = tree_.ray_of_hit(hit);
     CastRay* const before = std::exchange(shading_, cast);
     const Color color = StepTracer::local_light(hit, depth);
     if (cast != nullptr) {

@@ -1,9 +1,9 @@
 // Only the whole kit searches again for what a step lost: that search is what steps 02 and 06 are about.
-#include "inspect/missed.hpp"
+#include "inspect/lost_hit.hpp"
 
 namespace raysteps {
 
-std::optional<Missed> find_missed(const RayNode& /*node*/, float /*limit*/, const SurfaceList& /*surfaces*/,
+std::optional<LostHit> find_lost_hit(const RayNode& /*node*/, float /*limit*/, const SurfaceList& /*surfaces*/,
                                   const Accelerator& /*accelerator*/, const Recorder& /*recorder*/) {
     return std::nullopt;
 }

@@ -1,4 +1,4 @@
-#include "inspect/meeting.hpp"
+#include "inspect/hit_trace.hpp"
 
 #include "core/cone.hpp"
 #include "core/hollow_sphere.hpp"
