@@ -47,9 +47,10 @@ void ask_is_lit(Words& words, Answer& answer) {
     const Scene scene = read_surfaces(words, asked);
     const HitRecord hit = read_hit(words);
     const Light light = read_light(words);
-    ListCaster caster(scene.surfaces());
-    answer.whole(is_lit(caster, hit, light) ? 1 : 0);
-    answer.whole(caster.asked());
+    const ListQuery list(scene.surfaces());
+    std::uint64_t rays = 0;
+    answer.whole(is_lit(CountingQuery(list, rays), hit, light) ? 1 : 0);
+    answer.whole(static_cast<long long>(rays));
 }
 
 void ask_reflected_ray(Words& words, Answer& answer) { write_ray(answer, reflected_ray(read_hit(words))); }
@@ -73,14 +74,15 @@ Script read_script(Words& words) {
 void ask_trace(Words& words, Answer& answer) {
     const Ray ray = read_ray(words);
     const int depth = words.whole();
-    ScriptedTracer tracer(read_script(words));
+    TracerCalls calls;
+    ScriptedTracer tracer(read_script(words), calls);
     answer.vector(trace(tracer, ray, depth));
-    answer.whole(static_cast<long long>(tracer.cast.size()));
-    for (const Ray& cast : tracer.cast) {
+    answer.whole(static_cast<long long>(calls.cast.size()));
+    for (const Ray& cast : calls.cast) {
         write_ray(answer, cast);
     }
-    answer.whole(static_cast<long long>(tracer.shaded.size()));
-    for (const ShadedHit& shaded : tracer.shaded) {
+    answer.whole(static_cast<long long>(calls.shaded.size()));
+    for (const ShadedHit& shaded : calls.shaded) {
         answer.number(shaded.distance).whole(shaded.depth);
     }
 }
@@ -109,10 +111,11 @@ void ask_transmitted_light(Words& words, Answer& answer) {
     Script script;
     script.max_depth = 1000;  // the depth is trace's business
     script.traced = words.vector();
-    ScriptedTracer tracer(script);
+    TracerCalls calls;
+    ScriptedTracer tracer(script, calls);
     answer.vector(transmitted_light(tracer, hit, depth));
-    answer.whole(static_cast<long long>(tracer.traced.size()));
-    for (const CastRay& traced : tracer.traced) {
+    answer.whole(static_cast<long long>(calls.traced.size()));
+    for (const CastRay& traced : calls.traced) {
         write_ray(answer, traced.ray);
         answer.whole(traced.depth);
     }

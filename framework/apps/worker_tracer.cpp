@@ -7,15 +7,14 @@
 
 namespace raysteps {
 
-std::optional<HitRecord> ListCaster::closest_hit(const Ray& ray) {
-    ++asked_;
+std::optional<HitRecord> ListQuery::closest_hit(const Ray& ray) const {
     return raysteps::closest_hit(surfaces_, ray);
 }
 
 // Position and side follow the ray that really came, so that a record is never at odds with it.
-std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) {
-    const std::size_t number = cast.size();
-    cast.push_back(ray);
+std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {
+    const std::size_t number = calls_.cast.size();
+    calls_.cast.push_back(ray);
     if (number >= script_.hits.size()) {
         return std::nullopt;
     }
@@ -32,7 +31,7 @@ std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) {
 
 // The distances of a script differ, so that they tell which hit it is.
 Color ScriptedTracer::local_light(const HitRecord& hit, int depth) {
-    shaded.push_back({hit.distance, depth});
+    calls_.shaded.push_back({hit.distance, depth});
     for (const ScriptedHit& scripted : script_.hits) {
         if (scripted.distance == hit.distance) {
             return scripted.local;
@@ -42,7 +41,7 @@ Color ScriptedTracer::local_light(const HitRecord& hit, int depth) {
 }
 
 Color ScriptedTracer::trace(const Ray& ray, int depth) {
-    traced.push_back({ray, depth});
+    calls_.traced.push_back({ray, depth});
     return script_.traced ? *script_.traced : raysteps::trace(*this, ray, depth);
 }
 

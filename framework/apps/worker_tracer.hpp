@@ -1,6 +1,6 @@
 #pragma once
-// Renderers whose answers the case chooses, and who remember what they were asked. Their any_hit is RayCaster's own, by
-// way of closest_hit: a ray is counted whichever of the two questions it brings.
+// Stand-ins whose answers the case chooses. Their any_hit is SceneQuery's own, by way of closest_hit: a ray is the same
+// whichever of the two questions it brings.
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -11,17 +11,14 @@
 namespace raysteps {
 
 /// Searches a list one by one.
-class ListCaster final : public RayCaster {
+class ListQuery final : public SceneQuery {
 public:
-    explicit ListCaster(const SurfaceList& surfaces) : surfaces_(surfaces) {}
+    explicit ListQuery(const SurfaceList& surfaces) : surfaces_(surfaces) {}
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
-
-    [[nodiscard]] long long asked() const { return asked_; }
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
 
 private:
     const SurfaceList& surfaces_;
-    long long asked_ = 0;
 };
 
 /// What the next ray meets, and the light which that sends itself.
@@ -49,22 +46,26 @@ struct ShadedHit {
     int depth = 0;
 };
 
+/// What a tracer was asked, in order.
+struct TracerCalls {
+    std::vector<Ray> cast;          ///< rays given to closest_hit or any_hit
+    std::vector<ShadedHit> shaded;  ///< hits given to local_light
+    std::vector<CastRay> traced;    ///< rays given to trace
+};
+
 class ScriptedTracer final : public Tracer {
 public:
-    explicit ScriptedTracer(Script script) : script_(std::move(script)) {}
+    ScriptedTracer(Script script, TracerCalls& calls) : script_(std::move(script)), calls_(calls) {}
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return script_.max_depth; }
     [[nodiscard]] Color background() const override { return script_.background; }
 
-    std::vector<Ray> cast;          ///< rays given to closest_hit or any_hit
-    std::vector<ShadedHit> shaded;  ///< hits given to local_light
-    std::vector<CastRay> traced;    ///< rays given to trace
-
 private:
     Script script_;
+    TracerCalls& calls_;
 };
 
 }  // namespace raysteps

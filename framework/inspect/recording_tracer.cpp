@@ -39,7 +39,7 @@ std::optional<Color> RecordingTracer::follow(const Ray& ray) {
     return color;
 }
 
-std::optional<HitRecord> RecordingTracer::closest_hit(const Ray& ray) {
+std::optional<HitRecord> RecordingTracer::closest_hit(const Ray& ray) const {
     if (in_is_lit_) {
         return search(open_shadow_ray(ray, std::nullopt), ray);
     }
@@ -48,11 +48,11 @@ std::optional<HitRecord> RecordingTracer::closest_hit(const Ray& ray) {
     return cast.hit;
 }
 
-RayNode* RecordingTracer::open_shadow_ray(const Ray& ray, std::optional<float> limit) {
+RayNode* RecordingTracer::open_shadow_ray(const Ray& ray, std::optional<float> limit) const {
     return tree_.open_shadow_ray(light_, shading_ != nullptr ? shading_->depth : 1, ray, limit);
 }
 
-std::optional<HitRecord> RecordingTracer::search(RayNode* node, const Ray& ray) {
+std::optional<HitRecord> RecordingTracer::search(RayNode* node, const Ray& ray) const {
     recorder_.begin(node);
     std::optional<HitRecord> hit = StepTracer::closest_hit(ray);
     const SearchCounts counts = recorder_.end();
@@ -66,7 +66,7 @@ std::optional<HitRecord> RecordingTracer::search(RayNode* node, const Ray& ray) 
     return hit;
 }
 
-void RecordingTracer::meet(RayNode& node, const HitRecord& hit, const Surface* surface) {
+void RecordingTracer::meet(RayNode& node, const HitRecord& hit, const Surface* surface) const {
     HitTrace& trace = node.hit.emplace();
     trace.hit = hit;
     if (surface != nullptr) {
@@ -76,7 +76,7 @@ void RecordingTracer::meet(RayNode& node, const HitRecord& hit, const Surface* s
     describe_hit(options(), node, trace);
 }
 
-void RecordingTracer::check(RayNode& node, float limit) {
+void RecordingTracer::check(RayNode& node, float limit) const {
     if (scene_.surfaces().size() > checks_left_) {
         return;
     }
@@ -84,7 +84,7 @@ void RecordingTracer::check(RayNode& node, float limit) {
     node.lost = find_lost_hit(node, limit, scene_.surfaces(), accelerator_, recorder_);
 }
 
-bool RecordingTracer::any_hit(const Ray& ray, float distance) {
+bool RecordingTracer::any_hit(const Ray& ray, float distance) const {
     RayNode* const node = open_shadow_ray(ray, distance);
     recorder_.begin(node);
     const bool blocked = StepTracer::any_hit(ray, distance);

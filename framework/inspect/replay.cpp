@@ -4,7 +4,7 @@
 
 namespace raysteps {
 
-std::optional<HitRecord> Replay::closest_hit(const Ray& /*ray*/) {
+std::optional<HitRecord> Replay::closest_hit(const Ray& /*ray*/) const {
     if (next_ == rays_.size()) {
         complete_ = false;
         return std::nullopt;
@@ -12,7 +12,7 @@ std::optional<HitRecord> Replay::closest_hit(const Ray& /*ray*/) {
     return rays_[next_++]->hit;
 }
 
-bool Replay::any_hit(const Ray& /*ray*/, float /*distance*/) {
+bool Replay::any_hit(const Ray& /*ray*/, float /*distance*/) const {
     complete_ = false;
     return false;
 }

@@ -27,8 +27,8 @@ public:
     Replay(const Tracer& original, std::span<CastRay* const> rays, std::span<const Color> traced)
         : original_(original), rays_(rays), traced_(traced) {}
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) override;
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
     [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return original_.max_ray_depth(); }
@@ -41,9 +41,9 @@ private:
     const Tracer& original_;
     std::span<CastRay* const> rays_;
     std::span<const Color> traced_;
-    std::size_t next_ = 0;
+    mutable std::size_t next_ = 0;
     std::size_t next_traced_ = 0;
-    bool complete_ = true;
+    mutable bool complete_ = true;
 };
 
 }  // namespace raysteps

@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/hit_record.hpp"
 #include "core/scene.hpp"
+#include "core/scene_query.hpp"
 
 namespace raysteps {
 
@@ -38,28 +37,12 @@ struct BoxPlace {
 
 using BoxVisitor = std::function<void(const BoxPlace& place)>;
 
-class Accelerator {
+class Accelerator : public SceneQuery {
 public:
-    virtual ~Accelerator() = default;
-
-    /// The nearest hit with distance > 0, or nothing. Safe to call from many threads at once.
-    [[nodiscard]] virtual std::optional<HitRecord> closest_hit(const Ray& ray) const = 0;
-
-    /// Whether any surface is hit nearer than `distance`.
-    [[nodiscard]] virtual bool any_hit(const Ray& ray, float distance) const {
-        const std::optional<HitRecord> hit = closest_hit(ray);
-        return hit && hit->distance < distance;
-    }
-
     [[nodiscard]] virtual StructureSize size() const { return {}; }
 
     /// Shows every box, each before those within it. `wanted` may be null.
     virtual void visit_boxes(const Surface* /*wanted*/, const BoxVisitor& /*visit*/) const {}
-
-protected:
-    Accelerator() = default;
-    Accelerator(const Accelerator&) = default;
-    Accelerator& operator=(const Accelerator&) = default;
 };
 
 using AcceleratorMaker = std::unique_ptr<Accelerator> (*)(const SurfaceList& surfaces);

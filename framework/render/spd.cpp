@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <mutex>
 
-#include "core/tracer.hpp"
+#include "core/scene_query.hpp"
 #include "core/threads.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/04-shadows/shadows.hpp"
@@ -17,29 +17,11 @@ namespace {
 constexpr int k_corners = 513;
 constexpr int k_max_depth = 5;
 
-/// For is_lit of step 04.
-class ShadowCaster final : public RayCaster {
-public:
-    explicit ShadowCaster(const Accelerator& accelerator) : accelerator_(accelerator) {}
-
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override {
-        ++thread_stats().shadow;
-        return accelerator_.closest_hit(ray);
-    }
-
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) override {
-        ++thread_stats().shadow;
-        return accelerator_.any_hit(ray, distance);
-    }
-
-private:
-    const Accelerator& accelerator_;
-};
-
+/// Each thread has its own.
 class SpdCounter {
 public:
     SpdCounter(const Scene& scene, const Accelerator& accelerator)
-        : scene_(scene), accelerator_(accelerator), caster_(accelerator) {}
+        : scene_(scene), accelerator_(accelerator), shadow_query_(accelerator, thread_stats().shadow) {}
 
     void eye_ray(const Ray& ray) {
         ++thread_stats().eye;
@@ -55,7 +37,7 @@ private:
         }
         for (const Light& light : scene_.lights) {
             if (glm::dot(light.position - hit->position, hit->normal) > 0.0F) {
-                static_cast<void>(is_lit(caster_, *hit, light));
+                static_cast<void>(is_lit(shadow_query_, *hit, light));
             }
         }
         if (depth < k_max_depth) {
@@ -77,7 +59,7 @@ private:
 
     const Scene& scene_;
     const Accelerator& accelerator_;
-    ShadowCaster caster_;
+    CountingQuery shadow_query_;
 };
 
 Ray corner_ray(const Camera& camera, const ViewFrame& frame, int column, int row) {

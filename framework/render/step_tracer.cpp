@@ -12,19 +12,19 @@
 
 namespace raysteps {
 
-std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) {
+std::optional<HitRecord> StepTracer::closest_hit(const Ray& ray) const {
     std::optional<HitRecord> hit = accelerator_.closest_hit(ray);
     count(hit.has_value());
     return hit;
 }
 
-bool StepTracer::any_hit(const Ray& ray, float distance) {
+bool StepTracer::any_hit(const Ray& ray, float distance) const {
     const bool hit = accelerator_.any_hit(ray, distance);
     count(hit);
     return hit;
 }
 
-void StepTracer::count(bool hit) {
+void StepTracer::count(bool hit) const {
     Stats& stats = thread_stats();
     switch (next_) {
         case RayKind::eye:

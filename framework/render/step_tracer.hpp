@@ -27,8 +27,8 @@ public:
     /// How deep the last primary ray and what came of it went: 0 nothing was asked, 1 the ray itself, 2 a bounce.
     [[nodiscard]] int deepest_ray() const { return deepest_; }
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override;
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) override;
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
+    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
     [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return options_.max_ray_depth; }
@@ -43,7 +43,7 @@ protected:
 private:
     enum class RayKind { eye, shadow, reflect, refract };
 
-    void count(bool hit);
+    void count(bool hit) const;
     [[nodiscard]] Color color_of(const Ray& ray);
     [[nodiscard]] const std::vector<Light>& lights_that_reach(const HitRecord& hit);
     [[nodiscard]] Color surface_color(const HitRecord& hit) const;
@@ -52,10 +52,10 @@ private:
     const Accelerator& accelerator_;
     StepOptions options_;
     std::vector<Light> lit_;       ///< by the hit that is shaded; kept, so that no hit needs memory of its own
-    RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
+    mutable RayKind next_ = RayKind::eye;  ///< what the next call of closest_hit is counted as
     bool through_glass_ = false;   ///< whether step 08 is at work, so that a ray given to trace is refracted
-    int next_depth_ = 1;           ///< of the next ray that is no shadow ray; each one is followed by a deeper one
-    int deepest_ = 0;
+    mutable int next_depth_ = 1;           ///< of the next ray that is no shadow ray; each one is followed by a deeper one
+    mutable int deepest_ = 0;
 };
 
 }  // namespace raysteps

@@ -1,6 +1,6 @@
 #pragma once
-// Stand-ins for the renderer: they answer from a function or a list, and remember what they were asked. Their any_hit is
-// RayCaster's own, by way of closest_hit: it gives the same answer and is remembered as a ray that was cast.
+// Stand-ins for the renderer: they answer from a function or a list. Their any_hit is SceneQuery's own, by way of
+// closest_hit: it gives the same answer, and whoever remembers rays hears of it as of any other.
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -11,25 +11,22 @@
 namespace raysteps::testing {
 
 /// Answers closest_hit from a function, for example [&](const Ray& ray) { return sphere.hit(ray); }.
-class FakeCaster final : public RayCaster {
+class FakeScene final : public SceneQuery {
 public:
     using Answer = std::function<std::optional<HitRecord>(const Ray&)>;
 
-    FakeCaster() = default;  ///< an empty scene
-    explicit FakeCaster(Answer answer) : answer_(std::move(answer)) {}
+    FakeScene() = default;  ///< an empty scene
+    explicit FakeScene(Answer answer) : answer_(std::move(answer)) {}
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override {
-        rays.push_back(ray);
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return answer_ ? answer_(ray) : std::nullopt;
     }
-
-    std::vector<Ray> rays;  ///< what was cast, in order
 
 private:
     Answer answer_;
 };
 
-/// A renderer whose every answer the test chooses. Unset answers: no hit, black.
+/// A renderer whose every answer the test chooses, and that remembers what it was asked. Unset answers: no hit, black.
 class FakeTracer final : public Tracer {
 public:
     struct Asked {
@@ -48,7 +45,7 @@ public:
         };
     }
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) override {
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         cast.push_back(ray);
         return on_closest_hit ? on_closest_hit(ray) : std::nullopt;
     }
@@ -72,9 +69,9 @@ public:
     int max_depth = 5;
     Color background_color = k_black;
 
-    std::vector<Ray> cast;       ///< rays given to closest_hit or any_hit
-    std::vector<Asked> traced;   ///< rays given to trace
-    std::vector<Shaded> shaded;  ///< hits given to local_light
+    mutable std::vector<Ray> cast;  ///< rays given to closest_hit or any_hit
+    std::vector<Asked> traced;      ///< rays given to trace
+    std::vector<Shaded> shaded;     ///< hits given to local_light
 };
 
 }  // namespace raysteps::testing

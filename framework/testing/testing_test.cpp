@@ -33,14 +33,16 @@ TEST_CASE("A failure prints vectors with all their digits", "[testing]") {
     CHECK(Catch::Detail::stringify(glm::vec3(0.1F, -2.0F, 0.0F)) == "(0.100000001, -2, 0)");
 }
 
-TEST_CASE("FakeCaster answers both questions from one function, and remembers them", "[testing]") {
+TEST_CASE("FakeScene answers both questions from one function, and CountingQuery counts them", "[testing]") {
     HitRecord hit;
     hit.distance = 3.0F;
-    FakeCaster scene([&hit](const Ray&) { return hit; });
+    const FakeScene fake([&hit](const Ray&) { return hit; });
+    std::uint64_t rays = 0;
+    const CountingQuery scene(fake, rays);
     CHECK(scene.any_hit({}, 3.5F));
     CHECK_FALSE(scene.any_hit({}, 3.0F));
     CHECK(scene.closest_hit({}).has_value());
-    CHECK(scene.rays.size() == 3);
+    CHECK(rays == 3);
 }
 
 TEST_CASE("FakeTracer answers from a list and remembers", "[testing]") {

@@ -15,7 +15,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     // END SOLUTION
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     // BEGIN SOLUTION is_lit
     // TODO: Cast the shadow ray and ask whether it meets anything before it reaches the light.
     // RETURN false

@@ -12,7 +12,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return Ray{hit.position, hit.normal};
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     // TODO: Cast the shadow ray and ask whether it meets anything before it reaches the light.
     RAYSTEPS_TODO("04-shadows", "is_lit");
     return false;

@@ -1,7 +1,7 @@
 #pragma once
 // Step 04: a light counts only where it is seen.
 #include "core/light.hpp"
-#include "core/tracer.hpp"
+#include "core/scene_query.hpp"
 
 namespace raysteps {
 
@@ -17,6 +17,6 @@ inline constexpr float k_shadow_threshold = 1e-3F;
 /// a surface does not shade itself by rounding. Glass blocks like everything else.
 /// The scene offers two questions: scene.any_hit(ray, distance), whether anything is hit nearer than that, and
 /// scene.closest_hit(ray), what is hit first and where. Both lead to the answer; any_hit may cost less.
-[[nodiscard]] bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light);
+[[nodiscard]] bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light);
 
 }  // namespace raysteps

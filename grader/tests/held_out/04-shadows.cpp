@@ -14,7 +14,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return ray;
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
     auto block = scene.closest_hit(ray);
     if (!block) return true;

@@ -13,7 +13,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return {hit.position + side * k_shadow_threshold * to_light, to_light};
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     const bool light_is_above = glm::dot(light.position - hit.position, hit.normal) > 0.0F;
     if (!light_is_above) {
         return false;

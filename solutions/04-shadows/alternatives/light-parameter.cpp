@@ -23,7 +23,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return {glm::vec3(origin), glm::vec3(direction)};
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
     if (const auto blocker = scene.closest_hit(ray)) {
         const bool in_between = parameter_on(ray, blocker->position) < parameter_on(ray, light.position);

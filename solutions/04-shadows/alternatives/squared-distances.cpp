@@ -23,7 +23,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return ray;
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
     const std::optional<HitRecord> blocker = scene.closest_hit(ray);
     if (!blocker) {

@@ -18,7 +18,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return {origin, way / glm::length(way)};
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     if (glm::dot(light.position - hit.position, hit.normal) <= 0.0F) {
         return false;  // the surface has its back to the light
     }

@@ -11,7 +11,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return {origin, glm::normalize(light.position - origin)};
 }
 
-bool is_lit(RayCaster& scene, const HitRecord& hit, const Light& light) {
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
     return !scene.closest_hit(ray);
 }
