@@ -53,7 +53,7 @@ TEST_CASE("A pixel that is inspected has the bytes and the counts of one that is
                 const int x = at % 24;
                 const int y = at / 24;
                 INFO("step " << step << ", structure " << static_cast<int>(kind) << ", pixel " << x << " " << y);
-                const PixelRecord record = inspect_pixel(scene, *accelerator, kind, options.step, x, y);
+                const PixelRecord record = inspect_pixel(scene, scene.camera, *accelerator, kind, options.step, x, y);
                 REQUIRE(record.bytes == image.at(x, y));
                 REQUIRE(record.counts.surface_tests == record.stats.surface_tests);
                 REQUIRE(record.counts.box_tests == record.stats.box_tests);
@@ -69,7 +69,7 @@ TEST_CASE("A pixel that is inspected has the bytes and the counts of one that is
 TEST_CASE("A surface that the structure loses is found and named", "[inspect]") {
     const Scene scene = one_mirror();
     const Forgetful structure(scene.surfaces(), 0);
-    const PixelRecord record = inspect_pixel(scene, structure, Acceleration::octree, options_of(5), 4, 4);
+    const PixelRecord record = inspect_pixel(scene, scene.camera, structure, Acceleration::octree, options_of(5), 4, 4);
     REQUIRE(record.eye.lost.has_value());
     CHECK(record.eye.lost->surface == 0);
     CHECK(record.eye.lost->distance == Approx(4.0F));

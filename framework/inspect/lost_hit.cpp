@@ -60,7 +60,7 @@ bool loses_space(const SurfaceList& surfaces, const glm::vec3& point, LostHit& l
 /// What the boxes around the lost point have to say, the worst fault first.
 class LostHitDiagnosis {
 public:
-    LostHitDiagnosis(const Surface& surface, const glm::vec3& point, const Recorder& recorder)
+    LostHitDiagnosis(const Surface& surface, const glm::vec3& point, const SearchRecorder& recorder)
         : surface_(surface), point_(point), recorder_(recorder) {}
 
     void look_at(const BoxPlace& place) {
@@ -112,7 +112,7 @@ private:
 
     const Surface& surface_;
     glm::vec3 point_;
-    const Recorder& recorder_;
+    const SearchRecorder& recorder_;
     bool any_ = false;
     bool entered_ = false;
     std::optional<Box> missed_;
@@ -123,7 +123,7 @@ private:
 }  // namespace
 
 std::optional<LostHit> find_lost_hit(const RayNode& node, float limit, const SurfaceList& surfaces,
-                                  const Accelerator& accelerator, const Recorder& recorder) {
+                                  const Accelerator& accelerator, const SearchRecorder& recorder) {
     const Unheard unheard;
     const Nearest nearest = nearest_of(surfaces, node.ray);
     if (nearest.surface == nullptr || !(nearest.hit.distance < limit)) {

@@ -13,7 +13,7 @@
 #include "core/light.hpp"
 #include "core/stats.hpp"
 #include "inspect/hit_trace.hpp"
-#include "render/step_tracer.hpp"
+#include "render/integrator.hpp"
 
 namespace raysteps {
 
@@ -65,7 +65,8 @@ struct RayNode {
     std::optional<Color> transmitted;  ///< what shines through, weighed with the transmittance
     std::optional<Color> local;        ///< all that the surface itself sends along the ray
     std::list<RayNode> bounces;
-    std::optional<Color> color;  ///< nothing for a shadow ray, and where too little was kept to know it
+    std::optional<Color> color;    ///< nothing for a shadow ray, and where nobody saw it
+    bool followed_within = false;  ///< by step 05 itself and not through trace, so that nobody saw what it brought
 };
 
 /// One light, seen from a hit.

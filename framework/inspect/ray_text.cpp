@@ -72,7 +72,9 @@ void write_light(TextLines& out, const PixelRecord& record, const LightRecord& l
                             "  specular " + brief(light.specular) + (light.lit ? "" : "  (not added)"));
 }
 
-std::string color_words(const std::optional<Color>& color) { return color ? brief(*color) : "not kept"; }
+std::string color_words(const RayNode& node) {
+    return node.color ? brief(*node.color) : node.followed_within ? "not seen" : "not kept";
+}
 
 void write_sum(TextLines& out, const RayNode& node, int level) {
     if (node.direct) {
@@ -81,7 +83,7 @@ void write_sum(TextLines& out, const RayNode& node, int level) {
     const Fill& fill = node.hit->hit.fill;
     for (const RayNode& bounce : node.bounces) {
         if (bounce.role == RayRole::reflect) {
-            out.line(level, "reflected", color_words(bounce.color) + " x ks " + brief(fill.ks));
+            out.line(level, "reflected", color_words(bounce) + " x ks " + brief(fill.ks));
         }
     }
     if (node.transmitted && fill.transmittance > 0.0F) {
@@ -115,7 +117,11 @@ void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, i
         }
         write_sum(out, node, level + 1);
     }
-    out.line(level + 1, "colour", color_words(node.color));
+    out.line(level + 1, "colour", color_words(node));
+    if (node.followed_within) {
+        out.line(level + 1, "",
+                 "step 05 followed this ray itself and did not ask tracer.trace, so that only the sum is seen");
+    }
 }
 
 }  // namespace raysteps

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "inspect/recorder.hpp"
+#include "inspect/search_recorder.hpp"
 #include "inspect/shading_terms.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
