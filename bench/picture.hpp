@@ -1,7 +1,7 @@
 #pragma once
 // One picture by any structure, the way render() makes it, on the calling thread alone.
 #include "core/image.hpp"
-#include "render/step_tracer.hpp"
+#include "render/integrator.hpp"
 
 namespace raysteps::bench {
 

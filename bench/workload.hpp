@@ -4,7 +4,7 @@
 
 #include "bench/recording.hpp"
 #include "core/scene.hpp"
-#include "render/step_tracer.hpp"
+#include "render/integrator.hpp"
 
 namespace raysteps::bench {
 

@@ -25,7 +25,7 @@ void run(const InspectOptions& options) {
     const Acceleration acceleration = options.picture.acceleration.value_or(default_accelerator(options.picture.step));
     const auto accelerator = make_accelerator(acceleration, scene.surfaces());
     const StepOptions step{options.picture.step, options.picture.view, options.picture.depth};
-    PixelRecord record = inspect_pixel(scene, *accelerator, acceleration, step, options.x, options.y);
+    PixelRecord record = inspect_pixel(scene, scene.camera, *accelerator, acceleration, step, options.x, options.y);
     record.scene = options.picture.scene;
     if (!options.json.empty()) {
         write_file(path_of(options.json), inspect_json(record));

@@ -12,7 +12,8 @@ public:
     /// from step 08 on, what shines through it.
     [[nodiscard]] virtual Color local_light(const HitRecord& hit, int depth) = 0;
 
-    /// The colour that arrives along the ray.
+    /// The colour that arrives along a ray that goes on from the hit. The renderer notes which ray that is, and asks
+    /// step 05 again.
     [[nodiscard]] virtual Color trace(const Ray& ray, int depth) = 0;
 
     [[nodiscard]] virtual int max_ray_depth() const = 0;  ///< deepest ray that is still followed, >= 1

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "inspect/recording_tracer.hpp"
+#include "inspect/ray_recorder.hpp"
 #include "render/encode.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/07-tone-mapping/tone_mapping.hpp"
@@ -29,8 +29,8 @@ public:
         if (node.hit && node.hit->surface) {
             add(*node.hit->surface);
         }
-        if (node.missed) {
-            add(node.missed->surface);
+        if (node.lost) {
+            add(node.lost->surface);
         }
     }
 
@@ -70,13 +70,13 @@ void list_near(const Scene& scene, PixelRecord& record) {
 
 }  // namespace
 
-PixelRecord inspect_pixel(const Scene& scene, const Accelerator& accelerator, Acceleration acceleration,
-                          const StepOptions& options, int x, int y) {
+PixelRecord inspect_pixel(const Scene& scene, const Camera& camera, const Accelerator& accelerator,
+                          Acceleration acceleration, const StepOptions& options, int x, int y) {
     PixelRecord record;
     record.options = options;
     record.acceleration = acceleration;
-    record.camera = scene.camera;
-    record.frame = view_frame(scene.camera);
+    record.camera = camera;
+    record.frame = view_frame(camera);
     record.background = scene.background;
     record.lights = scene.lights;
     record.structure = accelerator.size();
@@ -85,8 +85,15 @@ PixelRecord inspect_pixel(const Scene& scene, const Accelerator& accelerator, Ac
     record.y = y;
 
     thread_stats() = Stats{};
-    RecordingTracer tracer(scene, accelerator, record);
-    record.color = tracer.follow(primary_ray(scene.camera, record.frame, x, y));
+    record.eye.ray = primary_ray(camera, record.frame, x, y);
+    RayRecorder rays(scene, accelerator, record);
+    try {
+        record.color = make_integrator(scene, rays, options)->primary_color(record.eye.ray);
+    } catch (const EndlessRays&) {
+        record.endless = true;
+    }
+    record.eye.color = record.color;
+    rays.finish();
     record.stats = thread_stats();
     if (record.color) {
         record.bytes = encode(*record.color, options.step);

@@ -53,14 +53,14 @@ TEST_CASE("A pixel that is inspected has the bytes and the counts of one that is
                 const int x = at % 24;
                 const int y = at / 24;
                 INFO("step " << step << ", structure " << static_cast<int>(kind) << ", pixel " << x << " " << y);
-                const PixelRecord record = inspect_pixel(scene, *accelerator, kind, options.step, x, y);
+                const PixelRecord record = inspect_pixel(scene, scene.camera, *accelerator, kind, options.step, x, y);
                 REQUIRE(record.bytes == image.at(x, y));
                 REQUIRE(record.counts.surface_tests == record.stats.surface_tests);
                 REQUIRE(record.counts.box_tests == record.stats.box_tests);
                 const SearchCounts sum = sum_of(record.eye);
                 REQUIRE(sum.surface_tests == record.stats.surface_tests);
                 REQUIRE(sum.box_tests == record.stats.box_tests);
-                REQUIRE_FALSE(record.eye.missed.has_value());
+                REQUIRE_FALSE(record.eye.lost.has_value());
             }
         }
     }
@@ -69,11 +69,11 @@ TEST_CASE("A pixel that is inspected has the bytes and the counts of one that is
 TEST_CASE("A surface that the structure loses is found and named", "[inspect]") {
     const Scene scene = one_mirror();
     const Forgetful structure(scene.surfaces(), 0);
-    const PixelRecord record = inspect_pixel(scene, structure, Acceleration::octree, options_of(5), 4, 4);
-    REQUIRE(record.eye.missed.has_value());
-    CHECK(record.eye.missed->surface == 0);
-    CHECK(record.eye.missed->distance == Approx(4.0F));
-    CHECK(record.eye.missed->reason == MissReason::not_tested);
+    const PixelRecord record = inspect_pixel(scene, scene.camera, structure, Acceleration::octree, options_of(5), 4, 4);
+    REQUIRE(record.eye.lost.has_value());
+    CHECK(record.eye.lost->surface == 0);
+    CHECK(record.eye.lost->distance == Approx(4.0F));
+    CHECK(record.eye.lost->reason == LossReason::not_tested);
     CHECK(inspect_text(record).find("LOST") != std::string::npos);
     CHECK(record.counts.surface_tests == record.stats.surface_tests);
 }

@@ -20,25 +20,25 @@ std::string name_of(RayRole role) {
     return "";
 }
 
-std::string name_of(MissReason reason) {
+std::string name_of(LossReason reason) {
     switch (reason) {
-        case MissReason::not_chosen:
+        case LossReason::not_chosen:
             return "not-chosen";
-        case MissReason::not_tested:
+        case LossReason::not_tested:
             return "not-tested";
-        case MissReason::box_missed:
+        case LossReason::box_missed:
             return "box-missed";
-        case MissReason::not_visited:
+        case LossReason::not_visited:
             return "not-visited";
-        case MissReason::not_listed:
+        case LossReason::not_listed:
             return "not-listed";
-        case MissReason::no_overlap:
+        case LossReason::no_overlap:
             return "no-overlap";
-        case MissReason::no_box:
+        case LossReason::no_box:
             return "no-box";
-        case MissReason::no_bounds:
+        case LossReason::no_bounds:
             return "no-bounds";
-        case MissReason::no_part:
+        case LossReason::no_part:
             return "no-part";
     }
     return "";

@@ -7,7 +7,7 @@
 namespace raysteps {
 
 [[nodiscard]] std::string name_of(RayRole role);
-[[nodiscard]] std::string name_of(MissReason reason);
+[[nodiscard]] std::string name_of(LossReason reason);
 [[nodiscard]] std::string name_of(Acceleration acceleration);
 
 }  // namespace raysteps

@@ -12,8 +12,8 @@
 #include "core/image.hpp"
 #include "core/light.hpp"
 #include "core/stats.hpp"
-#include "inspect/meeting.hpp"
-#include "render/step_tracer.hpp"
+#include "inspect/hit_trace.hpp"
+#include "render/integrator.hpp"
 
 namespace raysteps {
 
@@ -58,14 +58,15 @@ struct RayNode {
     std::optional<bool> any;      ///< the answer, where the ray asked no more than whether anything is hit
     std::vector<BoxEvent> boxes;
     std::vector<SurfaceEvent> tests;
-    std::optional<Meeting> hit;    ///< of any hit: the surface that ended the search
-    std::optional<Missed> missed;  ///< where a search through all surfaces finds something else
+    std::optional<HitTrace> hit;    ///< of any hit: the surface that ended the search
+    std::optional<LostHit> lost;    ///< where a search through all surfaces finds something else
     std::vector<LightRecord> lights;
     std::optional<Color> direct;       ///< step 03's sum over the lights that reach the hit
     std::optional<Color> transmitted;  ///< what shines through, weighed with the transmittance
     std::optional<Color> local;        ///< all that the surface itself sends along the ray
     std::list<RayNode> bounces;
-    std::optional<Color> color;  ///< nothing for a shadow ray, and where too little was kept to know it
+    std::optional<Color> color;    ///< nothing for a shadow ray, and where nobody saw it
+    bool followed_within = false;  ///< by step 05 itself and not through trace, so that nobody saw what it brought
 };
 
 /// One light, seen from a hit.

@@ -40,27 +40,27 @@ void write_fill(JsonWriter& json, const Fill& fill) {
     json.key("index").number(fill.index_of_refraction).end_object();
 }
 
-void write_hit(JsonWriter& json, const Meeting& meeting) {
-    const HitRecord& hit = meeting.hit;
+void write_hit(JsonWriter& json, const HitTrace& trace) {
+    const HitRecord& hit = trace.hit;
     json.begin_object().key("surface");
-    meeting.surface ? json.whole(*meeting.surface) : json.null();
-    json.key("kind").text(meeting.kind).key("distance").number(hit.distance);
-    json.key("position").vector(hit.position).key("point_at").vector(meeting.point).key("normal").vector(hit.normal);
+    trace.surface ? json.whole(*trace.surface) : json.null();
+    json.key("kind").text(trace.kind).key("distance").number(hit.distance);
+    json.key("position").vector(hit.position).key("point_at").vector(trace.point).key("normal").vector(hit.normal);
     json.key("ray_direction").vector(hit.ray_direction).key("from_outside").flag(hit.from_outside);
     json.key("mirrored");
-    write_color(json, meeting.mirrored);
+    write_color(json, trace.mirrored);
     json.key("refracted");
-    write_color(json, meeting.refracted);
+    write_color(json, trace.refracted);
     json.key("fill");
     write_fill(json, hit.fill);
     json.end_object();
 }
 
-void write_missed(JsonWriter& json, const Missed& missed) {
-    json.begin_object().key("surface").whole(missed.surface).key("kind").text(missed.kind);
-    json.key("distance").number(missed.distance).key("reason").text(name_of(missed.reason)).key("box");
-    if (missed.box) {
-        json.begin_object().key("min").vector(missed.box->min).key("max").vector(missed.box->max).end_object();
+void write_lost(JsonWriter& json, const LostHit& lost) {
+    json.begin_object().key("surface").whole(lost.surface).key("kind").text(lost.kind);
+    json.key("distance").number(lost.distance).key("reason").text(name_of(lost.reason)).key("box");
+    if (lost.box) {
+        json.begin_object().key("min").vector(lost.box->min).key("max").vector(lost.box->max).end_object();
     } else {
         json.null();
     }
@@ -129,8 +129,8 @@ void write_ray(JsonWriter& json, const RayNode& node) {
         json.null();
     }
     json.key("missed");
-    if (node.missed) {
-        write_missed(json, *node.missed);
+    if (node.lost) {
+        write_lost(json, *node.lost);
     } else {
         json.null();
     }

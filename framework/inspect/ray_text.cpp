@@ -21,11 +21,11 @@ std::string title_of(const RayNode& node) {
     return "";
 }
 
-std::string name_of_surface(const Meeting& meeting) {
-    if (!meeting.surface) {
+std::string name_of_surface(const HitTrace& trace) {
+    if (!trace.surface) {
         return "something that is none of the surfaces tested";
     }
-    return "surface " + std::to_string(*meeting.surface) + " (" + meeting.kind + ")";
+    return "surface " + std::to_string(*trace.surface) + " (" + trace.kind + ")";
 }
 
 std::string fill_words(const Fill& fill) {
@@ -37,9 +37,9 @@ std::string fill_words(const Fill& fill) {
     return text;
 }
 
-void write_hit(TextLines& out, const Meeting& meeting, int level) {
-    const HitRecord& hit = meeting.hit;
-    out.line(level, "hit", name_of_surface(meeting) + " at distance " + brief(hit.distance) + ", from " +
+void write_hit(TextLines& out, const HitTrace& trace, int level) {
+    const HitRecord& hit = trace.hit;
+    out.line(level, "hit", name_of_surface(trace) + " at distance " + brief(hit.distance) + ", from " +
                                (hit.from_outside ? "outside" : "inside"));
     out.line(level + 1, "position " + brief(hit.position) + "  normal " + brief(hit.normal));
     out.line(level + 1, fill_words(hit.fill));
@@ -64,15 +64,17 @@ void write_light(TextLines& out, const PixelRecord& record, const LightRecord& l
     for (const RayNode& ray : light.rays) {
         out.line(level + 1, "shadow ray from " + brief(ray.ray.origin) + " towards " + brief(ray.ray.direction));
         out.line(level + 1, search_words(ray.counts, record.surfaces));
-        if (ray.missed) {
-            write_missed(out, *ray.missed, level + 1);
+        if (ray.lost) {
+            write_lost(out, *ray.lost, level + 1);
         }
     }
     out.line(level + 1, "l.n " + brief(light.l_n) + "  r.v " + brief(light.r_v) + "  diffuse " + brief(light.diffuse) +
                             "  specular " + brief(light.specular) + (light.lit ? "" : "  (not added)"));
 }
 
-std::string color_words(const std::optional<Color>& color) { return color ? brief(*color) : "not kept"; }
+std::string color_words(const RayNode& node) {
+    return node.color ? brief(*node.color) : node.followed_within ? "not seen" : "not kept";
+}
 
 void write_sum(TextLines& out, const RayNode& node, int level) {
     if (node.direct) {
@@ -81,7 +83,7 @@ void write_sum(TextLines& out, const RayNode& node, int level) {
     const Fill& fill = node.hit->hit.fill;
     for (const RayNode& bounce : node.bounces) {
         if (bounce.role == RayRole::reflect) {
-            out.line(level, "reflected", color_words(bounce.color) + " x ks " + brief(fill.ks));
+            out.line(level, "reflected", color_words(bounce) + " x ks " + brief(fill.ks));
         }
     }
     if (node.transmitted && fill.transmittance > 0.0F) {
@@ -98,8 +100,8 @@ void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, i
     if (record.options.step > 1) {
         write_boxes(out, node, level + 1);
         write_tests(out, record, node, level + 1);
-        if (node.missed) {
-            write_missed(out, *node.missed, level + 1);
+        if (node.lost) {
+            write_lost(out, *node.lost, level + 1);
         }
         if (!node.hit) {
             out.line(level + 1, "hit", "nothing");
@@ -115,7 +117,11 @@ void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, i
         }
         write_sum(out, node, level + 1);
     }
-    out.line(level + 1, "colour", color_words(node.color));
+    out.line(level + 1, "colour", color_words(node));
+    if (node.followed_within) {
+        out.line(level + 1, "",
+                 "step 05 followed this ray itself and did not ask tracer.trace, so that only the sum is seen");
+    }
 }
 
 }  // namespace raysteps

@@ -1,14 +1,15 @@
 #pragma once
-// Which ray follows from which. Step 05 calls itself, so that has to be found out from the rays.
+// The rays of a pixel by their numbers, and where in the record each is written down.
 #include <exception>
-#include <list>
-#include <span>
 #include <vector>
 
-#include "inspect/recorder.hpp"
-#include "inspect/replay.hpp"
+#include "inspect/pixel_record.hpp"
 
 namespace raysteps {
+
+/// How many rays of a pixel are kept. What goes beyond is counted all the same.
+inline constexpr std::uint64_t k_most_rays = 1024;
+inline constexpr int k_most_levels = 32;  ///< rays that follow from one another
 
 /// Thrown through a step that follows rays far beyond the greatest depth, before it runs out of stack.
 class EndlessRays : public std::exception {
@@ -16,45 +17,43 @@ public:
     [[nodiscard]] const char* what() const noexcept override { return "the rays never end"; }
 };
 
-/// Makes a node for each ray, as long as there is room in the record.
 class RayTree {
 public:
-    RayTree(PixelRecord& record, Recorder& recorder) : record_(record), recorder_(recorder) {}
+    explicit RayTree(PixelRecord& record) : record_(record) {}
 
-    /// A call of trace begins: its first ray follows from `parent`, the others each from one before it in the call.
-    void begin_call(int depth, CastRay* parent, bool through_glass);
-    void end_call();
-
-    /// The rays of the call, in the order of casting.
-    [[nodiscard]] std::span<CastRay* const> rays_of_call() const;
-    [[nodiscard]] CastRay* last_of_call() const;
-
+    /// Gives the next ray its number, and its place with the ray that it comes from. Null where there is no room.
     /// Throws EndlessRays.
-    [[nodiscard]] CastRay& open(const Ray& ray);
+    [[nodiscard]] RayNode* open(const RayOrigin& origin, const Ray& ray);
 
-    /// Null where there is no room.
-    [[nodiscard]] RayNode* open_shadow_ray(LightRecord* light, int depth, const Ray& ray, std::optional<float> limit);
+    /// The next ray has a number and no place.
+    void leave_out();
 
-    /// The ray of the call that gave this hit; the last one where none did; null where there is none.
-    [[nodiscard]] CastRay* caster_of(const HitRecord& hit) const;
+    /// The place is with the light that was noted last at the hit of that ray.
+    [[nodiscard]] RayNode* open_shadow_ray(RayNumber of, const Ray& ray);
+
+    /// Null where the ray is not kept.
+    [[nodiscard]] RayNode* node(RayNumber ray) const { return ray < rays_.size() ? rays_[ray].node : nullptr; }
+
+    /// See RayCounter.
+    [[nodiscard]] RayNumber ray_of_hit(const HitRecord& hit, RayNumber first, RayNumber last) const;
+    void arrived(RayNumber first, RayNumber last, const Color& color);
+
+    [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
 private:
-    struct Call {
-        std::size_t first_ray = 0;  // in rays_
-        int depth = 1;
-        CastRay* parent = nullptr;
-        bool through_glass = false;
+    struct Sent {
+        RayNode* node = nullptr;
+        RayNumber from = k_no_ray;
+        int level = 0;  ///< rays that it follows from
     };
 
-    [[nodiscard]] CastRay* parent_of(const Ray& ray) const;
-    void add_node(CastRay& cast, CastRay* parent, RayRole role);
+    [[nodiscard]] RayNode* place(const RayOrigin& origin, const Ray& ray, int level);
+    [[nodiscard]] RayNode* kept(RayNode* node, const Ray& ray);
 
     PixelRecord& record_;
-    Recorder& recorder_;
-    std::list<CastRay> casts_;    // all rays but shadow rays, for as long as their call lasts
-    std::vector<CastRay*> rays_;  // the same, by number
-    std::vector<Call> calls_;
+    std::vector<Sent> rays_;
     std::uint64_t kept_ = 0;
+    std::uint64_t left_out_ = 0;
 };
 
 }  // namespace raysteps

@@ -1,6 +1,6 @@
 // Which ray follows from which, and what light each brings.
-#include "inspect/ray_tree.hpp"
-
+#include "inspect/inspect_text.hpp"
+#include "inspect/ray_recorder.hpp"
 #include "inspect/test_scenes.hpp"
 #include "testing/testing.hpp"
 
@@ -95,4 +95,31 @@ TEST_CASE("The colour of a ray is its own light and ks times what its mirrored r
         }
     }
     CHECK(mirrors > 0);
+}
+
+TEST_CASE("Rays that step 05 follows itself stand in a chain, and only the sum of their colours is seen", "[inspect]") {
+    const Scene scene = one_mirror();
+    const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
+    PixelRecord record;
+    record.options = options_of(5);
+    record.lights = scene.lights;
+    RayRecorder rays(scene, *accelerator, record);
+    rays.begin_pixel();
+    const auto hit = rays.closest_hit({.kind = RayKind::eye}, {{0.0F, 0.0F, 5.0F}, {0.0F, 0.0F, -1.0F}});
+    const RayNumber eye_ray = rays.last_sent();
+    REQUIRE(hit.has_value());
+    const RayOrigin mirrored{.kind = RayKind::reflected, .depth = 2, .from = eye_ray};
+    CHECK_FALSE(rays.closest_hit(mirrored, {{0.0F, 0.0F, 1.1F}, {0.0F, 0.0F, 1.0F}}).has_value());
+    const RayNumber last = rays.last_sent();
+    CHECK(rays.ray_of_hit(*hit, eye_ray, last) == eye_ray);  // though it is shaded after the next ray was sent
+    rays.arrived(eye_ray, last, k_white);
+
+    CHECK(record.eye.color == k_white);
+    REQUIRE(record.eye.bounces.size() == 1);
+    const RayNode& bounce = record.eye.bounces.front();
+    CHECK(bounce.role == RayRole::reflect);
+    CHECK(bounce.depth == 2);
+    CHECK_FALSE(bounce.color.has_value());
+    record.color = k_white;
+    CHECK(inspect_text(record).find("did not ask tracer.trace") != std::string::npos);
 }

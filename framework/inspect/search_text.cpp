@@ -43,27 +43,27 @@ void say_more(TextLines& out, std::uint64_t all, std::uint64_t shown, int level)
     }
 }
 
-std::string reason_words(const Missed& missed) {
-    const std::string box = missed.box ? brief(missed.box->min) + " to " + brief(missed.box->max) : "";
-    switch (missed.reason) {
-        case MissReason::not_chosen:
+std::string reason_words(const LostHit& lost) {
+    const std::string box = lost.box ? brief(lost.box->min) + " to " + brief(lost.box->max) : "";
+    switch (lost.reason) {
+        case LossReason::not_chosen:
             return "it was tested, but another answer was given";
-        case MissReason::not_tested:
-            return missed.box ? "the box that lists it was entered, but it was not tested: " + box
+        case LossReason::not_tested:
+            return lost.box ? "the box that lists it was entered, but it was not tested: " + box
                               : "it was not tested";
-        case MissReason::box_missed:
+        case LossReason::box_missed:
             return "the ray was said to miss a box that holds the hit: " + box;
-        case MissReason::not_visited:
+        case LossReason::not_visited:
             return "the box that lists it was never asked: " + box;
-        case MissReason::not_listed:
+        case LossReason::not_listed:
             return "a box around the hit does not list it: " + box;
-        case MissReason::no_overlap:
+        case LossReason::no_overlap:
             return "overlaps says that it does not touch the box around the hit: " + box;
-        case MissReason::no_box:
+        case LossReason::no_box:
             return "no box lies around the hit";
-        case MissReason::no_bounds:
+        case LossReason::no_bounds:
             return "bounds_of all surfaces leaves the hit out: " + box;
-        case MissReason::no_part:
+        case LossReason::no_part:
             return "split makes parts that leave out the hit of this box: " + box;
     }
     return "";
@@ -121,10 +121,10 @@ void write_tests(TextLines& out, const PixelRecord& record, const RayNode& node,
     say_more(out, hits.size(), shown, level + 1);
 }
 
-void write_missed(TextLines& out, const Missed& missed, int level) {
-    out.line(level, "LOST", "a search through all surfaces finds surface " + std::to_string(missed.surface) + " (" +
-                                missed.kind + ") at distance " + brief(missed.distance) + ";");
-    out.line(level, "", reason_words(missed));
+void write_lost(TextLines& out, const LostHit& lost, int level) {
+    out.line(level, "LOST", "a search through all surfaces finds surface " + std::to_string(lost.surface) + " (" +
+                                lost.kind + ") at distance " + brief(lost.distance) + ";");
+    out.line(level, "", reason_words(lost));
 }
 
 }  // namespace raysteps

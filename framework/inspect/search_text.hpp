@@ -6,6 +6,6 @@ namespace raysteps {
 
 void write_boxes(TextLines& out, const RayNode& node, int level);
 void write_tests(TextLines& out, const PixelRecord& record, const RayNode& node, int level);
-void write_missed(TextLines& out, const Missed& missed, int level);
+void write_lost(TextLines& out, const LostHit& lost, int level);
 
 }  // namespace raysteps

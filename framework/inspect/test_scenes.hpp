@@ -50,7 +50,7 @@ inline Scene one_mirror() {
 
 inline PixelRecord inspected(const Scene& scene, Acceleration kind, const StepOptions& options, int x, int y) {
     const auto accelerator = make_accelerator(kind, scene.surfaces());
-    return inspect_pixel(scene, *accelerator, kind, options, x, y);
+    return inspect_pixel(scene, scene.camera, *accelerator, kind, options, x, y);
 }
 
 inline StepOptions options_of(int step, int depth = 5) { return {step, View::color, depth}; }

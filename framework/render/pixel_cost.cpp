@@ -20,16 +20,16 @@ std::uint64_t cost_of(const PixelCost& pixel, CostKind kind) {
     return 0;
 }
 
-Color measured_color(StepTracer& tracer, const Ray& ray, PixelCost& cost) {
+Color measured_color(Integrator& integrator, const Ray& ray, PixelCost& cost) {
     using Clock = std::chrono::steady_clock;
     const Stats before = thread_stats();
     const Clock::time_point start = Clock::now();
-    const Color color = tracer.primary_color(ray);
+    const Color color = integrator.primary_color(ray);
     const auto spent = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
     const Stats& after = thread_stats();
     cost = {.surface_tests = after.surface_tests - before.surface_tests,
             .box_tests = after.box_tests - before.box_tests,
-            .deepest_ray = static_cast<std::uint64_t>(tracer.deepest_ray()),
+            .deepest_ray = static_cast<std::uint64_t>(integrator.deepest_ray()),
             .nanoseconds = static_cast<std::uint64_t>(spent.count())};
     return color;
 }

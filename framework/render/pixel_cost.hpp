@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/image.hpp"
-#include "render/step_tracer.hpp"
+#include "render/integrator.hpp"
 
 namespace raysteps {
 
@@ -21,6 +21,6 @@ enum class CostKind { tests, boxes, depth, time };
 [[nodiscard]] std::uint64_t cost_of(const PixelCost& pixel, CostKind kind);
 
 /// As primary_color, and writes down what it cost.
-[[nodiscard]] Color measured_color(StepTracer& tracer, const Ray& ray, PixelCost& cost);
+[[nodiscard]] Color measured_color(Integrator& integrator, const Ray& ray, PixelCost& cost);
 
 }  // namespace raysteps

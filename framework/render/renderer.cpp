@@ -27,21 +27,21 @@ struct Job {
     Rect crop;
     std::vector<Rect> tiles;
     std::atomic<std::size_t> next_tile{0};
-    std::mutex mutex;  ///< guards stats and progress
-    Stats stats;
+    std::mutex mutex{};  ///< guards stats and progress
+    Stats stats{};
     Progress progress;
     Image image;
     CostGrid costs;
 };
 
-void render_tile(const Rect& tile, StepTracer& tracer, Job& job) {
+void render_tile(const Rect& tile, Integrator& integrator, Job& job) {
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
             const Ray ray = primary_ray(job.scene.camera, job.frame, x, y);
             const int column = x - job.crop.x;
             const int row = y - job.crop.y;
-            const Color color = job.options.measure_cost ? measured_color(tracer, ray, job.costs.at(column, row))
-                                                         : tracer.primary_color(ray);
+            const Color color = job.options.measure_cost ? measured_color(integrator, ray, job.costs.at(column, row))
+                                                         : integrator.primary_color(ray);
             job.image.at(column, row) = encode(color, job.options.step.step);
         }
     }
@@ -49,9 +49,10 @@ void render_tile(const Rect& tile, StepTracer& tracer, Job& job) {
 
 void work(Job& job) {
     thread_stats() = Stats{};
-    StepTracer tracer(job.scene, job.accelerator, job.options.step);
+    RayCounter rays(job.accelerator);
+    const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
     for (std::size_t tile = job.next_tile++; tile < job.tiles.size(); tile = job.next_tile++) {
-        render_tile(job.tiles[tile], tracer, job);
+        render_tile(job.tiles[tile], *integrator, job);
         const std::lock_guard lock(job.mutex);
         job.progress.advance();
     }

@@ -42,9 +42,8 @@ std::string PixelAsker::inspected(const Question& question) {
     try {
         const Shot& shot = question.shot;
         const Accelerator& accelerator = structures_.get(shot.acceleration);
-        scene_.camera = shot.camera;
-        PixelRecord record =
-            inspect_pixel(scene_, accelerator, shot.acceleration, shot.step, question.pixel.x, question.pixel.y);
+        PixelRecord record = inspect_pixel(scene_, shot.camera, accelerator, shot.acceleration, shot.step,
+                                           question.pixel.x, question.pixel.y);
         record.scene = name_;
         const std::string camera =
             question.camera_moved ? "# the camera as it was moved\n" + write_viewpoint(shot.camera) : "";

@@ -11,9 +11,8 @@ namespace raysteps {
 
 class PixelAsker {
 public:
-    /// Scene and structures must outlive it. It sets the scene's camera to that of the pixel: nobody else may read
-    /// that camera from now on. name: what the text calls the scene.
-    PixelAsker(Scene& scene, Structures& structures, std::string name)
+    /// Scene and structures must outlive it. name: what the text calls the scene.
+    PixelAsker(const Scene& scene, Structures& structures, std::string name)
         : scene_(scene), structures_(structures), name_(std::move(name)) {}
 
     /// While a pixel is being inspected, the next one waits; of several that wait the last one counts.
@@ -38,7 +37,7 @@ private:
     [[nodiscard]] std::string inspected(const Question& question);
     void begin(const Question& question);
 
-    Scene& scene_;
+    const Scene& scene_;
     Structures& structures_;
     std::string name_;
     std::future<std::string> running_;

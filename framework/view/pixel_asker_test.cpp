@@ -35,7 +35,8 @@ Shot shot_of(const Camera& camera) {
 
 std::string inspected(const Scene& scene, const Pixel& pixel) {
     const auto octree = make_accelerator(Acceleration::octree, scene.surfaces());
-    PixelRecord record = inspect_pixel(scene, *octree, Acceleration::octree, StepOptions{}, pixel.x, pixel.y);
+    PixelRecord record =
+        inspect_pixel(scene, scene.camera, *octree, Acceleration::octree, StepOptions{}, pixel.x, pixel.y);
     record.scene = "small.nff";
     return inspect_text(record);
 }
@@ -44,7 +45,7 @@ std::string inspected(const Scene& scene, const Pixel& pixel) {
 
 TEST_CASE("A click tells what inspect tells, for the camera of the moment", "[view]") {
     const Pixel pixel{17, 20};
-    Scene scene = balls_on_floor();
+    const Scene scene = balls_on_floor();
     Structures structures(scene);
     PixelAsker asker(scene, structures, "small.nff");
     CHECK(asker.is_idle());
@@ -61,7 +62,7 @@ TEST_CASE("A click tells what inspect tells, for the camera of the moment", "[vi
 }
 
 TEST_CASE("Of the pixels that are clicked meanwhile the last one is told", "[view]") {
-    Scene scene = balls_on_floor();
+    const Scene scene = balls_on_floor();
     Structures structures(scene);
     PixelAsker asker(scene, structures, "small.nff");
     const Shot shot = shot_of(scene.camera);

@@ -149,7 +149,8 @@ void Progressive::trace_pass(const Shot& shot, const Accelerator& accelerator, i
 
 void Progressive::trace_tile(Pass& pass, std::size_t tile) {
     const Rect& area = pass.tiles[tile];
-    StepTracer tracer(scene_, pass.accelerator, pass.shot.step);
+    RayCounter rays(pass.accelerator);
+    const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.shot.step);
     std::vector<Traced> traced;
     for (int y = area.y; y < area.y + area.height; ++y) {
         for (int x = area.x; x < area.x + area.width; ++x) {
@@ -160,7 +161,7 @@ void Progressive::trace_tile(Pass& pass, std::size_t tile) {
                 return;
             }
             Traced pixel{x, y, k_black, {}};
-            pixel.color = measured_color(tracer, primary_ray(pass.shot.camera, pass.view, x, y), pixel.cost);
+            pixel.color = measured_color(*integrator, primary_ray(pass.shot.camera, pass.view, x, y), pixel.cost);
             traced.push_back(pixel);
         }
     }

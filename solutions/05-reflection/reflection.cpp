@@ -28,7 +28,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
     }
     Color color = tracer.local_light(*hit, depth);
     if (hit->fill.ks > 0.0F) {
-        color += hit->fill.ks * trace(tracer, reflected_ray(*hit), depth + 1);
+        color += hit->fill.ks * tracer.trace(reflected_ray(*hit), depth + 1);
     }
     return color;
     // END SOLUTION

@@ -160,6 +160,17 @@ def test_rounding_is_no_difference(record: Record) -> None:
     assert find_divergence(jitter(record, 3e-6), record) is None
 
 
+def test_what_nobody_saw_is_no_difference(record: Record) -> None:
+    """A step 05 that calls itself tells only the sum of what its reflected rays bring."""
+    mine = copy.deepcopy(record)
+    mine["ray"]["bounces"][0]["color"] = None
+    assert find_parting(mine, record) is None
+    mine["ray"]["color"] = [0.5, 0.5, 0.5]
+    parting = find_parting(mine, record)
+    assert parting is not None
+    assert (parting.place, parting.function) == (("eye", "color"), "trace")
+
+
 def test_other_boxes_and_more_tests_are_no_difference(project: Project, program: Path, record: Record) -> None:
     for accel in ("none", "boxes", "bvh"):
         other = inspect(program, wish(project, "three-spheres", 24, 15, 8, "--accel", accel)).record

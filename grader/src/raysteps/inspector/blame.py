@@ -190,15 +190,30 @@ def direct(lights: list[Record]) -> list[float]:
     return [sum(values) for values in zip(*terms, strict=True)] if terms else list(_BLACK)
 
 
+def is_unseen(ray: Record) -> bool:
+    """A step 05 that calls itself tells nobody what its reflected rays bring."""
+    return ray["color"] is None and ray["role"] == "reflect"
+
+
+def _color_of(ray: Record) -> Color:
+    """Where nobody saw it, what the contract makes of the ray's parts."""
+    if not is_unseen(ray):
+        seen: Color = ray["color"]
+        return seen
+    return _BLACK if ray["hit"] is None else added(ray["local"], brought(ray, "ks", "reflect"))
+
+
 def brought(ray: Record, weight: str, *roles: str) -> Color:
     """What the ray's own bounces bring, weighed by the fill; nothing where it is not known."""
     if ray["hit"] is None:
         return None
-    colors = [bounce["color"] for bounce in ray["bounces"] if bounce["role"] in roles]
-    if len(colors) > 1 or None in colors:
+    colors = [_color_of(bounce) for bounce in ray["bounces"] if bounce["role"] in roles]
+    if not colors:
+        return _BLACK
+    if len(colors) > 1 or colors[0] is None:
         return None
     share = as_float(ray["hit"]["fill"][weight])
-    return [share * value for value in _floats(colors[0])] if colors else _BLACK
+    return [share * value for value in _floats(colors[0])]
 
 
 def added(one: Color, other: Color) -> Color:

@@ -21,7 +21,7 @@ struct SurfaceInfo {
 
 [[nodiscard]] SurfaceInfo describe(const Surface& surface);
 
-struct Meeting {
+struct HitTrace {
     HitRecord hit;
     std::optional<std::size_t> surface;  ///< nothing: no surface that was tested gave this hit
     std::string kind;
@@ -31,7 +31,7 @@ struct Meeting {
 };
 
 /// Why a surface that the ray does meet was not found.
-enum class MissReason {
+enum class LossReason {
     not_chosen,   ///< it was tested, and another hit was taken
     not_tested,   ///< a box that lists it was entered, but it was not asked
     box_missed,   ///< Box::clip says no to a box that holds the point
@@ -44,11 +44,11 @@ enum class MissReason {
 };
 
 /// What a search through all surfaces finds, where that is not what the structure found.
-struct Missed {
+struct LostHit {
     std::size_t surface = 0;
     std::string kind;
     float distance = 0.0F;
-    MissReason reason = MissReason::not_chosen;
+    LossReason reason = LossReason::not_chosen;
     std::optional<Box> box;  ///< the one at fault
 };
 

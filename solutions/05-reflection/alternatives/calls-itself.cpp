@@ -1,5 +1,5 @@
-// The recursion goes through the renderer, tracer.trace, which calls this function again; the cases are told apart one
-// by one, and the light of a mirror is mixed from two colours at the end. The ray starts along its own direction.
+// The function calls itself and not the renderer's way to it; the cases are told apart one by one, and the light of a
+// mirror is mixed from two colours at the end. The ray starts along its own direction.
 #include "steps/05-reflection/reflection.hpp"
 
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
     if (hit->fill.ks <= 0.0F || depth == deepest) {
         return own;
     }
-    const Color mirrored = tracer.trace(reflected_ray(*hit), depth + 1);
+    const Color mirrored = trace(tracer, reflected_ray(*hit), depth + 1);
     return own + mirrored * hit->fill.ks;
 }
 

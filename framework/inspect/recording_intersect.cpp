@@ -2,14 +2,14 @@
 // stands in for core/counting_intersect.cpp, so that raytrace pays nothing for it.
 #include "core/stats.hpp"
 #include "core/surface.hpp"
-#include "inspect/recorder.hpp"
+#include "inspect/search_recorder.hpp"
 
 namespace raysteps {
 
 std::optional<HitRecord> Surface::hit(const Ray& ray) const {
     ++thread_stats().surface_tests;
     std::optional<HitRecord> hit = intersect(ray);
-    if (Recorder* recorder = listening_recorder()) {
+    if (SearchRecorder* recorder = listening_recorder()) {
         recorder->surface(*this, hit);
     }
     return hit;
@@ -18,7 +18,7 @@ std::optional<HitRecord> Surface::hit(const Ray& ray) const {
 std::optional<Interval> Box::hit(const Ray& ray) const {
     ++thread_stats().box_tests;
     const std::optional<Interval> part = clip(ray);
-    if (Recorder* recorder = listening_recorder()) {
+    if (SearchRecorder* recorder = listening_recorder()) {
         recorder->box(*this, part);
     }
     return part;

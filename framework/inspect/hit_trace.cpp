@@ -1,4 +1,4 @@
-#include "inspect/meeting.hpp"
+#include "inspect/hit_trace.hpp"
 
 #include <variant>
 

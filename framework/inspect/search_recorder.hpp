@@ -9,15 +9,13 @@
 
 namespace raysteps {
 
-/// How much of a pixel is kept. What goes beyond is counted all the same.
-inline constexpr std::uint64_t k_most_rays = 1024;
+/// How many events are kept. What goes beyond is counted all the same.
 inline constexpr std::uint64_t k_most_events_per_ray = 5000;  ///< of boxes, of surfaces missed and of surfaces hit
 inline constexpr std::uint64_t k_most_events = 20000;         ///< of the whole pixel, of each of the three
-inline constexpr int k_most_levels = 32;                      ///< rays that follow from one another
 
-class Recorder {
+class SearchRecorder {
 public:
-    Recorder(const Accelerator& accelerator, std::size_t surfaces);
+    SearchRecorder(const Accelerator& accelerator, std::size_t surfaces);
 
     /// What is asked from here on belongs to this ray; null: it is only counted.
     void begin(RayNode* node);
@@ -29,7 +27,7 @@ public:
     void surface(const Surface& surface, const std::optional<HitRecord>& hit);
 
     /// The surface whose answer this hit is, among those that the last ray asked.
-    [[nodiscard]] const Surface* giver_of(const Ray& ray, const HitRecord& hit) const;
+    [[nodiscard]] const Surface* surface_of_hit(const Ray& ray, const HitRecord& hit) const;
 
     /// The last surface that was hit nearer than `distance`: the one that ended the search for any hit.
     [[nodiscard]] const Surface* blocker(float distance) const;
@@ -40,7 +38,6 @@ public:
 
     [[nodiscard]] const SearchCounts& total() const { return total_; }
     [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
-    void leave_out_ray() { ++left_out_.rays; }
 
 private:
     struct Known {
@@ -68,7 +65,7 @@ private:
 };
 
 /// Where Surface::hit and Box::hit tell what they were asked; null: nobody listens.
-[[nodiscard]] Recorder* listening_recorder();
+[[nodiscard]] SearchRecorder* listening_recorder();
 
 /// Asks without being heard or counted.
 class Unheard {
@@ -79,7 +76,7 @@ public:
     Unheard& operator=(const Unheard&) = delete;
 
 private:
-    Recorder* before_;
+    SearchRecorder* before_;
     Stats stats_;
 };
 

@@ -1,4 +1,4 @@
-#include "inspect/missed.hpp"
+#include "inspect/lost_hit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,21 +34,21 @@ bool contains(const Box& box, const glm::vec3& point) {
 }
 
 /// Whether the functions that a tree is built with lose the point: bounds_of, or split again and again.
-bool loses_space(const SurfaceList& surfaces, const glm::vec3& point, Missed& missed) {
+bool loses_space(const SurfaceList& surfaces, const glm::vec3& point, LostHit& lost) {
     constexpr int k_levels = 4;
     Box box = bounds_of(surfaces);
-    missed.box = box;
-    missed.reason = MissReason::no_bounds;
+    lost.box = box;
+    lost.reason = LossReason::no_bounds;
     if (!contains(box, point)) {
         return true;
     }
-    missed.reason = MissReason::no_part;
+    lost.reason = LossReason::no_part;
     for (int level = 0; level < k_levels; ++level) {
         const std::array<Box, 8> parts = split(box);
         const auto part =
             std::find_if(parts.begin(), parts.end(), [&](const Box& one) { return contains(one, point); });
         if (part == parts.end()) {
-            missed.box = box;
+            lost.box = box;
             return true;
         }
         box = *part;
@@ -57,9 +57,9 @@ bool loses_space(const SurfaceList& surfaces, const glm::vec3& point, Missed& mi
 }
 
 /// What the boxes around the lost point have to say, the worst fault first.
-class Inquiry {
+class LostHitDiagnosis {
 public:
-    Inquiry(const Surface& surface, const glm::vec3& point, const Recorder& recorder)
+    LostHitDiagnosis(const Surface& surface, const glm::vec3& point, const SearchRecorder& recorder)
         : surface_(surface), point_(point), recorder_(recorder) {}
 
     void look_at(const NodeInfo& place) {
@@ -79,22 +79,20 @@ public:
         }
     }
 
-    [[nodiscard]] const glm::vec3& point() const { return point_; }
-
-    void conclude(Missed& missed) const {
+    void conclude(LostHit& lost) const {
         if (!any_) {
-            missed.reason = MissReason::not_tested;
+            lost.reason = LossReason::not_tested;
         } else if (missed_) {
-            missed.reason = MissReason::box_missed;
-            missed.box = missed_;
+            lost.reason = LossReason::box_missed;
+            lost.box = missed_;
         } else if (listing_) {
-            missed.reason = entered_ ? MissReason::not_tested : MissReason::not_visited;
-            missed.box = listing_;
+            lost.reason = entered_ ? LossReason::not_tested : LossReason::not_visited;
+            lost.box = listing_;
         } else if (around_) {
-            missed.reason = overlaps_all() ? MissReason::not_listed : MissReason::no_overlap;
-            missed.box = around_;
+            lost.reason = overlaps_all() ? LossReason::not_listed : LossReason::no_overlap;
+            lost.box = around_;
         } else {
-            missed.reason = MissReason::no_box;
+            lost.reason = LossReason::no_box;
         }
     }
 
@@ -113,7 +111,7 @@ private:
 
     const Surface& surface_;
     glm::vec3 point_;
-    const Recorder& recorder_;
+    const SearchRecorder& recorder_;
     bool any_ = false;
     bool entered_ = false;
     std::optional<Box> missed_;
@@ -123,8 +121,8 @@ private:
 
 }  // namespace
 
-std::optional<Missed> find_missed(const RayNode& node, float limit, const SurfaceList& surfaces,
-                                  const Accelerator& accelerator, const Recorder& recorder) {
+std::optional<LostHit> find_lost_hit(const RayNode& node, float limit, const SurfaceList& surfaces,
+                                  const Accelerator& accelerator, const SearchRecorder& recorder) {
     const Unheard unheard;
     const Nearest nearest = nearest_of(surfaces, node.ray);
     if (nearest.surface == nullptr || !(nearest.hit.distance < limit)) {
@@ -133,19 +131,23 @@ std::optional<Missed> find_missed(const RayNode& node, float limit, const Surfac
     if (node.hit && node.hit->hit.distance <= nearest.hit.distance * (1.0F + k_as_near)) {
         return std::nullopt;
     }
-    Missed missed{nearest.surface->order(), describe(*nearest.surface).kind, nearest.hit.distance,
-                  MissReason::not_chosen, std::nullopt};
+    LostHit lost{.surface = nearest.surface->order(),
+                 .kind = describe(*nearest.surface).kind,
+                 .distance = nearest.hit.distance,
+                 .reason = LossReason::not_chosen,
+                 .box = std::nullopt};
     if (!recorder.asked(*nearest.surface)) {
-        Inquiry inquiry(*nearest.surface, node.ray.origin + nearest.hit.distance * node.ray.direction, recorder);
-        accelerator.visit_nodes(nearest.surface, [&](const NodeInfo& place) { inquiry.look_at(place); });
-        inquiry.conclude(missed);
-        const bool by_building = missed.reason == MissReason::no_box || missed.reason == MissReason::not_listed;
-        Missed deeper = missed;
-        if (by_building && loses_space(surfaces, inquiry.point(), deeper)) {
+        const glm::vec3 point = node.ray.origin + nearest.hit.distance * node.ray.direction;
+        LostHitDiagnosis diagnosis(*nearest.surface, point, recorder);
+        accelerator.visit_nodes(nearest.surface, [&](const NodeInfo& place) { diagnosis.look_at(place); });
+        diagnosis.conclude(lost);
+        const bool by_building = lost.reason == LossReason::no_box || lost.reason == LossReason::not_listed;
+        LostHit deeper = lost;
+        if (by_building && loses_space(surfaces, point, deeper)) {
             return deeper;
         }
     }
-    return missed;
+    return lost;
 }
 
 }  // namespace raysteps

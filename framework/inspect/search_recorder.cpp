@@ -1,4 +1,4 @@
-#include "inspect/recorder.hpp"
+#include "inspect/search_recorder.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -6,7 +6,7 @@
 namespace raysteps {
 namespace {
 
-thread_local Recorder* t_listening = nullptr;
+thread_local SearchRecorder* t_listening = nullptr;
 
 bool same(const HitRecord& a, const HitRecord& b) {
     return a.position == b.position && a.normal == b.normal && a.fill.color == b.fill.color && a.fill.ks == b.fill.ks &&
@@ -24,7 +24,7 @@ SearchCounts& SearchCounts::operator+=(const SearchCounts& other) {
     return *this;
 }
 
-Recorder* listening_recorder() { return t_listening; }
+SearchRecorder* listening_recorder() { return t_listening; }
 
 Unheard::Unheard() : before_(std::exchange(t_listening, nullptr)), stats_(thread_stats()) {}
 
@@ -33,7 +33,7 @@ Unheard::~Unheard() {
     thread_stats() = stats_;
 }
 
-Recorder::Recorder(const Accelerator& accelerator, std::size_t surfaces) : last_ray_(surfaces, 0) {
+SearchRecorder::SearchRecorder(const Accelerator& accelerator, std::size_t surfaces) : last_ray_(surfaces, 0) {
     accelerator.visit_nodes(nullptr, [this](const NodeInfo& place) {
         known_.push_back({&place.box, place.level, place.listed});
     });
@@ -41,14 +41,14 @@ Recorder::Recorder(const Accelerator& accelerator, std::size_t surfaces) : last_
               [](const Known& a, const Known& b) { return std::less<const Box*>()(a.box, b.box); });
 }
 
-const Recorder::Known* Recorder::find_known(const Box& box) const {
+const SearchRecorder::Known* SearchRecorder::find_known(const Box& box) const {
     const auto found = std::lower_bound(known_.begin(), known_.end(), &box, [](const Known& known, const Box* wanted) {
         return std::less<const Box*>()(known.box, wanted);
     });
     return found != known_.end() && found->box == &box ? &*found : nullptr;
 }
 
-void Recorder::begin(RayNode* node) {
+void SearchRecorder::begin(RayNode* node) {
     node_ = node;
     counts_ = {};
     hits_.clear();
@@ -59,7 +59,7 @@ void Recorder::begin(RayNode* node) {
     t_listening = this;
 }
 
-SearchCounts Recorder::end() {
+SearchCounts SearchRecorder::end() {
     t_listening = nullptr;
     const std::uint64_t unique_before = total_.unique_surfaces;
     total_ += counts_;
@@ -67,7 +67,7 @@ SearchCounts Recorder::end() {
     return counts_;
 }
 
-void Recorder::box(const Box& box, const std::optional<Interval>& part) {
+void SearchRecorder::box(const Box& box, const std::optional<Interval>& part) {
     ++counts_.box_tests;
     asked_boxes_[&box] = part.has_value();
     const Known* const known = find_known(box);
@@ -87,7 +87,7 @@ void Recorder::box(const Box& box, const std::optional<Interval>& part) {
     }
 }
 
-void Recorder::surface(const Surface& surface, const std::optional<HitRecord>& hit) {
+void SearchRecorder::surface(const Surface& surface, const std::optional<HitRecord>& hit) {
     ++counts_.surface_tests;
     if (surface.order() < last_ray_.size()) {
         std::uint32_t& last = last_ray_[surface.order()];
@@ -110,7 +110,7 @@ void Recorder::surface(const Surface& surface, const std::optional<HitRecord>& h
         {surface.order(), hit ? std::optional(hit->distance) : std::nullopt, counts_.box_tests});
 }
 
-const Surface* Recorder::giver_of(const Ray& ray, const HitRecord& hit) const {
+const Surface* SearchRecorder::surface_of_hit(const Ray& ray, const HitRecord& hit) const {
     const Surface* found = nullptr;
     const Unheard unheard;
     for (const auto& [surface, distance] : hits_) {
@@ -125,13 +125,13 @@ const Surface* Recorder::giver_of(const Ray& ray, const HitRecord& hit) const {
     return found;
 }
 
-const Surface* Recorder::blocker(float distance) const {
+const Surface* SearchRecorder::blocker(float distance) const {
     const auto near =
         std::find_if(hits_.rbegin(), hits_.rend(), [&](const auto& one) { return one.second < distance; });
     return near != hits_.rend() ? near->first : nullptr;
 }
 
-bool Recorder::asked(const Surface& surface) const {
+bool SearchRecorder::asked(const Surface& surface) const {
     return surface.order() < last_ray_.size() && last_ray_[surface.order()] == ray_;
 }
 

@@ -1,5 +1,5 @@
 // Asks the functions that put the others together, so that how they do it is told nowhere.
-#include "inspect/step_terms.hpp"
+#include "inspect/shading_terms.hpp"
 
 #include <glm/geometric.hpp>
 #include <span>

@@ -1,9 +1,9 @@
-#include "inspect/light_terms.hpp"
+#include "inspect/shading_trace.hpp"
 
 #include <vector>
 
-#include "inspect/recorder.hpp"
-#include "inspect/step_terms.hpp"
+#include "inspect/search_recorder.hpp"
+#include "inspect/shading_terms.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
@@ -39,18 +39,18 @@ void describe_lights(const Scene& scene, const StepOptions& options, const HitRe
     node.direct = shade(hit, reaching);
 }
 
-void describe_meeting(const StepOptions& options, const RayNode& node, Meeting& meeting) {
+void describe_hit(const StepOptions& options, const RayNode& node, HitTrace& trace) {
     const Unheard unheard;
-    const HitRecord& hit = meeting.hit;
-    meeting.point = point_at(node.ray, hit.distance);
+    const HitRecord& hit = trace.hit;
+    trace.point = point_at(node.ray, hit.distance);
     if (node.role == RayRole::shadow) {
         return;
     }
     if (options.step >= 5) {
-        meeting.mirrored = mirror(hit.ray_direction, hit.normal);
+        trace.mirrored = mirror(hit.ray_direction, hit.normal);
     }
     if (options.step >= 8 && hit.fill.transmittance > 0.0F) {
-        meeting.refracted = ask_refracted(hit);
+        trace.refracted = ask_refracted(hit);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "inspect/step_terms.hpp"
+#include "inspect/shading_terms.hpp"
 
 #include <glm/geometric.hpp>
 

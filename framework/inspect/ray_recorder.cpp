@@ -1,0 +1,129 @@
+#include "inspect/ray_recorder.hpp"
+
+#include <limits>
+
+#include "inspect/lost_hit.hpp"
+#include "inspect/shading_trace.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr std::uint64_t k_most_checks = 30'000'000;  // surfaces asked a second time, in a pixel
+
+}  // namespace
+
+RayRecorder::RayRecorder(const Scene& scene, const Accelerator& accelerator, PixelRecord& record)
+    : RayCounter(accelerator),
+      scene_(scene),
+      accelerator_(accelerator),
+      record_(record),
+      search_(accelerator, scene.surfaces().size()),
+      tree_(record),
+      shadow_query_(*this),
+      checks_left_(k_most_checks) {}
+
+std::optional<HitRecord> RayRecorder::closest_hit(const RayOrigin& origin, const Ray& ray) {
+    std::optional<HitRecord> hit = search(tree_.open(origin, ray), accelerator_, ray);
+    count(origin, hit.has_value());
+    return hit;
+}
+
+/// Not kept: of any ray but a shadow ray a step should want to know what it meets.
+bool RayRecorder::any_hit(const RayOrigin& origin, const Ray& ray, float distance) {
+    tree_.leave_out();
+    const bool hit = search_any(nullptr, accelerator_, ray, distance);
+    count(origin, hit);
+    return hit;
+}
+
+const SceneQuery& RayRecorder::shadow_query(RayNumber ray, std::size_t light) {
+    if (RayNode* const node = tree_.node(ray)) {
+        node->lights.emplace_back().light = light;
+    }
+    shadow_query_.begin(ray, RayCounter::shadow_query(ray, light));
+    return shadow_query_;
+}
+
+void RayRecorder::light_answered(RayNumber ray, bool lit) {
+    if (RayNode* const node = tree_.node(ray)) {
+        node->lights.back().lit = lit;
+    }
+}
+
+std::optional<HitRecord> RayRecorder::ShadowQuery::closest_hit(const Ray& ray) const {
+    return recorder_.search(recorder_.tree_.open_shadow_ray(of_, ray), *scene_, ray);
+}
+
+bool RayRecorder::ShadowQuery::any_hit(const Ray& ray, float distance) const {
+    return recorder_.search_any(recorder_.tree_.open_shadow_ray(of_, ray), *scene_, ray, distance);
+}
+
+std::optional<HitRecord> RayRecorder::search(RayNode* node, const SceneQuery& scene, const Ray& ray) {
+    search_.begin(node);
+    std::optional<HitRecord> hit = scene.closest_hit(ray);
+    const SearchCounts counts = search_.end();
+    if (node != nullptr) {
+        node->counts = counts;
+        if (hit) {
+            describe_hit_of(*node, *hit, search_.surface_of_hit(ray, *hit));
+        }
+        check(*node, std::numeric_limits<float>::infinity());
+    }
+    return hit;
+}
+
+bool RayRecorder::search_any(RayNode* node, const SceneQuery& scene, const Ray& ray, float distance) {
+    search_.begin(node);
+    const bool blocked = scene.any_hit(ray, distance);
+    const SearchCounts counts = search_.end();
+    if (node == nullptr) {
+        return blocked;
+    }
+    node->limit = distance;
+    node->counts = counts;
+    node->any = blocked;
+    if (!blocked) {
+        check(*node, distance);
+    } else if (const Surface* surface = search_.blocker(distance)) {
+        const Unheard unheard;
+        if (const std::optional<HitRecord> hit = surface->hit(ray)) {
+            describe_hit_of(*node, *hit, surface);
+        }
+    }
+    return blocked;
+}
+
+void RayRecorder::describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface) {
+    HitTrace& trace = node.hit.emplace();
+    trace.hit = hit;
+    if (surface != nullptr) {
+        trace.surface = surface->order();
+        trace.kind = describe(*surface).kind;
+    }
+    describe_hit(record_.options, node, trace);
+}
+
+void RayRecorder::check(RayNode& node, float limit) {
+    if (scene_.surfaces().size() > checks_left_) {
+        return;
+    }
+    checks_left_ -= scene_.surfaces().size();
+    node.lost = find_lost_hit(node, limit, scene_.surfaces(), accelerator_, search_);
+}
+
+void RayRecorder::shaded(RayNumber ray, const HitRecord& hit, const Color& local,
+                         const std::optional<Color>& transmitted) {
+    if (RayNode* const node = tree_.node(ray)) {
+        node->local = local;
+        node->transmitted = transmitted;
+        describe_lights(scene_, record_.options, hit, *node);
+    }
+}
+
+void RayRecorder::finish() {
+    record_.counts = search_.total();
+    record_.left_out = search_.left_out();
+    record_.left_out.rays = tree_.left_out();
+}
+
+}  // namespace raysteps

@@ -1,0 +1,24 @@
+#pragma once
+// The light that comes straight from the lamps.
+#include <vector>
+
+#include "core/scene.hpp"
+#include "render/ray_counter.hpp"
+
+namespace raysteps {
+
+/// Step 03's sum over the lights that step 04 lets through.
+class DirectLight {
+public:
+    DirectLight(const Scene& scene, RayCounter& rays) : scene_(scene), rays_(rays) {}
+
+    /// At the hit of that ray.
+    [[nodiscard]] Color at(const HitRecord& hit, RayNumber ray);
+
+private:
+    const Scene& scene_;
+    RayCounter& rays_;
+    std::vector<Light> lit_;  ///< kept, so that no hit needs memory of its own
+};
+
+}  // namespace raysteps

@@ -1,0 +1,53 @@
+#pragma once
+// One small integrator per stage of the course: from a primary ray to a colour, with what there is so far.
+#include <memory>
+
+#include "core/scene.hpp"
+#include "render/accelerator.hpp"
+#include "render/ray_counter.hpp"
+
+namespace raysteps {
+
+/// What step 02 shows of a hit.
+enum class View { color, normals };
+
+struct StepOptions {
+    int step = 8;  ///< from 1 on; 9 shows what 8 shows, a later one what it makes of that
+    View view = View::color;
+    int max_ray_depth = 5;
+};
+
+/// Calls the step functions. Each thread has its own.
+class Integrator {
+public:
+    /// Both must outlive it.
+    Integrator(const Scene& scene, RayCounter& rays) : scene_(scene), rays_(rays) {}
+    virtual ~Integrator() = default;
+    Integrator(const Integrator&) = delete;
+    Integrator& operator=(const Integrator&) = delete;
+
+    /// The colour of a primary ray, before tone mapping.
+    [[nodiscard]] Color primary_color(const Ray& ray) {
+        rays_.begin_pixel();
+        return color_of(ray);
+    }
+
+    /// How deep the last primary ray and what came of it went, see RayCounter.
+    [[nodiscard]] int deepest_ray() const { return rays_.deepest(); }
+
+protected:
+    [[nodiscard]] virtual Color color_of(const Ray& ray) = 0;
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] RayCounter& rays() { return rays_; }
+
+private:
+    const Scene& scene_;
+    RayCounter& rays_;
+};
+
+/// The one that shows what the step gives.
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Scene& scene, RayCounter& rays,
+                                                          const StepOptions& options);
+
+}  // namespace raysteps

@@ -1,0 +1,25 @@
+#pragma once
+// From step 05 on: mirrors, from step 08 on glass, and what later steps make of the picture.
+#include "render/direct_light.hpp"
+#include "render/integrator.hpp"
+
+namespace raysteps {
+
+class WhittedIntegrator final : public Integrator {
+public:
+    WhittedIntegrator(const Scene& scene, RayCounter& rays, const StepOptions& options)
+        : Integrator(scene, rays), direct_(scene, rays), options_(options) {}
+
+private:
+    class Frame;
+    class PictureFrame;
+
+    [[nodiscard]] Color color_of(const Ray& ray) override;
+    [[nodiscard]] Color follow(const RayOrigin& origin, const Ray& ray);
+    [[nodiscard]] Color local_light(const HitRecord& hit, int depth, RayNumber ray);
+
+    DirectLight direct_;
+    StepOptions options_;
+};
+
+}  // namespace raysteps
