@@ -8,7 +8,7 @@ from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 from raysteps.judge.tokens import Garbled, Tokens
 from raysteps.judge.values import Box, Inputs
 
-# Whoever writes an answer by hand may write any tree; framework/apps/worker_bvh.cpp knows the same numbers.
+# Whoever writes an answer by hand may write any tree; framework/worker/simple_bvh.cpp knows the same numbers.
 MOST_NODES = 5000
 MOST_ENTRIES = 50000
 _MOST = {"nodes": f"{MOST_NODES} nodes", "surfaces": f"{MOST_ENTRIES} surfaces"}

@@ -1,6 +1,6 @@
 // How the judge's worker asks the functions of step @NUMBER@: it reads what judge.py draws, in the same order.
-#include "apps/worker_functions.hpp"
 #include "steps/@ID@/@FILE@.hpp"
+#include "worker/functions.hpp"
 
 namespace raysteps {
 namespace {

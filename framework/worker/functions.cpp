@@ -1,4 +1,4 @@
-#include "apps/worker_functions.hpp"
+#include "worker/functions.hpp"
 
 namespace raysteps {
 namespace {

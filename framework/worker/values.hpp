@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "apps/worker_words.hpp"
 #include "core/box.hpp"
 #include "core/camera.hpp"
 #include "core/hit_record.hpp"
 #include "core/light.hpp"
+#include "worker/tokens.hpp"
 
 namespace raysteps {
 

@@ -1,10 +1,10 @@
-#include "apps/worker_bvh.hpp"
+#include "worker/simple_bvh.hpp"
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <unordered_map>
 
-#include "apps/worker_values.hpp"
+#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/worker_values.hpp"
+#include "worker/values.hpp"
 
 namespace raysteps {
 

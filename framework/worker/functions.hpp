@@ -3,7 +3,7 @@
 #include <map>
 #include <string_view>
 
-#include "apps/worker_words.hpp"
+#include "worker/tokens.hpp"
 
 namespace raysteps {
 

@@ -1,4 +1,4 @@
-#include "apps/worker_tracer.hpp"
+#include "worker/scripted_tracer.hpp"
 
 #include <glm/geometric.hpp>
 

@@ -1,9 +1,9 @@
 // Rays and what they meet, one at a time: steps 01 and 02, and the meetings with boxes of step 06.
-#include "apps/worker_functions.hpp"
-#include "apps/worker_surfaces.hpp"
-#include "apps/worker_values.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/02-intersection/intersection.hpp"
+#include "worker/counted_surfaces.hpp"
+#include "worker/functions.hpp"
+#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 // Surfaces of the worker's own: they count for themselves how often they were asked.
-#include "apps/worker_words.hpp"
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
+#include "worker/tokens.hpp"
 
 namespace raysteps {
 

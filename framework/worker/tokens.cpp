@@ -1,4 +1,4 @@
-#include "apps/worker_words.hpp"
+#include "worker/tokens.hpp"
 
 #include <cmath>
 #include <cstdio>

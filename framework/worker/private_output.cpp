@@ -1,4 +1,4 @@
-#include "apps/worker_output.hpp"
+#include "worker/private_output.hpp"
 
 #include <stdexcept>
 

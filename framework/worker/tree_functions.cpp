@@ -1,11 +1,11 @@
 // Trees and searches through them: steps 06 and 09.
-#include "apps/worker_functions.hpp"
-#include "apps/worker_bvh.hpp"
-#include "apps/worker_surfaces.hpp"
-#include "apps/worker_tree.hpp"
-#include "apps/worker_values.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
+#include "worker/counted_surfaces.hpp"
+#include "worker/functions.hpp"
+#include "worker/simple_bvh.hpp"
+#include "worker/simple_octree.hpp"
+#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {

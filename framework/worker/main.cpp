@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/worker_functions.hpp"
-#include "apps/worker_output.hpp"
+#include "worker/functions.hpp"
+#include "worker/private_output.hpp"
 
 namespace {
 

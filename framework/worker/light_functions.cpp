@@ -1,13 +1,13 @@
 // Light and its ways: steps 03, 04, 05, 07 and 08.
-#include "apps/worker_functions.hpp"
-#include "apps/worker_surfaces.hpp"
-#include "apps/worker_tracer.hpp"
-#include "apps/worker_values.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
 #include "steps/05-reflection/reflection.hpp"
 #include "steps/07-tone-mapping/tone_mapping.hpp"
 #include "steps/08-refraction/refraction.hpp"
+#include "worker/counted_surfaces.hpp"
+#include "worker/functions.hpp"
+#include "worker/scripted_tracer.hpp"
+#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Trees of step 06: one that the worker makes itself, and any tree as words.
-#include "apps/worker_words.hpp"
 #include "core/node.hpp"
+#include "worker/tokens.hpp"
 
 namespace raysteps {
 

@@ -1,4 +1,4 @@
-#include "apps/worker_surfaces.hpp"
+#include "worker/counted_surfaces.hpp"
 
 namespace raysteps {
 namespace {

@@ -1,10 +1,10 @@
-#include "apps/worker_tree.hpp"
+#include "worker/simple_octree.hpp"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <unordered_map>
 
-#include "apps/worker_values.hpp"
+#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {
