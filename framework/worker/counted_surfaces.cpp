@@ -5,7 +5,7 @@ namespace {
 
 constexpr int k_glass_sphere = 4;
 
-std::unique_ptr<Surface> read_surface(Words& words, Fill fill, Asked& asked) {
+std::unique_ptr<Surface> read_surface(TokenReader& words, Fill fill, Asked& asked) {
     const int kind = words.whole();
     if (kind == 0 || kind == k_glass_sphere) {
         fill.transmittance = kind == k_glass_sphere ? 0.8F : 0.0F;
@@ -23,7 +23,7 @@ std::unique_ptr<Surface> read_surface(Words& words, Fill fill, Asked& asked) {
     if (kind == 3) {
         return std::make_unique<ScriptedSurface>(std::nullopt, fill, asked);
     }
-    throw BadCase("there is no surface of kind " + std::to_string(kind));
+    throw ProtocolError("there is no surface of kind " + std::to_string(kind));
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ std::optional<HitRecord> ScriptedSurface::intersect(const Ray& ray) const {
     return HitRecord{ray.origin + *distance_ * ray.direction, fill(), -ray.direction, ray.direction, *distance_, true};
 }
 
-Scene read_surfaces(Words& words, Asked& asked) {
+Scene read_surfaces(TokenReader& words, Asked& asked) {
     Scene scene;
     const int count = words.count();
     for (int i = 0; i < count; ++i) {

@@ -3,7 +3,7 @@
 #include "core/scene.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
-#include "worker/tokens.hpp"
+#include "worker/protocol.hpp"
 
 namespace raysteps {
 
@@ -57,6 +57,6 @@ private:
 
 /// How many, then each: 0 and a sphere (centre, radius), 1 and a triangle (three corners), 2 and a distance,
 /// 3 for a surface that no ray hits. Surface i has red (i + 1) / 256, by which an answer is known.
-[[nodiscard]] Scene read_surfaces(Words& words, Asked& asked);
+[[nodiscard]] Scene read_surfaces(TokenReader& words, Asked& asked);
 
 }  // namespace raysteps

@@ -23,11 +23,11 @@ bool offer_function(std::string_view name, Function function) {
     return true;
 }
 
-void answer_case(std::string_view function, Words& words, Answer& answer) {
+void answer_case(std::string_view function, TokenReader& words, TokenWriter& answer) {
     static const FunctionTable functions = all_functions();
     const auto found = functions.find(function);
     if (found == functions.end()) {
-        throw BadCase("there is no function " + std::string(function));
+        throw ProtocolError("there is no function " + std::string(function));
     }
     found->second(words, answer);
     words.expect_end();

@@ -3,12 +3,12 @@
 #include <map>
 #include <string_view>
 
-#include "worker/tokens.hpp"
+#include "worker/protocol.hpp"
 
 namespace raysteps {
 
 /// Reads the inputs, asks the function, and writes what it returned.
-using Function = void (*)(Words&, Answer&);
+using Function = void (*)(TokenReader&, TokenWriter&);
 using FunctionTable = std::map<std::string_view, Function>;
 
 void add_intersections(FunctionTable& functions);
@@ -19,7 +19,7 @@ void add_trees(FunctionTable& functions);
 /// true.
 bool offer_function(std::string_view name, Function function);
 
-/// Asks the function of that name. Throws BadCase where there is none.
-void answer_case(std::string_view function, Words& words, Answer& answer);
+/// Asks the function of that name. Throws ProtocolError where there is none.
+void answer_case(std::string_view function, TokenReader& words, TokenWriter& answer);
 
 }  // namespace raysteps

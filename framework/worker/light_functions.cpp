@@ -6,25 +6,25 @@
 #include "steps/08-refraction/refraction.hpp"
 #include "worker/counted_surfaces.hpp"
 #include "worker/functions.hpp"
+#include "worker/protocol.hpp"
 #include "worker/scripted_tracer.hpp"
-#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {
 
-void ask_mirror(Words& words, Answer& answer) {
+void ask_mirror(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 direction = words.vector();
     answer.vector(mirror(direction, words.vector()));
 }
 
-void ask_diffuse(Words& words, Answer& answer) {
+void ask_diffuse(TokenReader& words, TokenWriter& answer) {
     const Fill fill = read_fill(words);
     const Light light = read_light(words);
     const glm::vec3 normal = words.vector();
     answer.vector(diffuse(fill, light, normal, words.vector()));
 }
 
-void ask_specular(Words& words, Answer& answer) {
+void ask_specular(TokenReader& words, TokenWriter& answer) {
     const Fill fill = read_fill(words);
     const Light light = read_light(words);
     const glm::vec3 normal = words.vector();
@@ -32,17 +32,17 @@ void ask_specular(Words& words, Answer& answer) {
     answer.vector(specular(fill, light, normal, to_light, words.vector()));
 }
 
-void ask_shade(Words& words, Answer& answer) {
+void ask_shade(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_hit(words);
     answer.vector(shade(hit, read_lights(words)));
 }
 
-void ask_shadow_ray(Words& words, Answer& answer) {
+void ask_shadow_ray(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_hit(words);
     write_ray(answer, shadow_ray(hit, read_light(words)));
 }
 
-void ask_is_lit(Words& words, Answer& answer) {
+void ask_is_lit(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const Scene scene = read_surfaces(words, asked);
     const HitRecord hit = read_hit(words);
@@ -52,9 +52,9 @@ void ask_is_lit(Words& words, Answer& answer) {
     answer.whole(caster.asked());
 }
 
-void ask_reflected_ray(Words& words, Answer& answer) { write_ray(answer, reflected_ray(read_hit(words))); }
+void ask_reflected_ray(TokenReader& words, TokenWriter& answer) { write_ray(answer, reflected_ray(read_hit(words))); }
 
-Script read_script(Words& words) {
+Script read_script(TokenReader& words) {
     Script script;
     script.max_depth = words.whole();
     script.background = words.vector();
@@ -70,7 +70,7 @@ Script read_script(Words& words) {
 }
 
 // The colour, the rays that were cast, and the hits that were shaded, each with its depth.
-void ask_trace(Words& words, Answer& answer) {
+void ask_trace(TokenReader& words, TokenWriter& answer) {
     const Ray ray = read_ray(words);
     const int depth = words.whole();
     ScriptedTracer tracer(read_script(words));
@@ -85,11 +85,11 @@ void ask_trace(Words& words, Answer& answer) {
     }
 }
 
-void ask_tone_map(Words& words, Answer& answer) { answer.vector(tone_map(words.vector())); }
+void ask_tone_map(TokenReader& words, TokenWriter& answer) { answer.vector(tone_map(words.vector())); }
 
-void ask_to_byte(Words& words, Answer& answer) { answer.whole(to_byte(words.number())); }
+void ask_to_byte(TokenReader& words, TokenWriter& answer) { answer.whole(to_byte(words.number())); }
 
-void ask_refract(Words& words, Answer& answer) {
+void ask_refract(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 direction = words.vector();
     const glm::vec3 normal = words.vector();
     const std::optional<glm::vec3> refracted = refract(direction, normal, words.number());
@@ -100,10 +100,12 @@ void ask_refract(Words& words, Answer& answer) {
     answer.word("direction").vector(*refracted);
 }
 
-void ask_transmitted_ray(Words& words, Answer& answer) { write_ray(answer, transmitted_ray(read_hit(words))); }
+void ask_transmitted_ray(TokenReader& words, TokenWriter& answer) {
+    write_ray(answer, transmitted_ray(read_hit(words)));
+}
 
 // The colour, and the rays that were traced, each with its depth.
-void ask_transmitted_light(Words& words, Answer& answer) {
+void ask_transmitted_light(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_hit(words);
     const int depth = words.whole();
     Script script;

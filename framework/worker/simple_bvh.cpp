@@ -4,15 +4,15 @@
 #include <glm/common.hpp>
 #include <unordered_map>
 
-#include "worker/values.hpp"
+#include "worker/protocol.hpp"
 
 namespace raysteps {
 namespace {
 
 constexpr std::ptrdiff_t k_leaf_size = 3;
 // Larger trees are not told; judge/bvhs.py knows the same numbers.
-constexpr std::size_t k_most_nodes = 5000;
-constexpr std::size_t k_most_entries = 50000;
+constexpr std::size_t k_max_nodes = 5000;
+constexpr std::size_t k_max_entries = 50000;
 
 using Place = SurfaceList::iterator;
 
@@ -63,9 +63,9 @@ Bvh simple_bvh(const SurfaceList& surfaces) {
     return bvh;
 }
 
-void write_bvh(Answer& answer, const Bvh& bvh, const SurfaceList& surfaces) {
-    if (bvh.nodes.size() > k_most_nodes || bvh.surfaces.size() > k_most_entries) {
-        answer.word("large").word(bvh.nodes.size() > k_most_nodes ? "nodes" : "surfaces");
+void write_bvh(TokenWriter& answer, const Bvh& bvh, const SurfaceList& surfaces) {
+    if (bvh.nodes.size() > k_max_nodes || bvh.surfaces.size() > k_max_entries) {
+        answer.word("large").word(bvh.nodes.size() > k_max_nodes ? "nodes" : "surfaces");
         return;
     }
     std::unordered_map<const Surface*, int> numbers;

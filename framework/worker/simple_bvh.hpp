@@ -1,7 +1,7 @@
 #pragma once
 // Trees of step 09: one that the worker makes itself, and any tree as words.
 #include "core/bvh.hpp"
-#include "worker/tokens.hpp"
+#include "worker/protocol.hpp"
 
 namespace raysteps {
 
@@ -11,6 +11,6 @@ namespace raysteps {
 
 /// How many nodes, and of each its box, first and count; then how many surfaces and their numbers (-1: unknown).
 /// `large nodes` or `large surfaces` instead of the tree where it has too many of them to be told.
-void write_bvh(Answer& answer, const Bvh& bvh, const SurfaceList& surfaces);
+void write_bvh(TokenWriter& answer, const Bvh& bvh, const SurfaceList& surfaces);
 
 }  // namespace raysteps

@@ -4,15 +4,15 @@
 #include <glm/vector_relational.hpp>
 #include <unordered_map>
 
-#include "worker/values.hpp"
+#include "worker/protocol.hpp"
 
 namespace raysteps {
 namespace {
 
 constexpr int k_levels = 3;
 // Larger trees are not told; judge/trees.py knows the same numbers.
-constexpr std::size_t k_most_nodes = 5000;
-constexpr std::size_t k_most_entries = 50000;
+constexpr std::size_t k_max_nodes = 5000;
+constexpr std::size_t k_max_entries = 50000;
 constexpr int k_deepest = 500;
 
 bool apart(const Box& a, const Box& b) {
@@ -50,13 +50,13 @@ public:
     }
 
     /// Of what the tree has too much; nothing when it was small enough.
-    const char* write(Answer& answer, const Node& node, int depth) {
+    const char* write(TokenWriter& answer, const Node& node, int depth) {
         nodes_ += 1;
         entries_ += node.surfaces.size();
-        if (nodes_ > k_most_nodes || depth > k_deepest) {
+        if (nodes_ > k_max_nodes || depth > k_deepest) {
             return depth > k_deepest ? "levels" : "boxes";
         }
-        if (entries_ > k_most_entries) {
+        if (entries_ > k_max_entries) {
             return "entries";
         }
         write_box(answer, node.box);
@@ -92,8 +92,8 @@ Node simple_tree(const SurfaceList& surfaces) {
     return surfaces.empty() ? Node{} : simple_node({all.min - padding, all.max + padding}, surfaces, 1);
 }
 
-void write_tree(Answer& answer, const Node& root, const SurfaceList& surfaces) {
-    Answer tree;
+void write_tree(TokenWriter& answer, const Node& root, const SurfaceList& surfaces) {
+    TokenWriter tree;
     if (const char* what = TreeWriter(surfaces).write(tree, root, 0)) {
         answer.word("large").word(what);
         return;

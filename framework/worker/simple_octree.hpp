@@ -1,7 +1,7 @@
 #pragma once
 // Trees of step 06: one that the worker makes itself, and any tree as words.
 #include "core/node.hpp"
-#include "worker/tokens.hpp"
+#include "worker/protocol.hpp"
 
 namespace raysteps {
 
@@ -10,6 +10,6 @@ namespace raysteps {
 
 /// Each node: its box, how many surfaces and their numbers (-1: unknown), how many children, and these.
 /// `large boxes`, `large entries` or `large levels` instead of the tree where it has too many of them to be told.
-void write_tree(Answer& answer, const Node& root, const SurfaceList& surfaces);
+void write_tree(TokenWriter& answer, const Node& root, const SurfaceList& surfaces);
 
 }  // namespace raysteps

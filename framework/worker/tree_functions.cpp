@@ -3,34 +3,34 @@
 #include "steps/09-bvh/bvh.hpp"
 #include "worker/counted_surfaces.hpp"
 #include "worker/functions.hpp"
+#include "worker/protocol.hpp"
 #include "worker/simple_bvh.hpp"
 #include "worker/simple_octree.hpp"
-#include "worker/values.hpp"
 
 namespace raysteps {
 namespace {
 
-void ask_bounds_of(Words& words, Answer& answer) {
+void ask_bounds_of(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const Scene scene = read_surfaces(words, asked);
     write_box(answer, bounds_of(scene.surfaces()));
 }
 
-void ask_split(Words& words, Answer& answer) {
+void ask_split(TokenReader& words, TokenWriter& answer) {
     for (const Box& part : split(read_box(words))) {
         write_box(answer, part);
     }
 }
 
-void ask_build_octree(Words& words, Answer& answer) {
+void ask_build_octree(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const Scene scene = read_surfaces(words, asked);
     write_tree(answer, build_octree(scene.surfaces()), scene.surfaces());
 }
 
-void ask_surface_area(Words& words, Answer& answer) { answer.number(surface_area(read_box(words))); }
+void ask_surface_area(TokenReader& words, TokenWriter& answer) { answer.number(surface_area(read_box(words))); }
 
-void ask_split_cost(Words& words, Answer& answer) {
+void ask_split_cost(TokenReader& words, TokenWriter& answer) {
     const Box left = read_box(words);
     const auto left_count = static_cast<std::size_t>(words.count());
     const Box right = read_box(words);
@@ -38,13 +38,13 @@ void ask_split_cost(Words& words, Answer& answer) {
     answer.number(split_cost(left, left_count, right, right_count, read_box(words)));
 }
 
-void ask_build_bvh(Words& words, Answer& answer) {
+void ask_build_bvh(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const Scene scene = read_surfaces(words, asked);
     write_bvh(answer, build_bvh(scene.surfaces()), scene.surfaces());
 }
 
-std::vector<Ray> read_rays(Words& words) {
+std::vector<Ray> read_rays(TokenReader& words) {
     std::vector<Ray> rays;
     for (int left = words.count(); left > 0; --left) {
         rays.push_back(read_ray(words));
@@ -58,7 +58,7 @@ struct Reach {
     float distance;
 };
 
-std::vector<Reach> read_reaches(Words& words) {
+std::vector<Reach> read_reaches(TokenReader& words) {
     std::vector<Reach> reaches;
     for (int left = words.count(); left > 0; --left) {
         const Ray ray = read_ray(words);
@@ -67,12 +67,12 @@ std::vector<Reach> read_reaches(Words& words) {
     return reaches;
 }
 
-void write_found(Answer& answer, const std::optional<HitRecord>& hit) { write_hit(answer, hit); }
-void write_found(Answer& answer, bool hit) { answer.whole(hit ? 1 : 0); }
+void write_found(TokenWriter& answer, const std::optional<HitRecord>& hit) { write_hit(answer, hit); }
+void write_found(TokenWriter& answer, bool hit) { answer.whole(hit ? 1 : 0); }
 
 // For each ray the surfaces asked, and what was found.
 template <class Item, class Search>
-void search_for_each(const std::vector<Item>& items, const Asked& asked, Answer& answer, Search search) {
+void search_for_each(const std::vector<Item>& items, const Asked& asked, TokenWriter& answer, Search search) {
     for (const Item& item : items) {
         const long long before = asked.times;
         const auto found = search(item);
@@ -81,14 +81,12 @@ void search_for_each(const std::vector<Item>& items, const Asked& asked, Answer&
     }
 }
 
-Node make_octree(bool own, const SurfaceList& surfaces) {
-    return own ? build_octree(surfaces) : simple_tree(surfaces);
-}
+Node make_octree(bool own, const SurfaceList& surfaces) { return own ? build_octree(surfaces) : simple_tree(surfaces); }
 
 Bvh make_bvh(bool own, const SurfaceList& surfaces) { return own ? build_bvh(surfaces) : simple_bvh(surfaces); }
 
 // All four: whose tree (1: of the step's own build function), surfaces, rays.
-void ask_closest_hit_in(Words& words, Answer& answer) {
+void ask_closest_hit_in(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
@@ -98,7 +96,7 @@ void ask_closest_hit_in(Words& words, Answer& answer) {
 }
 
 // A distance at the end counts for all rays.
-void ask_any_hit_in(Words& words, Answer& answer) {
+void ask_any_hit_in(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
@@ -108,7 +106,7 @@ void ask_any_hit_in(Words& words, Answer& answer) {
     search_for_each(rays, asked, answer, [&](const Ray& ray) { return any_hit_in(root, ray, distance); });
 }
 
-void ask_closest_hit_in_bvh(Words& words, Answer& answer) {
+void ask_closest_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
@@ -118,7 +116,7 @@ void ask_closest_hit_in_bvh(Words& words, Answer& answer) {
 }
 
 // Each ray has its own distance.
-void ask_any_hit_in_bvh(Words& words, Answer& answer) {
+void ask_any_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);

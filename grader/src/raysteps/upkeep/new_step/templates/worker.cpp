@@ -5,7 +5,7 @@
 namespace raysteps {
 namespace {
 
-void ask_@FILE@_color(Words& words, Answer& answer) {
+void ask_@FILE@_color(TokenReader& words, TokenWriter& answer) {
     const Color color = words.vector();
     answer.vector(@FILE@_color(color, words.number()));
 }
