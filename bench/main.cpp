@@ -9,8 +9,8 @@
 #include "bench/render_bench.hpp"
 #include "bench/scale_bench.hpp"
 #include "bench/structures.hpp"
-#include "io/arguments.hpp"
-#include "io/read_error.hpp"
+#include "io/files.hpp"
+#include "io/platform.hpp"
 
 namespace {
 

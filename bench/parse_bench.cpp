@@ -5,10 +5,9 @@
 #include "bench/arguments.hpp"
 #include "bench/spread.hpp"
 #include "bench/stopwatch.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
 #include "io/nff_writer.hpp"
-#include "io/read_file.hpp"
 
 namespace raysteps::bench {
 

@@ -12,9 +12,8 @@
 #include "bench/structures.hpp"
 #include "bench/workload.hpp"
 #include "core/threads.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
-#include "io/read_file.hpp"
 
 namespace raysteps::bench {
 

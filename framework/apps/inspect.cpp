@@ -6,9 +6,9 @@
 #include "inspect/inspect_json.hpp"
 #include "inspect/inspect_pixel.hpp"
 #include "inspect/inspect_text.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
-#include "io/write_file.hpp"
+#include "io/platform.hpp"
 #include "render/acceleration_choice.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "apps/options.hpp"
-#include "io/read_error.hpp"
+#include "io/files.hpp"
 
 namespace raysteps {
 

@@ -5,8 +5,9 @@
 #include "apps/run_program.hpp"
 #include "apps/view_options.hpp"
 #include "core/threads.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
+#include "io/platform.hpp"
 #include "view/viewer.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/scene.hpp"
-#include "io/read_error.hpp"
+#include "io/files.hpp"
 
 namespace raysteps {
 

@@ -91,10 +91,10 @@ constexpr std::array<double, 23> k_tens{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
 /// The number without its sign, where one product or quotient of two exact doubles gives it: nearly always (Clinger
 /// 1990). It is rounded once, so it is the nearest double.
 std::optional<double> plain_value(const Decimal& decimal) {
-    constexpr std::size_t k_most_digits = 19;  // so many fit into 64 bits
+    constexpr std::size_t k_max_digits = 19;  // so many fit into 64 bits
     constexpr std::uint64_t k_largest = std::uint64_t{1} << 53U;
     const auto power = static_cast<std::size_t>(std::abs(decimal.power));
-    if (decimal.count > k_most_digits || decimal.digits > k_largest || power >= k_tens.size()) {
+    if (decimal.count > k_max_digits || decimal.digits > k_largest || power >= k_tens.size()) {
         return std::nullopt;
     }
     const auto digits = static_cast<double>(decimal.digits);

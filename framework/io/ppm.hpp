@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/image.hpp"
-#include "io/read_error.hpp"
+#include "io/files.hpp"
 
 namespace raysteps {
 

@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/ppm.hpp"
-#include "io/read_file.hpp"
 #include "render/acceleration_choice.hpp"
 #include "view/content.hpp"
 #include "view/pixel_asker.hpp"

@@ -57,10 +57,11 @@ private:
 [[nodiscard]] ViewFrame read_frame(TokenReader& words);  ///< right, up, forward, half width, half height
 [[nodiscard]] Fill read_fill(TokenReader& words);        ///< colour, kd, ks, shine, transmittance, index
 [[nodiscard]] Light read_light(TokenReader& words);      ///< position, colour
-[[nodiscard]] HitRecord read_hit(
-    TokenReader& words);                         ///< position, fill, normal, ray direction, distance, from outside
-[[nodiscard]] Box read_box(TokenReader& words);  ///< min, max
-[[nodiscard]] std::vector<Light> read_lights(TokenReader& words);  ///< how many, then each
+[[nodiscard]] Box read_box(TokenReader& words);          ///< min, max
+/// Position, fill, normal, ray direction, distance, from outside.
+[[nodiscard]] HitRecord read_hit(TokenReader& words);
+/// How many, then each.
+[[nodiscard]] std::vector<Light> read_lights(TokenReader& words);
 
 void write_ray(TokenWriter& answer, const Ray& ray);
 void write_frame(TokenWriter& answer, const ViewFrame& frame);

@@ -1,9 +1,8 @@
+#include "io/ppm.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
-#include "io/field_reader.hpp"
-#include "io/ppm.hpp"
-#include "io/read_file.hpp"
 #include "io/token_scanner.hpp"
 
 namespace raysteps {
@@ -120,5 +119,18 @@ private:
 Image read_ppm(const std::filesystem::path& path) { return read_ppm(read_file(path), display_name(path)); }
 
 Image read_ppm(std::string_view bytes, const std::string& name) { return PpmReader(bytes, name).read(); }
+
+std::string ppm_bytes(const Image& image) {
+    std::string bytes = "P6\n" + std::to_string(image.width()) + " " + std::to_string(image.height()) + "\n255\n";
+    bytes.reserve(bytes.size() + 3 * image.pixels().size());
+    for (const Rgb8& pixel : image.pixels()) {
+        for (const std::uint8_t channel : {pixel.r, pixel.g, pixel.b}) {
+            bytes += static_cast<char>(channel);
+        }
+    }
+    return bytes;
+}
+
+void write_ppm(const Image& image, const std::filesystem::path& path) { write_file(path, ppm_bytes(image)); }
 
 }  // namespace raysteps

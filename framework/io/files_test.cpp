@@ -7,8 +7,7 @@
 #include <string>
 #include <system_error>
 
-#include "io/read_file.hpp"
-#include "io/write_file.hpp"
+#include "io/files.hpp"
 #include "testing/catch.hpp"
 
 using namespace raysteps;

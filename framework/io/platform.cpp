@@ -1,13 +1,26 @@
-#include "io/arguments.hpp"
+#include "io/platform.hpp"
 
 #ifdef _WIN32
 #include <cstddef>
 #include <memory>
 
-#include "io/windows_api.hpp"
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#ifndef WIN32_LEAN_AND_MEAN
+#define WIN32_LEAN_AND_MEAN
+#endif
+#include <windows.h>
+// The line above must come first.
+#include <shellapi.h>
+#ifndef ENABLE_VIRTUAL_TERMINAL_PROCESSING
+#define ENABLE_VIRTUAL_TERMINAL_PROCESSING 0x0004
+#endif
 #ifdef _MSC_VER
 #pragma comment(lib, "shell32")  // for CommandLineToArgvW
 #endif
+#else
+#include <unistd.h>
 #endif
 
 namespace raysteps {
@@ -35,10 +48,17 @@ std::vector<std::string> utf8_arguments(int /*argc*/, char** /*argv*/) {
     }
     return arguments;
 }
+
+bool stderr_is_terminal() {
+    const HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
+    DWORD mode = 0;
+    return GetConsoleMode(console, &mode) != 0 &&
+           SetConsoleMode(console, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
 #else
 std::vector<std::string> utf8_arguments(int argc, char** argv) { return {argv + 1, argv + argc}; }
-#endif
 
-std::filesystem::path path_of(std::string_view utf8) { return {std::u8string(utf8.begin(), utf8.end())}; }
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
+#endif
 
 }  // namespace raysteps
