@@ -153,17 +153,21 @@ std::string number_text(float number) {
 #else
     std::string text;
     for (int digits = 1; digits <= std::numeric_limits<float>::max_digits10; ++digits) {
-        std::ostringstream stream;
-        stream.imbue(std::locale::classic());
-        stream.precision(digits);
-        stream << number;
-        text = stream.str();
+        text = number_text(static_cast<double>(number), digits);
         if (static_cast<float>(parse_number(text).value_or(0.0)) == number) {
             break;
         }
     }
     return text;
 #endif
+}
+
+std::string number_text(double number, int digits) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream.precision(digits);
+    stream << number;
+    return stream.str();
 }
 
 }  // namespace raysteps

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "io/numbers.hpp"
 #include "render/tiny_font.hpp"
 #include "render/work_map.hpp"
 #include "view/exposure.hpp"
@@ -19,14 +19,6 @@ constexpr int k_gap = 3;  // lengths in dots of the font
 constexpr int k_slider_height = 8;
 constexpr int k_groove_height = 2;
 constexpr int k_knob_width = 4;
-
-std::string factor_text(float stops) {
-    char text[16];
-    static_cast<void>(std::snprintf(text, sizeof(text), "%.3g", static_cast<double>(exposure_factor(stops))));
-    std::string shown = text;
-    std::replace(shown.begin(), shown.end(), ',', '.');  // some locales
-    return "x" + shown;
-}
 
 }  // namespace
 
@@ -57,7 +49,7 @@ Image exposure_strip(int width, const std::string& status, float stops) {
     const int knob = slider.left + static_cast<int>(std::lround(slider_place(stops) * static_cast<float>(slider.width)));
     fill(strip, knob - k_knob_width * dot / 2, slider.top, k_knob_width * dot, slider.height, k_knob);
     const int text_top = slider.top + slider.height + k_gap * dot;
-    const std::string factor = factor_text(stops);
+    const std::string factor = "x" + number_text(static_cast<double>(exposure_factor(stops)), 3);
     draw_text(strip, k_gap * dot, text_top, "exposure", k_ink, dot);
     fill(strip, strip.width() - k_gap * dot - text_width(factor, dot) - dot, text_top, text_width(factor, dot) + dot,
          k_letter_height * dot, k_paper);

@@ -1,8 +1,8 @@
 #include "worker/protocol.hpp"
 
-#include <cmath>
-#include <cstdio>
 #include <cstdlib>
+
+#include "io/numbers.hpp"
 
 namespace raysteps {
 
@@ -65,17 +65,7 @@ TokenWriter& TokenWriter::word(std::string_view word) {
     return *this;
 }
 
-TokenWriter& TokenWriter::number(float value) {
-    constexpr int k_enough_digits = 9;  // of any float
-    char text[32];
-    for (int digits = 1; digits <= k_enough_digits; ++digits) {
-        std::snprintf(text, sizeof text, "%.*g", digits, static_cast<double>(value));
-        if (!std::isfinite(value) || std::strtof(text, nullptr) == value) {
-            break;
-        }
-    }
-    return word(text);
-}
+TokenWriter& TokenWriter::number(float value) { return word(number_text(value)); }
 
 TokenWriter& TokenWriter::whole(long long value) { return word(std::to_string(value)); }
 

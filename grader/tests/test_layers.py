@@ -17,7 +17,7 @@ _ALLOWED = {
     "view": {"core", "io", "steps", "render", "inspect", "view"},
     "wide": {"core", "steps", "render", "wide"},
     "apps": {"core", "io", "steps", "render", "inspect", "view", "apps"},
-    "worker": {"core", "steps", "worker"},
+    "worker": {"core", "io", "steps", "worker"},
     "testing": {"core", "testing"},
 }
 

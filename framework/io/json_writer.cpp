@@ -1,17 +1,44 @@
-#include "inspect/json_writer.hpp"
+#include "io/json_writer.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "io/numbers.hpp"
 
 namespace raysteps {
 
+void JsonWriter::indent() { text_ += "\n" + std::string(2 * (levels_.size() - 1), ' '); }
+
 void JsonWriter::separate() {
-    if (needs_comma_) {
-        text_ += ", ";
+    if (after_key_) {
+        after_key_ = false;
+        return;
     }
-    needs_comma_ = true;
+    Level& level = levels_.back();
+    const bool block = level.layout == Layout::block;
+    if (level.needs_comma) {
+        text_ += block ? "," : ", ";
+    }
+    if (block) {
+        indent();
+    }
+    level.needs_comma = true;
+}
+
+JsonWriter& JsonWriter::open(char bracket, Layout layout) {
+    separate();
+    text_ += bracket;
+    levels_.push_back({.layout = layout});
+    return *this;
+}
+
+JsonWriter& JsonWriter::close(char bracket) {
+    const Level closed = levels_.back();
+    levels_.pop_back();
+    if (closed.layout == Layout::block && closed.needs_comma) {
+        indent();
+    }
+    text_ += bracket;
+    return *this;
 }
 
 JsonWriter& JsonWriter::raw(std::string_view value) {
@@ -20,34 +47,10 @@ JsonWriter& JsonWriter::raw(std::string_view value) {
     return *this;
 }
 
-JsonWriter& JsonWriter::begin_object() {
-    raw("{");
-    needs_comma_ = false;
-    return *this;
-}
-
-JsonWriter& JsonWriter::end_object() {
-    text_ += '}';
-    needs_comma_ = true;
-    return *this;
-}
-
-JsonWriter& JsonWriter::begin_array() {
-    raw("[");
-    needs_comma_ = false;
-    return *this;
-}
-
-JsonWriter& JsonWriter::end_array() {
-    text_ += ']';
-    needs_comma_ = true;
-    return *this;
-}
-
 JsonWriter& JsonWriter::key(std::string_view name) {
     text(name);
     text_ += ": ";
-    needs_comma_ = false;
+    after_key_ = true;
     return *this;
 }
 
@@ -82,6 +85,7 @@ JsonWriter& JsonWriter::number(float value) {
     return raw(number_text(value));
 }
 
+JsonWriter& JsonWriter::number(double value) { return std::isfinite(value) ? raw(number_text(value, 9)) : null(); }
 JsonWriter& JsonWriter::whole(std::uint64_t value) { return raw(std::to_string(value)); }
 JsonWriter& JsonWriter::flag(bool value) { return raw(value ? "true" : "false"); }
 JsonWriter& JsonWriter::null() { return raw("null"); }
@@ -91,11 +95,9 @@ JsonWriter& JsonWriter::vector(const glm::vec3& value) {
 }
 
 JsonWriter& JsonWriter::line_break() {
-    if (needs_comma_) {
-        text_ += ",";
-        needs_comma_ = false;
-    }
-    text_ += "\n";
+    Level& level = levels_.back();
+    text_ += level.needs_comma ? ",\n" : "\n";
+    level.needs_comma = false;
     return *this;
 }
 
