@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/run_program.hpp"
 #include "apps/view_options.hpp"
 #include "core/threads.hpp"
 #include "io/files.hpp"
@@ -37,11 +36,7 @@ void run(const ViewOptions& options) {
     if (picture.threads > 0) {
         set_default_threads(picture.threads);
     }
-    Scene scene = read_nff(path_of(picture.scene));
-    if (picture.size) {
-        scene.camera.width = picture.size->width;
-        scene.camera.height = picture.size->height;
-    }
+    Scene scene = load_scene(picture.scene, picture.size);
     check_size(scene.camera);
     check_click(options, scene.camera);
     run_viewer(scene, {picture.scene,

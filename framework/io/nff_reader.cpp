@@ -203,6 +203,15 @@ private:
 
 Scene read_nff(const std::filesystem::path& path) { return read_nff(read_file(path), display_name(path)); }
 
+Scene load_scene(std::string_view path, const std::optional<PictureSize>& size) {
+    Scene scene = read_nff(path_of(path));
+    if (size) {
+        scene.camera.width = size->width;
+        scene.camera.height = size->height;
+    }
+    return scene;
+}
+
 Scene read_nff(std::string_view text, const std::string& name) { return NffReader(text, name).read(); }
 
 }  // namespace raysteps
