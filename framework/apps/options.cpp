@@ -9,7 +9,6 @@ namespace raysteps {
 const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.png [options]
 
   -o FILE                 the picture, PNG or binary PPM by the ending of the name
-                          (PPM only where raytrace is called without ./raysteps)
   --step N                render with what the course has after step N (8, or the last step of the kit)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise
@@ -64,10 +63,6 @@ Acceleration parse_acceleration(const std::string& text) {
 void check(const RaytraceOptions& options) {
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
-    }
-    if (options.output.ends_with(".png")) {
-        throw UsageError("-o: expected a name that ends in .ppm, as only ./raysteps render writes PNG, found '" +
-                         options.output + "'");
     }
     if (options.map_scale && !options.map) {
         throw UsageError("--map-scale: expected --map beside it, which says what is drawn");

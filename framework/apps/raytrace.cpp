@@ -1,5 +1,4 @@
-// raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with. `./raysteps render` runs it,
-// and makes a PNG of the picture where one is asked for.
+// raytrace: from an NFF scene to a picture, with the steps that it was linked with. `./raysteps render` runs it.
 #include <algorithm>
 #include <cstdio>
 
@@ -8,8 +7,8 @@
 #include "core/threads.hpp"
 #include "io/files.hpp"
 #include "io/nff_reader.hpp"
+#include "io/picture_file.hpp"
 #include "io/platform.hpp"
-#include "io/ppm.hpp"
 #include "render/acceleration_choice.hpp"
 #include "render/work_map.hpp"
 #if __has_include("render/spd.hpp")
@@ -58,8 +57,8 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
     if (!options.stats.empty()) {
         write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
     }
-    write_ppm(options.map ? work_map(rendering.costs, *options.map, options.map_scale) : rendering.image,
-              path_of(options.output));
+    write_picture(options.map ? work_map(rendering.costs, *options.map, options.map_scale) : rendering.image,
+                  path_of(options.output));
 }
 
 void run(const RaytraceOptions& options) {

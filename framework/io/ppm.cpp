@@ -131,6 +131,4 @@ std::string ppm_bytes(const Image& image) {
     return bytes;
 }
 
-void write_ppm(const Image& image, const std::filesystem::path& path) { write_file(path, ppm_bytes(image)); }
-
 }  // namespace raysteps

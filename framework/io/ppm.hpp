@@ -19,7 +19,4 @@ namespace raysteps {
 /// The picture as a P6 file.
 [[nodiscard]] std::string ppm_bytes(const Image& image);
 
-/// As write_file, with the picture as P6.
-void write_ppm(const Image& image, const std::filesystem::path& path);
-
 }  // namespace raysteps

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "io/files.hpp"
-#include "io/ppm.hpp"
+#include "io/picture_file.hpp"
 #include "render/acceleration_choice.hpp"
 #include "view/content.hpp"
 #include "view/pixel_asker.hpp"
@@ -153,8 +153,8 @@ private:
             return;
         }
         const Image read = window_.show_and_read(image);
-        write_ppm(options_.strip ? read : without_strip(read, controls_.settings().camera),
-                  path_of(options_.screenshot));
+        write_picture(options_.strip ? read : without_strip(read, controls_.settings().camera),
+                      path_of(options_.screenshot));
         while (!asker_.idle_within(k_patience)) {
         }
         print_answer();
@@ -167,7 +167,7 @@ private:
             copy_what_is_shown();
             const Image image = content(frame_, controls_.settings(), "");
             const bool map = controls_.settings().map.has_value();
-            write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
+            write_picture(map ? image : without_strip(image, controls_.settings().camera), path);
             say("saved " + display_name(path) + "\n");
         } catch (const std::exception& error) {
             std::fprintf(stderr, "raysteps view: %s\n", error.what());

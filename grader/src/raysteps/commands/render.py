@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 from raysteps.commands.own_build import why_own_steps_do_not_build
@@ -12,7 +11,6 @@ from raysteps.common.process import Outcome
 from raysteps.kit.building import BuildTree, release_tree, what_failed
 from raysteps.kit.kit_building import build_kit
 from raysteps.kit.project import Project, here
-from raysteps.programs.pictures import PictureError, read_ppm, write_png
 
 
 def take_impl(args: list[str]) -> tuple[str, list[str]]:
@@ -82,7 +80,7 @@ def run_raytrace(program: Path, args: list[str]) -> None:
 
 
 def render(project: Project, args: list[str]) -> int:
-    """Same arguments as raytrace, and a name in .png makes a PNG."""
+    """Same arguments as raytrace, and --impl."""
     impl, args = take_impl(args)
     at = args.index("-o") + 1 if "-o" in args else len(args)
     if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
@@ -95,18 +93,5 @@ def render(project: Project, args: list[str]) -> int:
         said = advice(project, wanted_step(project, args))
         if said:
             print(f"raysteps: {said}", file=sys.stderr)
-    if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
-        run_raytrace(program, args)
-        return 0
-    target = Path(args[at])
-    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        picture = Path(folder) / "picture.ppm"
-        run_raytrace(program, [*args[:at], str(picture), *args[at + 1 :]])
-        if not picture.exists():  # such as --help, which renders nothing
-            return 0
-        try:
-            write_png(read_ppm(picture), target)
-        except (PictureError, OSError) as error:
-            print(f"raysteps: {target}: {error}", file=sys.stderr)
-            return 2
+    run_raytrace(program, args)
     return 0

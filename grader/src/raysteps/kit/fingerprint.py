@@ -10,7 +10,7 @@ from raysteps.kit.project import Project
 # Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps,
 # nor the packages that change no grade.
 _SOURCES = {
-    "framework": r".*\.(hpp|cpp|cmake|txt)",
+    "framework": r".*\.(h|hpp|cpp|cmake|txt)",
     "cmake": r".*\.cmake",
     "scenes": r".*\.(nff|py)",
     "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml|py)",
