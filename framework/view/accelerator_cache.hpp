@@ -9,9 +9,9 @@
 
 namespace raysteps {
 
-class Structures {
+class AcceleratorCache {
 public:
-    explicit Structures(const Scene& scene) : scene_(scene) {}
+    explicit AcceleratorCache(const Scene& scene) : scene_(scene) {}
 
     /// From any thread; others that ask meanwhile wait. Throws what make_accelerator throws.
     [[nodiscard]] const Accelerator& get(Acceleration kind) {

@@ -1,5 +1,5 @@
 // The picture in the background is in the end the one that raytrace makes.
-#include "view/progressive.hpp"
+#include "view/progressive_renderer.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -9,7 +9,6 @@
 #include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 #include "view/content.hpp"
-#include "view/passes.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -27,19 +26,19 @@ public:
     [[nodiscard]] bool overlaps(const Box& /*box*/) const override { return true; }
 };
 
-Shot shot_of(const Scene& scene, int step) {
-    Shot shot;
-    shot.camera = scene.camera;
-    shot.step.step = step;
-    return shot;
+RenderRequest shot_of(const Scene& scene, int step) {
+    RenderRequest request;
+    request.camera = scene.camera;
+    request.step.step = step;
+    return request;
 }
 
 /// Waits until it is done, but not for ever.
-Progressed finish(const Progressive& progressive) {
+RenderStatus finish(const ProgressiveRenderer& progressive) {
     for (int i = 0; i < 6000; ++i) {
-        Progressed progressed = progressive.progressed();
-        if (progressed.finished || !progressed.problem.empty()) {
-            return progressed;
+        RenderStatus status = progressive.status();
+        if (status.finished || !status.problem.empty()) {
+            return status;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -66,14 +65,14 @@ TEST_CASE("Every pixel is traced in exactly one pass", "[view]") {
 
 TEST_CASE("The finished picture is raytrace's, for any number of threads", "[view]") {
     const Scene scene = balls_on_floor();
-    Structures structures(scene);
+    AcceleratorCache accelerators(scene);
     for (const int threads : {1, 3}) {
-        Progressive progressive(scene, structures, threads);
+        ProgressiveRenderer progressive(scene, accelerators, threads);
         for (const int step : {2, 6, 8}) {
             INFO("step " << step << ", threads " << threads);
             progressive.start(shot_of(scene, step));
-            const Progressed progressed = finish(progressive);
-            CHECK(progressed.share == 1.0);
+            const RenderStatus status = finish(progressive);
+            CHECK(status.share == 1.0);
             Frame frame;
             progressive.copy_colors(frame);
             CHECK(exposed(frame.colors, step, 0.0F) == raytraced(scene, step));
@@ -83,8 +82,8 @@ TEST_CASE("The finished picture is raytrace's, for any number of threads", "[vie
 
 TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
     const Scene scene = balls_on_floor();
-    Structures structures(scene);
-    Progressive progressive(scene, structures, 2);
+    AcceleratorCache accelerators(scene);
+    ProgressiveRenderer progressive(scene, accelerators, 2);
     progressive.start(shot_of(scene, 8));
     static_cast<void>(finish(progressive));
     Frame frame;
@@ -99,8 +98,8 @@ TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
 
 TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
     const Scene scene = balls_on_floor();
-    Structures structures(scene);
-    Progressive progressive(scene, structures, 2);
+    AcceleratorCache accelerators(scene);
+    ProgressiveRenderer progressive(scene, accelerators, 2);
     for (int i = 0; i < 20; ++i) {
         progressive.start(shot_of(scene, i % 2 == 0 ? 8 : 2));
     }
@@ -116,8 +115,8 @@ TEST_CASE("A step that throws is a message, and the next picture is made", "[vie
     scene.camera.width = 20;
     scene.camera.height = 20;
     scene.add(std::make_unique<Thrower>());
-    Structures structures(scene);
-    Progressive progressive(scene, structures, 2);
+    AcceleratorCache accelerators(scene);
+    ProgressiveRenderer progressive(scene, accelerators, 2);
     progressive.start(shot_of(scene, 2));
     CHECK(finish(progressive).problem == "out of steps");
     progressive.start(shot_of(scene, 1));

@@ -1,4 +1,4 @@
-#include "view/pixel_asker.hpp"
+#include "view/async_inspector.hpp"
 
 #include <exception>
 #include <utility>
@@ -9,8 +9,8 @@
 
 namespace raysteps {
 
-void PixelAsker::ask(const Shot& shot, const Pixel& pixel, bool camera_moved) {
-    const Question question{shot, pixel, camera_moved};
+void AsyncInspector::ask(const RenderRequest& request, const Pixel& pixel, bool camera_moved) {
+    const Question question{request, pixel, camera_moved};
     if (running_.valid()) {
         waiting_ = question;
     } else {
@@ -18,11 +18,11 @@ void PixelAsker::ask(const Shot& shot, const Pixel& pixel, bool camera_moved) {
     }
 }
 
-void PixelAsker::begin(const Question& question) {
+void AsyncInspector::begin(const Question& question) {
     running_ = std::async(std::launch::async, [this, question] { return inspected(question); });
 }
 
-std::optional<std::string> PixelAsker::answer() {
+std::optional<std::string> AsyncInspector::answer() {
     if (!running_.valid() || running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
         return std::nullopt;
     }
@@ -33,21 +33,21 @@ std::optional<std::string> PixelAsker::answer() {
     return text;
 }
 
-bool PixelAsker::idle_within(std::chrono::milliseconds patience) {
+bool AsyncInspector::idle_within(std::chrono::milliseconds patience) {
     waiting_.reset();
     return !running_.valid() || running_.wait_for(patience) == std::future_status::ready;
 }
 
-std::string PixelAsker::inspected(const Question& question) {
+std::string AsyncInspector::inspected(const Question& question) {
     try {
-        const Shot& shot = question.shot;
-        const Accelerator& accelerator = structures_.get(shot.acceleration);
-        scene_.camera = shot.camera;
+        const RenderRequest& request = question.request;
+        const Accelerator& accelerator = accelerators_.get(request.acceleration);
+        scene_.camera = request.camera;
         PixelRecord record =
-            inspect_pixel(scene_, accelerator, shot.acceleration, shot.step, question.pixel.x, question.pixel.y);
+            inspect_pixel(scene_, accelerator, request.acceleration, request.step, question.pixel.x, question.pixel.y);
         record.scene = name_;
         const std::string camera =
-            question.camera_moved ? "# the camera as it was moved\n" + write_viewpoint(shot.camera) : "";
+            question.camera_moved ? "# the camera as it was moved\n" + write_viewpoint(request.camera) : "";
         return camera + inspect_text(record);
     } catch (const std::exception& error) {
         return "raysteps view: this pixel cannot be inspected: " + std::string(error.what()) + "\n";

@@ -1,5 +1,5 @@
 // A click tells what inspect tells.
-#include "view/pixel_asker.hpp"
+#include "view/async_inspector.hpp"
 
 #include <thread>
 
@@ -14,9 +14,9 @@ using namespace raysteps::testing;
 
 namespace {
 
-std::string next_answer(PixelAsker& asker) {
+std::string next_answer(AsyncInspector& inspector) {
     for (int i = 0; i < 6000; ++i) {
-        if (std::optional<std::string> text = asker.answer()) {
+        if (std::optional<std::string> text = inspector.answer()) {
             return *text;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -25,11 +25,11 @@ std::string next_answer(PixelAsker& asker) {
     return "";
 }
 
-Shot shot_of(const Camera& camera) {
-    Shot shot;
-    shot.camera = camera;
-    shot.acceleration = Acceleration::octree;
-    return shot;
+RenderRequest shot_of(const Camera& camera) {
+    RenderRequest request;
+    request.camera = camera;
+    request.acceleration = Acceleration::octree;
+    return request;
 }
 
 std::string inspected(const Scene& scene, const Pixel& pixel) {
@@ -44,32 +44,32 @@ std::string inspected(const Scene& scene, const Pixel& pixel) {
 TEST_CASE("A click tells what inspect tells, for the camera of the moment", "[view]") {
     const Pixel pixel{17, 20};
     Scene scene = balls_on_floor();
-    Structures structures(scene);
-    PixelAsker asker(scene, structures, "small.nff");
-    CHECK(asker.is_idle());
-    asker.ask(shot_of(scene.camera), pixel, false);
-    const std::string text = next_answer(asker);
+    AcceleratorCache accelerators(scene);
+    AsyncInspector inspector(scene, accelerators, "small.nff");
+    CHECK(inspector.is_idle());
+    inspector.ask(shot_of(scene.camera), pixel, false);
+    const std::string text = next_answer(inspector);
     CHECK(text == inspected(balls_on_floor(), pixel));
 
     Scene elsewhere = balls_on_floor();
     elsewhere.camera.from = {3.0F, 2.0F, 4.0F};
-    asker.ask(shot_of(elsewhere.camera), pixel, true);
-    const std::string moved = next_answer(asker);
+    inspector.ask(shot_of(elsewhere.camera), pixel, true);
+    const std::string moved = next_answer(inspector);
     CHECK(moved == "# the camera as it was moved\n" + write_viewpoint(elsewhere.camera) + inspected(elsewhere, pixel));
-    CHECK(asker.idle_within(std::chrono::seconds(60)));
+    CHECK(inspector.idle_within(std::chrono::seconds(60)));
 }
 
 TEST_CASE("Of the pixels that are clicked meanwhile the last one is told", "[view]") {
     Scene scene = balls_on_floor();
-    Structures structures(scene);
-    PixelAsker asker(scene, structures, "small.nff");
-    const Shot shot = shot_of(scene.camera);
+    AcceleratorCache accelerators(scene);
+    AsyncInspector inspector(scene, accelerators, "small.nff");
+    const RenderRequest request = shot_of(scene.camera);
     for (int x = 0; x < 10; ++x) {
-        asker.ask(shot, {x, 20}, false);
+        inspector.ask(request, {x, 20}, false);
     }
-    const std::string first = next_answer(asker);
-    const std::string last = next_answer(asker);
+    const std::string first = next_answer(inspector);
+    const std::string last = next_answer(inspector);
     CHECK(first == inspected(balls_on_floor(), {0, 20}));
     CHECK(last == inspected(balls_on_floor(), {9, 20}));
-    CHECK(asker.is_idle());
+    CHECK(inspector.is_idle());
 }

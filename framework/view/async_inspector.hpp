@@ -9,15 +9,15 @@
 
 namespace raysteps {
 
-class PixelAsker {
+class AsyncInspector {
 public:
-    /// Scene and structures must outlive it. It sets the scene's camera to that of the pixel: nobody else may read
+    /// Scene and accelerators must outlive it. It sets the scene's camera to that of the pixel: nobody else may read
     /// that camera from now on. name: what the text calls the scene.
-    PixelAsker(Scene& scene, Structures& structures, std::string name)
-        : scene_(scene), structures_(structures), name_(std::move(name)) {}
+    AsyncInspector(Scene& scene, AcceleratorCache& accelerators, std::string name)
+        : scene_(scene), accelerators_(accelerators), name_(std::move(name)) {}
 
     /// While a pixel is being inspected, the next one waits; of several that wait the last one counts.
-    void ask(const Shot& shot, const Pixel& pixel, bool camera_moved);
+    void ask(const RenderRequest& request, const Pixel& pixel, bool camera_moved);
 
     /// The text of a pixel that is done: what `inspect` prints, and for a camera that was moved first the lines that
     /// put it into a scene. To be called from time to time.
@@ -30,7 +30,7 @@ public:
 
 private:
     struct Question {
-        Shot shot;
+        RenderRequest request;
         Pixel pixel;
         bool camera_moved = false;
     };
@@ -39,7 +39,7 @@ private:
     void begin(const Question& question);
 
     Scene& scene_;
-    Structures& structures_;
+    AcceleratorCache& accelerators_;
     std::string name_;
     std::future<std::string> running_;
     std::optional<Question> waiting_;

@@ -1,4 +1,4 @@
-#include "view/progressive.hpp"
+#include "view/progressive_renderer.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -8,7 +8,6 @@
 #include "core/threads.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
-#include "view/passes.hpp"
 
 namespace raysteps {
 namespace {
@@ -16,14 +15,14 @@ namespace {
 constexpr std::chrono::milliseconds k_longest_coarse_pass{200};  // a hand that moves the camera waits no longer
 
 /// A pixel that was traced in this pass.
-struct Traced {
+struct TracedPixel {
     int x = 0;
     int y = 0;
     Color color = k_black;
     PixelCost cost;
 };
 
-void fill_block(Frame& frame, const Traced& pixel, int side) {
+void fill_block(Frame& frame, const TracedPixel& pixel, int side) {
     for (int y = pixel.y; y < std::min(pixel.y + side, frame.colors.height()); ++y) {
         for (int x = pixel.x; x < std::min(pixel.x + side, frame.colors.width()); ++x) {
             frame.colors.at(x, y) = pixel.color;
@@ -35,8 +34,8 @@ void fill_block(Frame& frame, const Traced& pixel, int side) {
 }  // namespace
 
 /// What the threads of one pass share.
-struct Progressive::Pass {
-    const Shot& shot;
+struct ProgressiveRenderer::Pass {
+    const RenderRequest& request;
     const Accelerator& accelerator;
     int side;
     ViewFrame view;
@@ -44,66 +43,66 @@ struct Progressive::Pass {
     std::atomic<std::size_t> next_tile{0};
 };
 
-Progressive::Progressive(const Scene& scene, Structures& structures, int threads)
-    : scene_(scene), structures_(structures), threads_(threads), started_(Clock::now()) {
+ProgressiveRenderer::ProgressiveRenderer(const Scene& scene, AcceleratorCache& accelerators, int threads)
+    : scene_(scene), accelerators_(accelerators), threads_(threads), started_(Clock::now()) {
     frame_.colors = Grid<Color>(scene.camera.width, scene.camera.height);
     frame_.costs = CostGrid(scene.camera.width, scene.camera.height);
     thread_ = std::thread([this] { work(); });
 }
 
-Progressive::~Progressive() {
+ProgressiveRenderer::~ProgressiveRenderer() {
     static_cast<void>(stop(std::chrono::milliseconds(0)));
     thread_.join();
 }
 
-void Progressive::start(const Shot& shot) {
+void ProgressiveRenderer::start(const RenderRequest& request) {
     const std::lock_guard lock(mutex_);
-    wanted_ = shot;
+    wanted_ = request;
     another_wanted_ = true;
-    progressed_.share = 0.0;
-    progressed_.finished = false;
-    progressed_.problem.clear();
-    ++progressed_.version;
+    status_.share = 0.0;
+    status_.finished = false;
+    status_.problem.clear();
+    ++status_.version;
     changed_.notify_all();
 }
 
-Progressed Progressive::progressed() const {
+RenderStatus ProgressiveRenderer::status() const {
     const std::lock_guard lock(mutex_);
-    return progressed_;
+    return status_;
 }
 
-void Progressive::copy_colors(Frame& frame) const {
+void ProgressiveRenderer::copy_colors(Frame& frame) const {
     const std::lock_guard lock(mutex_);
     frame.colors = frame_.colors;
 }
 
-void Progressive::copy_costs(Frame& frame) const {
+void ProgressiveRenderer::copy_costs(Frame& frame) const {
     const std::lock_guard lock(mutex_);
     frame.costs = frame_.costs;
 }
 
-bool Progressive::stop(std::chrono::milliseconds patience) {
+bool ProgressiveRenderer::stop(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     stopping_ = true;
     changed_.notify_all();
     return changed_.wait_for(lock, patience, [this] { return ended_; });
 }
 
-bool Progressive::given_up() const {
+bool ProgressiveRenderer::given_up() const {
     if (stopping_) {
         return true;
     }
     return another_wanted_ && (can_be_seen_ || Clock::now() - started_ > k_longest_coarse_pass);
 }
 
-void Progressive::work() {
+void ProgressiveRenderer::work() {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         if (!wanted_) {
             changed_.wait(lock);
             continue;
         }
-        const Shot shot = *std::exchange(wanted_, std::nullopt);
+        const RenderRequest request = *std::exchange(wanted_, std::nullopt);
         another_wanted_ = false;
         can_be_seen_ = false;
         started_ = Clock::now();
@@ -111,35 +110,35 @@ void Progressive::work() {
         lock.unlock();
         std::string problem;
         try {
-            trace(shot);
+            trace(request);
         } catch (const std::exception& error) {
             problem = error.what();
         }
         lock.lock();
         if (!another_wanted_) {
-            progressed_.finished = problem.empty() && !stopping_;
-            progressed_.problem = problem;
-            ++progressed_.version;
+            status_.finished = problem.empty() && !stopping_;
+            status_.problem = problem;
+            ++status_.version;
         }
     }
     ended_ = true;
     changed_.notify_all();
 }
 
-void Progressive::trace(const Shot& shot) {
-    const Accelerator& accelerator = structures_.get(shot.acceleration);
+void ProgressiveRenderer::trace(const RenderRequest& request) {
+    const Accelerator& accelerator = accelerators_.get(request.acceleration);
     for (const int side : k_pass_sides) {
         if (given_up()) {
             return;
         }
-        trace_pass(shot, accelerator, side);
+        trace_pass(request, accelerator, side);
         can_be_seen_ = true;
     }
 }
 
-void Progressive::trace_pass(const Shot& shot, const Accelerator& accelerator, int side) {
-    const Rect whole{0, 0, shot.camera.width, shot.camera.height};
-    Pass pass{shot, accelerator, side, view_frame(shot.camera), tiles_of(whole), {}};
+void ProgressiveRenderer::trace_pass(const RenderRequest& request, const Accelerator& accelerator, int side) {
+    const Rect whole{0, 0, request.camera.width, request.camera.height};
+    Pass pass{request, accelerator, side, view_frame(request.camera), tiles_of(whole), {}};
     run_on_threads(threads_, [&] {
         for (std::size_t tile = pass.next_tile++; tile < pass.tiles.size() && !given_up(); tile = pass.next_tile++) {
             trace_tile(pass, tile);
@@ -147,10 +146,10 @@ void Progressive::trace_pass(const Shot& shot, const Accelerator& accelerator, i
     });
 }
 
-void Progressive::trace_tile(Pass& pass, std::size_t tile) {
+void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
     const Rect& area = pass.tiles[tile];
-    StepTracer tracer(scene_, pass.accelerator, pass.shot.step);
-    std::vector<Traced> traced;
+    StepTracer tracer(scene_, pass.accelerator, pass.request.step);
+    std::vector<TracedPixel> traced;
     for (int y = area.y; y < area.y + area.height; ++y) {
         for (int x = area.x; x < area.x + area.width; ++x) {
             if (!is_in_pass(x, y, pass.side)) {
@@ -159,20 +158,20 @@ void Progressive::trace_tile(Pass& pass, std::size_t tile) {
             if (given_up()) {
                 return;
             }
-            Traced pixel{x, y, k_black, {}};
-            pixel.color = measured_color(tracer, primary_ray(pass.shot.camera, pass.view, x, y), pixel.cost);
+            TracedPixel pixel{x, y, k_black, {}};
+            pixel.color = measured_color(tracer, primary_ray(pass.request.camera, pass.view, x, y), pixel.cost);
             traced.push_back(pixel);
         }
     }
     const std::lock_guard lock(mutex_);
-    for (const Traced& pixel : traced) {
+    for (const TracedPixel& pixel : traced) {
         fill_block(frame_, pixel, pass.side);
     }
     if (!another_wanted_) {
         traced_ += traced.size();
-        progressed_.share = static_cast<double>(traced_) / static_cast<double>(frame_.colors.pixels().size());
+        status_.share = static_cast<double>(traced_) / static_cast<double>(frame_.colors.pixels().size());
     }
-    ++progressed_.version;
+    ++status_.version;
 }
 
 }  // namespace raysteps
