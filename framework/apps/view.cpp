@@ -39,14 +39,14 @@ void run(const ViewOptions& options) {
     Scene scene = load_scene(picture.scene, picture.size);
     check_size(scene.camera);
     check_click(options, scene.camera);
-    run_viewer(scene, {picture.scene,
-                       {picture.step, picture.view, picture.depth},
-                       last_step(),
-                       picture.acceleration,
-                       default_threads(),
-                       options.screenshot,
-                       options.strip,
-                       options.click});
+    run_viewer(scene, {.scene = picture.scene,
+                       .step = {picture.step, picture.view, picture.depth},
+                       .last_step = last_step(),
+                       .acceleration = picture.acceleration,
+                       .threads = default_threads(),
+                       .screenshot = options.screenshot,
+                       .strip = options.strip,
+                       .click = options.click});
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cstdio>
-#include <optional>
 
 #include "io/files.hpp"
 
@@ -49,7 +48,7 @@ int number_between(std::string_view option, const std::string& text, int least, 
     return values.front();
 }
 
-std::string listed(const std::vector<std::string>& words) {
+std::string join_or(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {
         text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";

@@ -1,6 +1,6 @@
 #pragma once
 // What people type after a program's name, and what they are told when it is wrong.
-#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -28,10 +28,9 @@ public:
 [[nodiscard]] std::vector<int> numbers_in(std::string_view text, char separator, std::size_t count);
 
 /// `a, b or c`
-[[nodiscard]] std::string listed(const std::vector<std::string>& words);
+[[nodiscard]] std::string join_or(const std::vector<std::string>& words);
 
-/// The options of one program, and where their values go: values of any kind are told to the variables that were
-/// named, which must outlive the parser.
+/// The options of one program, each with the variable that its value goes to; these must outlive it.
 class CommandLine {
 public:
     using Setter = std::function<void(const std::string&)>;
@@ -56,7 +55,7 @@ public:
                 }
                 names.push_back(word);
             }
-            refuse(name, listed(names), text);
+            refuse(name, join_or(names), text);
         });
     }
 

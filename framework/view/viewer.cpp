@@ -44,7 +44,12 @@ public:
           accelerators_(scene),
           renderer_(scene, accelerators_, options.threads),
           inspector_(scene, accelerators_, options.scene),
-          controls_({scene.camera, options.step, options.acceleration, std::nullopt, 0.0F, options.last_step}),
+          controls_({.camera = scene.camera,
+                     .step = options.step,
+                     .acceleration = options.acceleration,
+                     .map = std::nullopt,
+                     .stops = 0.0F,
+                     .last_step = options.last_step}),
           window_(name(), scene.camera.width, content_height(scene.camera), !options.screenshot.empty(), events()) {}
 
     void run() {
@@ -65,11 +70,12 @@ private:
     [[nodiscard]] std::string name() const { return display_name(path_of(options_.scene).filename()); }
 
     WindowEvents events() {
-        return {[this](char character) { controls_.key(character); },
-                [this](const Point& place, Button button, bool shift) { controls_.press(place, button, shift); },
-                [this](const Point& place) { controls_.move(place); },
-                [this](const Point& place) { controls_.release(place); },
-                [this](float notches) { controls_.wheel(notches); }};
+        return {
+            .key = [this](char character) { controls_.key(character); },
+            .press = [this](const Point& place, Button button, bool shift) { controls_.press(place, button, shift); },
+            .move = [this](const Point& place) { controls_.move(place); },
+            .release = [this](const Point& place) { controls_.release(place); },
+            .wheel = [this](float notches) { controls_.wheel(notches); }};
     }
 
     [[nodiscard]] bool is_idle() const {
