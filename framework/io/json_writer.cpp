@@ -1,6 +1,7 @@
 #include "io/json_writer.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "io/numbers.hpp"
 
@@ -95,9 +96,10 @@ JsonWriter& JsonWriter::vector(const glm::vec3& value) {
 }
 
 JsonWriter& JsonWriter::line_break() {
-    Level& level = levels_.back();
-    text_ += level.needs_comma ? ",\n" : "\n";
-    level.needs_comma = false;
+    if (!after_key_) {
+        text_ += std::exchange(levels_.back().needs_comma, false) ? "," : "";
+    }
+    text_ += "\n";
     return *this;
 }
 

@@ -27,7 +27,7 @@ public:
     JsonWriter& flag(bool value);
     JsonWriter& null();
     JsonWriter& vector(const glm::vec3& value);
-    JsonWriter& line_break();  ///< between members that stand side by side, for whoever reads the file
+    JsonWriter& line_break();  ///< before a member or a value, for whoever reads the file
 
     [[nodiscard]] const std::string& result() const { return text_; }
 

@@ -41,4 +41,7 @@ TEST_CASE("A reader's line break takes the place of a blank", "[io]") {
     JsonWriter json;
     json.begin_array().whole(1).line_break().whole(2).whole(3).end_array();
     CHECK(json.result() == "[1,\n2, 3]");
+    JsonWriter object;
+    object.begin_object().key("a").line_break().whole(1).line_break().key("b").whole(2).end_object();
+    CHECK(object.result() == "{\"a\": \n1,\n\"b\": 2}");
 }
