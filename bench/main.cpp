@@ -4,13 +4,13 @@
 #include <exception>
 #include <string_view>
 
-#include "bench/arguments.hpp"
 #include "bench/parse_bench.hpp"
 #include "bench/render_bench.hpp"
 #include "bench/scale_bench.hpp"
 #include "bench/structures.hpp"
-#include "io/arguments.hpp"
-#include "io/read_error.hpp"
+#include "io/command_line.hpp"
+#include "io/files.hpp"
+#include "io/platform.hpp"
 
 namespace {
 
@@ -42,7 +42,7 @@ void print_usage(std::FILE* to) {
 
 int run(const std::vector<std::string>& words) {
     if (words.empty()) {
-        throw bench::UsageError("expected a command");
+        throw UsageError("expected a command");
     }
     if (words.front() == "--help" || words.front() == "-h") {
         print_usage(stdout);
@@ -54,7 +54,7 @@ int run(const std::vector<std::string>& words) {
             return 0;
         }
     }
-    throw bench::UsageError("there is no command '" + words.front() + "'");
+    throw UsageError("there is no command '" + words.front() + "'");
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
         return run(utf8_arguments(argc, argv));
     } catch (const ReadError& error) {
         std::fprintf(stderr, "%s\n", error.what());
-    } catch (const bench::UsageError& error) {
+    } catch (const UsageError& error) {
         std::fprintf(stderr, "raysteps-bench: %s\n", error.what());
         print_usage(stderr);
     } catch (const std::exception& error) {

@@ -2,13 +2,12 @@
 
 #include <filesystem>
 
-#include "bench/arguments.hpp"
 #include "bench/spread.hpp"
 #include "bench/stopwatch.hpp"
-#include "io/arguments.hpp"
+#include "io/command_line.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
 #include "io/nff_writer.hpp"
-#include "io/read_file.hpp"
 
 namespace raysteps::bench {
 
@@ -21,19 +20,20 @@ const char* const k_nff_usage = R"(  raysteps-bench nff SCENE.nff
 
 namespace {
 
-std::filesystem::path only_scene(const Arguments& arguments) {
-    if (arguments.words().size() != 1) {
+std::filesystem::path only_scene(const std::vector<std::string>& words) {
+    if (words.empty()) {
         throw UsageError("expected one scene");
     }
-    return path_of(arguments.words().front());
+    return path_of(words.front());
 }
 
 }  // namespace
 
-std::string bench_parse(const std::vector<std::string>& words) {
-    const Arguments arguments(words, {"--rounds"});
-    const int rounds = arguments.number("--rounds", 5, 1, 1000);
-    const std::filesystem::path path = only_scene(arguments);
+std::string bench_parse(const std::vector<std::string>& arguments) {
+    int rounds = 5;
+    CommandLine line(1, "one scene and the options that --help lists");
+    line.number("--rounds", rounds, 1, 1000);
+    const std::filesystem::path path = only_scene(line.parse(arguments));
     const std::string text = read_file(path);
     std::size_t surfaces = 0;
     std::vector<double> megabytes_per_second;
@@ -44,16 +44,16 @@ std::string bench_parse(const std::vector<std::string>& words) {
             megabytes_per_second.push_back(1e-6 * static_cast<double>(text.size()) / clock.seconds());
         }
     }
-    Json json;
-    json.begin_object().field("schema", std::string("raysteps/bench-reading/v1"));
-    json.field("bytes", static_cast<std::uint64_t>(text.size()));
-    json.field("surfaces", static_cast<std::uint64_t>(surfaces)).key("megabytes_per_second");
+    JsonWriter json;
+    json.begin_object(JsonWriter::Layout::block).key("schema").text("raysteps/bench-reading/v1");
+    json.key("bytes").whole(text.size());
+    json.key("surfaces").whole(surfaces).key("megabytes_per_second");
     write(json, megabytes_per_second);
-    return json.end_object().text();
+    return json.end_object().result() + "\n";
 }
 
-std::string flat_nff(const std::vector<std::string>& words) {
-    return write_nff(read_nff(only_scene(Arguments(words, {}))));
+std::string flat_nff(const std::vector<std::string>& arguments) {
+    return write_nff(read_nff(only_scene(CommandLine(1, "one scene").parse(arguments))));
 }
 
 }  // namespace raysteps::bench

@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "bench/arguments.hpp"
+#include "io/command_line.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
 

@@ -1,10 +1,10 @@
 #include "bench/render_bench.hpp"
 
 #include <array>
+#include <sstream>
 #include <stdexcept>
 
 #include "bench/agreement.hpp"
-#include "bench/arguments.hpp"
 #include "bench/picture.hpp"
 #include "bench/replay.hpp"
 #include "bench/spread.hpp"
@@ -12,9 +12,9 @@
 #include "bench/structures.hpp"
 #include "bench/workload.hpp"
 #include "core/threads.hpp"
-#include "io/arguments.hpp"
+#include "io/command_line.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
-#include "io/read_file.hpp"
 #include "render/accelerator_registry.hpp"
 
 namespace raysteps::bench {
@@ -37,27 +37,35 @@ struct Wish {
     int size = 512;
     int depth = 5;
     int rounds = 5;
-    std::size_t every = 64;
+    int every = 64;
     bool pictures = true;
     std::vector<Structure> structures;
 };
 
-Wish read_wish(const std::vector<std::string>& words) {
-    const Arguments arguments(words, {"--size", "--depth", "--rounds", "--every", "--structures", "--pictures"});
-    if (arguments.words().size() != 1) {
+std::vector<std::string> parts_of(const std::string& list) {
+    std::vector<std::string> parts;
+    std::istringstream text(list);
+    for (std::string part; std::getline(text, part, ',');) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+Wish read_wish(const std::vector<std::string>& arguments) {
+    Wish wish;
+    std::string structures;
+    CommandLine line(1, "one scene and the options that --help lists");
+    line.number("--size", wish.size, 1, 8192).number("--depth", wish.depth, 1, 1000);
+    line.number("--rounds", wish.rounds, 1, 1000).number("--every", wish.every, 1, 1000000);
+    line.option("--structures", structures);
+    line.choice<bool>("--pictures", wish.pictures, {{"yes", true}, {"no", false}});
+    const std::vector<std::string> words = line.parse(arguments);
+    if (words.empty()) {
         throw UsageError("expected one scene");
     }
-    const std::string pictures = arguments.text("--pictures", "yes");
-    if (pictures != "yes" && pictures != "no") {
-        throw UsageError("--pictures: expected yes or no, found '" + pictures + "'");
-    }
-    return {.scene = arguments.words().front(),
-            .size = arguments.number("--size", 512, 1, 8192),
-            .depth = arguments.number("--depth", 5, 1, 1000),
-            .rounds = arguments.number("--rounds", 5, 1, 1000),
-            .every = static_cast<std::size_t>(arguments.number("--every", 64, 1, 1000000)),
-            .pictures = pictures == "yes",
-            .structures = chosen_structures(arguments.list("--structures"))};
+    wish.scene = words.front();
+    wish.structures = chosen_structures(parts_of(structures));
+    return wish;
 }
 
 /// One structure and all that is measured of it.
@@ -84,9 +92,7 @@ struct Race {
 
 Workload read_workload(const Wish& wish) {
     Workload workload;
-    workload.scene = read_nff(path_of(wish.scene));
-    workload.scene.camera.width = wish.size;
-    workload.scene.camera.height = wish.size;
+    workload.scene = load_scene(wish.scene, PictureSize{.width = wish.size, .height = wish.size});
     workload.options.max_ray_depth = wish.depth;
     return workload;
 }
@@ -98,9 +104,8 @@ void check_agreement(const std::vector<RecordedRay>& rays, const Accelerator& ex
     if (static_cast<double>(side.agreement.differing) > bound) {
         const std::size_t first = *side.agreement.first;
         throw std::runtime_error(side.structure.name + " sees " + std::to_string(side.agreement.differing) + " of " +
-                                 std::to_string(rays.size()) + " rays differently, first ray " +
-                                 std::to_string(first) + " " +
-                                 describe(expected, *side.accelerator, rays[first]));
+                                 std::to_string(rays.size()) + " rays differently, first ray " + std::to_string(first) +
+                                 " " + describe(expected, *side.accelerator, rays[first]));
     }
 }
 
@@ -129,7 +134,7 @@ void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
     side.ns_per_ray.push_back(1e9 * result.seconds / static_cast<double>(rays.size()));
 }
 
-void write_rays(Json& json, const std::vector<RecordedRay>& rays) {
+void write_rays(JsonWriter& json, const std::vector<RecordedRay>& rays) {
     constexpr std::array k_names{"eye", "shadow", "reflect", "refract"};
     std::array<std::uint64_t, k_names.size()> counts{};
     std::uint64_t any = 0;
@@ -137,22 +142,22 @@ void write_rays(Json& json, const std::vector<RecordedRay>& rays) {
         ++counts[static_cast<std::size_t>(ray.kind)];
         any += ray.question == Question::any ? 1U : 0U;
     }
-    json.key("rays").begin_object().field("all", static_cast<std::uint64_t>(rays.size()));
+    json.key("rays").begin_object(JsonWriter::Layout::block).key("all").whole(rays.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        json.field(k_names[i], counts[i]);
+        json.key(k_names[i]).whole(counts[i]);
     }
-    json.field("any_hit", any).end_object();
+    json.key("any_hit").whole(any).end_object();
 }
 
-void write_side(Json& json, const Side& side) {
+void write_side(JsonWriter& json, const Side& side) {
     const AcceleratorStats size = side.accelerator->size();
     const auto rays = static_cast<double>(side.agreement.rays);
-    json.begin_object().field("name", side.structure.name).field("rays", side.agreement.rays);
-    json.field("differing", side.agreement.differing).key("build_seconds");
+    json.begin_object(JsonWriter::Layout::block).key("name").text(side.structure.name);
+    json.key("rays").whole(side.agreement.rays).key("differing").whole(side.agreement.differing).key("build_seconds");
     write(json, side.build_seconds);
-    json.field("boxes", size.boxes).field("references", size.references).field("bytes", size.bytes);
-    json.field("surface_tests_per_ray", static_cast<double>(side.work.surface_tests) / rays);
-    json.field("box_tests_per_ray", static_cast<double>(side.work.box_tests) / rays);
+    json.key("boxes").whole(size.boxes).key("references").whole(size.references).key("bytes").whole(size.bytes);
+    json.key("surface_tests_per_ray").number(static_cast<double>(side.work.surface_tests) / rays);
+    json.key("box_tests_per_ray").number(static_cast<double>(side.work.box_tests) / rays);
     json.key("ns_per_ray");
     write(json, side.ns_per_ray);
     json.key("picture_seconds");
@@ -166,19 +171,22 @@ void write_side(Json& json, const Side& side) {
 
 std::string report(const Wish& wish, const Race& race) {
     const Workload& workload = race.workload;
-    Json json;
-    json.begin_object().field("schema", std::string("raysteps/bench-rays/v1"));
-    json.field("scene", display_name(path_of(wish.scene).stem()));
-    json.field("surfaces", static_cast<std::uint64_t>(workload.scene.surfaces().size()));
-    json.field("size", static_cast<std::uint64_t>(wish.size)).field("depth", static_cast<std::uint64_t>(wish.depth));
-    json.field("every", static_cast<std::uint64_t>(wish.every));
-    json.field("embree_version", embree_version());
+    JsonWriter json;
+    json.begin_object(JsonWriter::Layout::block).key("schema").text("raysteps/bench-rays/v1");
+    json.key("scene").text(display_name(path_of(wish.scene).stem()));
+    json.key("surfaces").whole(workload.scene.surfaces().size());
+    json.key("size").whole(static_cast<std::uint64_t>(wish.size));
+    json.key("depth")
+        .whole(static_cast<std::uint64_t>(wish.depth))
+        .key("every")
+        .whole(static_cast<std::uint64_t>(wish.every));
+    json.key("embree_version").text(embree_version());
     write_rays(json, workload.rays);
-    json.key("structures").begin_array();
+    json.key("structures").begin_array(JsonWriter::Layout::block);
     for (const Side& side : race.sides) {
         write_side(json, side);
     }
-    return json.end_array().end_object().text();
+    return json.end_array().end_object().result() + "\n";
 }
 
 }  // namespace
@@ -189,7 +197,7 @@ std::string bench_render(const std::vector<std::string>& words) {
     Race race{read_workload(wish), {}, {}};
     const auto truth = make_accelerator(Acceleration::octree, race.workload.scene.surfaces());
     record(race.workload, *truth);
-    race.sample = every(wish.every, race.workload.rays);
+    race.sample = every(static_cast<std::size_t>(wish.every), race.workload.rays);
     for (const Structure& structure : wish.structures) {
         Side& side = race.sides.emplace_back();
         side.structure = structure;

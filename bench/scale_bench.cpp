@@ -1,6 +1,5 @@
 #include "bench/scale_bench.hpp"
 
-#include "bench/arguments.hpp"
 #include "bench/memory.hpp"
 #include "bench/procedural_scenes.hpp"
 #include "bench/replay.hpp"
@@ -8,6 +7,7 @@
 #include "bench/stopwatch.hpp"
 #include "bench/structures.hpp"
 #include "bench/workload.hpp"
+#include "io/command_line.hpp"
 
 namespace raysteps::bench {
 
@@ -21,10 +21,6 @@ namespace {
 
 constexpr int k_step_with_shadows = 4;
 
-int count_of(const std::string& text) {
-    return Arguments({"--count", text}, {"--count"}).number("--count", 0, 1, 100000000);
-}
-
 /// What was measured of one structure.
 struct Findings {
     AcceleratorStats size;
@@ -37,16 +33,16 @@ struct Findings {
 std::string report(const std::string& kind, const Workload& workload, const Findings& found) {
     const AcceleratorStats& size = found.size;
     const auto rays = static_cast<double>(workload.rays.size());
-    Json json;
-    json.begin_object().field("schema", std::string("raysteps/bench-structure/v1")).field("scene", kind);
-    json.field("surfaces", static_cast<std::uint64_t>(workload.scene.surfaces().size()));
-    json.field("rays", static_cast<std::uint64_t>(workload.rays.size()));
-    json.field("boxes", size.boxes).field("references", size.references).field("bytes", size.bytes);
-    json.field("surface_tests_per_ray", static_cast<double>(found.work.surface_tests) / rays);
-    json.field("box_tests_per_ray", static_cast<double>(found.work.box_tests) / rays);
+    JsonWriter json;
+    json.begin_object(JsonWriter::Layout::block).key("schema").text("raysteps/bench-structure/v1");
+    json.key("scene").text(kind).key("surfaces").whole(workload.scene.surfaces().size());
+    json.key("rays").whole(workload.rays.size());
+    json.key("boxes").whole(size.boxes).key("references").whole(size.references).key("bytes").whole(size.bytes);
+    json.key("surface_tests_per_ray").number(static_cast<double>(found.work.surface_tests) / rays);
+    json.key("box_tests_per_ray").number(static_cast<double>(found.work.box_tests) / rays);
     json.key("peak_bytes");
     if (found.peak_bytes) {
-        json.value(*found.peak_bytes);
+        json.whole(*found.peak_bytes);
     } else {
         json.null();
     }
@@ -54,23 +50,26 @@ std::string report(const std::string& kind, const Workload& workload, const Find
     write(json, found.build_seconds);
     json.key("ns_per_ray");
     write(json, found.ns_per_ray);
-    return json.end_object().text();
+    return json.end_object().result() + "\n";
 }
 
 }  // namespace
 
-std::string bench_scale(const std::vector<std::string>& words) {
-    const Arguments arguments(words, {"--size", "--rounds"});
-    if (arguments.words().size() != 3) {
+std::string bench_scale(const std::vector<std::string>& arguments) {
+    int rounds = 5;
+    int size = 256;
+    CommandLine line(3, "KIND, COUNT, STRUCTURE and the options that --help lists");
+    line.number("--rounds", rounds, 1, 1000).number("--size", size, 1, 8192);
+    const std::vector<std::string> words = line.parse(arguments);
+    if (words.size() != 3) {
         throw UsageError("expected a kind of scene, a number of surfaces and a structure");
     }
-    const std::string& kind = arguments.words()[0];
-    const int rounds = arguments.number("--rounds", 5, 1, 1000);
-    const int size = arguments.number("--size", 256, 1, 8192);
-    const Structure structure = chosen_structures({arguments.words()[2]}).front();
+    const std::string& kind = words[0];
+    const int count = number_between("COUNT", words[1], 1, 100000000);
+    const Structure structure = chosen_structures({words[2]}).front();
 
     Workload workload;
-    workload.scene = make_scene(kind, count_of(arguments.words()[1]));
+    workload.scene = make_scene(kind, count);
     workload.scene.camera.width = size;
     workload.scene.camera.height = size;
     workload.options.step = k_step_with_shadows;

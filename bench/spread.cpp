@@ -21,14 +21,13 @@ Spread spread_of(std::vector<double> values) {
     return {quantile(values, 0.5), values.front(), values.back(), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
-void write(Json& json, const std::vector<double>& values) {
+void write(JsonWriter& json, const std::vector<double>& values) {
     const Spread spread = spread_of(values);
-    json.begin_object();
-    json.field("median", spread.median).field("min", spread.least).field("max", spread.most);
-    json.field("q1", spread.lower_quartile).field("q3", spread.upper_quartile);
-    json.key("rounds").begin_array();
+    json.begin_object(JsonWriter::Layout::block).key("median").number(spread.median).key("min").number(spread.least);
+    json.key("max").number(spread.most).key("q1").number(spread.lower_quartile);
+    json.key("q3").number(spread.upper_quartile).key("rounds").begin_array(JsonWriter::Layout::block);
     for (const double value : values) {
-        json.value(value);
+        json.number(value);
     }
     json.end_array().end_object();
 }

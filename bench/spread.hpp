@@ -2,7 +2,7 @@
 // What several measurements of the same thing say.
 #include <vector>
 
-#include "bench/json.hpp"
+#include "io/json_writer.hpp"
 
 namespace raysteps::bench {
 
@@ -17,6 +17,6 @@ struct Spread {
 /// At least one value.
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
-void write(Json& json, const std::vector<double>& values);
+void write(JsonWriter& json, const std::vector<double>& values);
 
 }  // namespace raysteps::bench

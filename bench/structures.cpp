@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "bench/arguments.hpp"
 #include "bench/by_bounds.hpp"
-#include "bench/json.hpp"
+#include "io/command_line.hpp"
+#include "io/json_writer.hpp"
 #include "render/accelerator_registry.hpp"
 #ifdef RAYSTEPS_EMBREE
 #include "bench/embree_accelerator.hpp"
@@ -71,14 +71,14 @@ std::string list_structures(const std::vector<std::string>& words) {
     if (!words.empty()) {
         throw UsageError("list: expected nothing after it");
     }
-    Json json;
-    json.begin_object().field("schema", std::string("raysteps/bench-structures/v1"));
-    json.field("embree_version", embree_version()).key("structures").begin_array();
+    JsonWriter json;
+    json.begin_object(JsonWriter::Layout::block).key("schema").text("raysteps/bench-structures/v1");
+    json.key("embree_version").text(embree_version()).key("structures").begin_array(JsonWriter::Layout::block);
     for (const Structure& structure : all_structures()) {
-        json.begin_object().field("name", structure.name);
-        json.field("slow", structure.slow).field("foreign", structure.foreign).end_object();
+        json.begin_object(JsonWriter::Layout::block).key("name").text(structure.name);
+        json.key("slow").flag(structure.slow).key("foreign").flag(structure.foreign).end_object();
     }
-    return json.end_array().end_object().text();
+    return json.end_array().end_object().result() + "\n";
 }
 
 std::string embree_version() {

@@ -25,6 +25,20 @@ if(NOT TARGET Catch2::Catch2)
     FetchContent_MakeAvailable(Catch2)
 endif()
 
+# One header, for PNG.
+if(NOT TARGET stb::stb)
+    find_path(RAYSTEPS_STB_FOLDER stb_image_write.h PATH_SUFFIXES stb)
+    if(NOT RAYSTEPS_STB_FOLDER)
+        message(STATUS "stb_image_write is not installed: fetching 1.16")
+        FetchContent_Declare(stb GIT_REPOSITORY https://github.com/nothings/stb.git
+                                 GIT_TAG 31c1ad37456438565541f4919958214b6e762fb4)
+        FetchContent_MakeAvailable(stb)
+        set(RAYSTEPS_STB_FOLDER "${stb_SOURCE_DIR}")
+    endif()
+    add_library(stb::stb INTERFACE IMPORTED GLOBAL)
+    target_include_directories(stb::stb SYSTEM INTERFACE "${RAYSTEPS_STB_FOLDER}")
+endif()
+
 # For the wide trees alone: where it is missing there are none.
 find_package(hwy 1.0 CONFIG QUIET)
 

@@ -1,4 +1,4 @@
-# GLM and Catch2 2 are headers only, so a compiler for another system can take those of this one. They are copied, for
+# GLM, Catch2 2 and stb_image_write are headers only, so a compiler for another system can take those of this one. They are copied, for
 # beside them lie the headers of this system's C library, which fit no other.
 function(raysteps_take_headers library folder header)
     find_path(found "${folder}/${header}" PATHS /usr/include /usr/local/include /opt/homebrew/include
@@ -15,3 +15,7 @@ endfunction()
 
 raysteps_take_headers(glm::glm glm glm.hpp)
 raysteps_take_headers(Catch2::Catch2 catch2 catch.hpp)
+raysteps_take_headers(stb::stb stb stb_image_write.h)
+if(TARGET stb::stb)
+    target_include_directories(stb::stb INTERFACE "${PROJECT_BINARY_DIR}/headers/stb/stb")
+endif()

@@ -7,13 +7,9 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.course.manifest import read_all_steps, read_steps
-from raysteps.course.mutants import read_mutants
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
-from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
-from raysteps.judge.plan import read_plan
 from raysteps.report.terminal import progress
-from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 from tools import mistake_pages as handbook
 from tools.calibration.calibrate import calibrate
@@ -41,14 +37,6 @@ def mistakes(project: Project, say: ProgressCallback, *, check: bool) -> int:
     """Makes the pages of docs/mistakes/, or tells which are out of date."""
     changed = (handbook.out_of_date if check else handbook.write)(project, say)
     return _tell(project, [project.root / name for name in changed], [], "dev mistakes", check=check)
-
-
-def learn(project: Project, say: ProgressCallback) -> int:
-    """Keeps what the known mistakes of all steps answer and draw."""
-    kit = build_kit(project, say)
-    for step in kit.steps:
-        mutant_fingerprints(kit, step, read_plan(project, step), read_mutants(project, step), say)
-    return 0
 
 
 def _strays(project: Project, rooms: list[Path], *, check: bool) -> list[Path]:
@@ -83,9 +71,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     ):
         add = commands.add_parser(name, help=f"make {made} from the solutions")
         add.add_argument("--check", action="store_true", help="only tell what is out of date")
-    commands.add_parser(
-        "learn", help="learn the known mistakes of all steps now, and not with the first wrong submission"
-    )
     add = commands.add_parser("mistakes", help="make docs/mistakes/ from the catalogue of mistakes")
     add.add_argument("--check", action="store_true", help="only tell what is out of date")
     add = commands.add_parser("calibrate", help="measure how many pixels of each picture may be wrong (15 minutes)")
@@ -109,9 +94,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return stubs(project, check=arguments.check)
         case "samples":
             return samples(project, check=arguments.check)
-        case "learn":
-            with console.status("starting") as status:
-                return learn(project, progress(console, status))
         case "mistakes":
             with console.status("starting") as status:
                 return mistakes(project, progress(console, status), check=arguments.check)

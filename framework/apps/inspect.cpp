@@ -2,13 +2,12 @@
 #include <cstdio>
 
 #include "apps/inspect_options.hpp"
-#include "apps/run_program.hpp"
 #include "inspect/inspect_json.hpp"
 #include "inspect/inspect_pixel.hpp"
 #include "inspect/inspect_text.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
-#include "io/write_file.hpp"
+#include "io/platform.hpp"
 #include "render/accelerator_registry.hpp"
 
 namespace {
@@ -16,11 +15,7 @@ namespace {
 using namespace raysteps;
 
 void run(const InspectOptions& options) {
-    Scene scene = read_nff(path_of(options.picture.scene));
-    if (options.picture.size) {
-        scene.camera.width = options.picture.size->width;
-        scene.camera.height = options.picture.size->height;
-    }
+    const Scene scene = load_scene(options.picture.scene, options.picture.size);
     check_pixel(options, scene.camera);
     const Acceleration acceleration = options.picture.acceleration.value_or(default_accelerator(options.picture.step));
     const auto accelerator = make_accelerator(acceleration, scene.surfaces());

@@ -1,10 +1,6 @@
 #include "apps/options.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <functional>
-#include <map>
-#include <string_view>
 
 #include "render/accelerator_registry.hpp"
 
@@ -13,7 +9,6 @@ namespace raysteps {
 const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.png [options]
 
   -o FILE                 the picture, PNG or binary PPM by the ending of the name
-                          (PPM only where raytrace is called without ./raysteps)
   --step N                render with what the course has after step N (8, or the last step of the kit)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise
@@ -41,117 +36,33 @@ namespace {
 
 constexpr int k_last_step = RAYSTEPS_LAST_STEP;  // CMake knows the steps
 
-[[noreturn]] void complain(const std::string& option, const std::string& expected, const std::string& found) {
-    throw UsageError(option + ": expected " + expected + ", found '" + found + "'");
-}
-
-/// The whole numbers in text, parted by `separator`; nothing unless there are exactly `count` of them.
-std::optional<std::vector<int>> numbers(std::string_view text, char separator, std::size_t count) {
-    std::vector<int> values;
-    const char* at = text.data();
-    const char* const end = text.data() + text.size();
-    while (values.size() < count) {
-        int value = 0;
-        const auto [after, error] = std::from_chars(at, end, value);
-        if (error != std::errc{}) {
-            return std::nullopt;
-        }
-        values.push_back(value);
-        at = after;
-        if (values.size() < count) {
-            if (at == end || *at != separator) {
-                return std::nullopt;
-            }
-            ++at;
-        }
+PictureSize parse_size(const std::string& text) {
+    const std::vector<int> sides = numbers_in(text, 'x', 2);
+    if (sides.empty() || std::min(sides[0], sides[1]) < 1 || std::max(sides[0], sides[1]) > k_largest_side) {
+        refuse("--size", "WxH in pixels, each from 1 to 16384, like 320x240", text);
     }
-    return at == end ? std::optional(values) : std::nullopt;
-}
-
-int number_between(const std::string& option, const std::string& text, int least, int most) {
-    const auto values = numbers(text, ' ', 1);
-    if (!values || values->front() < least || values->front() > most) {
-        complain(option, "a whole number from " + std::to_string(least) + " to " + std::to_string(most), text);
-    }
-    return values->front();
-}
-
-Size parse_size(const std::string& text) {
-    const auto values = numbers(text, 'x', 2);
-    if (!values || (*values)[0] < 1 || (*values)[1] < 1 || (*values)[0] > k_largest_side ||
-        (*values)[1] > k_largest_side) {
-        complain("--size", "WxH in pixels, each from 1 to 16384, like 320x240", text);
-    }
-    return {(*values)[0], (*values)[1]};
+    return {.width = sides[0], .height = sides[1]};
 }
 
 Rect parse_crop(const std::string& text) {
-    const auto values = numbers(text, ',', 4);
-    if (!values || (*values)[0] < 0 || (*values)[1] < 0 || (*values)[2] < 1 || (*values)[3] < 1) {
-        complain("--crop", "X,Y,W,H in pixels, like 10,20,64,48", text);
+    const std::vector<int> part = numbers_in(text, ',', 4);
+    if (part.empty() || part[0] < 0 || part[1] < 0 || part[2] < 1 || part[3] < 1) {
+        refuse("--crop", "X,Y,W,H in pixels, like 10,20,64,48", text);
     }
-    return {(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
+    return {.x = part[0], .y = part[1], .width = part[2], .height = part[3]};
 }
 
 Acceleration parse_acceleration(const std::string& text) {
     const AcceleratorEntry* const entry = find_accelerator(text);
     if (entry == nullptr) {
-        complain("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
+        refuse("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
     }
     return entry->kind;
 }
 
-View parse_view(const std::string& text) {
-    if (text != "color" && text != "normals") {
-        complain("--view", "color or normals", text);
-    }
-    return text == "normals" ? View::normals : View::color;
-}
-
-CostKind parse_map(const std::string& text) {
-    static const std::map<std::string, CostKind> kinds{{"tests", CostKind::tests},
-                                                       {"boxes", CostKind::boxes},
-                                                       {"depth", CostKind::depth},
-                                                       {"time", CostKind::time}};
-    const auto found = kinds.find(text);
-    if (found == kinds.end()) {
-        complain("--map", "tests, boxes, depth or time", text);
-    }
-    return found->second;
-}
-
-using Setter = std::function<void(RaytraceOptions&, const std::string&)>;
-
-const std::map<std::string, Setter>& options_with_value() {
-    static const std::map<std::string, Setter> setters{
-        {"-o", [](auto& o, const auto& text) { o.output = text; }},
-        {"--stats", [](auto& o, const auto& text) { o.stats = text; }},
-        {"--step", [](auto& o, const auto& text) { o.step = number_between("--step", text, 1, k_last_step); }},
-        {"--depth", [](auto& o, const auto& text) { o.depth = number_between("--depth", text, 1, 1000); }},
-        {"--threads", [](auto& o, const auto& text) { o.threads = number_between("--threads", text, 1, 1024); }},
-        {"--view", [](auto& o, const auto& text) { o.view = parse_view(text); }},
-        {"--size", [](auto& o, const auto& text) { o.size = parse_size(text); }},
-        {"--crop", [](auto& o, const auto& text) { o.crop = parse_crop(text); }},
-        {"--map", [](auto& o, const auto& text) { o.map = parse_map(text); }},
-        {"--map-scale",
-         [](auto& o, const auto& text) {
-             o.map_scale = static_cast<std::uint64_t>(number_between("--map-scale", text, 1, 1'000'000'000));
-         }},
-        {"--accel", [](auto& o, const auto& text) { o.acceleration = parse_acceleration(text); }},
-    };
-    return setters;
-}
-
 void check(const RaytraceOptions& options) {
-    if (options.scene.empty()) {
-        throw UsageError("expected a scene, like scenes/lessons/three-spheres.nff");
-    }
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
-    }
-    if (options.output.ends_with(".png")) {
-        throw UsageError("-o: expected a name that ends in .ppm, as only ./raysteps render writes PNG, found '" +
-                         options.output + "'");
     }
     if (options.map_scale && !options.map) {
         throw UsageError("--map-scale: expected --map beside it, which says what is drawn");
@@ -172,34 +83,44 @@ std::string list_accelerations() {
     return list;
 }
 
+void add_shared_options(CommandLine& line, RaytraceOptions& options) {
+    options.step = std::min(options.step, k_last_step);
+    line.number("--step", options.step, 1, k_last_step);
+    line.choice<View>("--view", options.view, {{"color", View::color}, {"normals", View::normals}});
+    line.option("--size", [&options](const std::string& text) { options.size = parse_size(text); });
+    line.number("--depth", options.depth, 1, 1000);
+    line.option("--accel", [&options](const std::string& text) { options.acceleration = parse_acceleration(text); });
+    line.ending("-h", options.help).ending("--help", options.help);
+}
+
+void add_threads(CommandLine& line, RaytraceOptions& options) { line.number("--threads", options.threads, 1, 1024); }
+
+std::string scene_of(const std::vector<std::string>& words) {
+    if (words.empty() || words.front().empty()) {
+        throw UsageError("expected a scene, like scenes/lessons/three-spheres.nff");
+    }
+    return words.front();
+}
+
 RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
     RaytraceOptions options;
-    options.step = std::min(options.step, k_last_step);
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const std::string& argument = arguments[i];
-        const auto setter = options_with_value().find(argument);
-        if (setter != options_with_value().end()) {
-            if (i + 1 == arguments.size()) {
-                throw UsageError(argument + ": expected a value after it");
-            }
-            setter->second(options, arguments[++i]);
-        } else if (argument == "--quiet") {
-            options.quiet = true;
-        } else if (argument == "--list-accel") {
-            options.list_accelerations = true;
-            return options;
-        } else if (argument == "--spd") {
-            options.spd = true;
-        } else if (argument == "-h" || argument == "--help") {
-            options.help = true;
-            return options;
-        } else if (argument.starts_with("-") || !options.scene.empty()) {
-            complain("arguments", "one scene and the options that --help lists", argument);
-        } else {
-            options.scene = argument;
-        }
+    CommandLine line(1, "one scene and the options that --help lists");
+    add_shared_options(line, options);
+    add_threads(line, options);
+    line.option("-o", options.output).option("--stats", options.stats);
+    line.option("--crop", [&options](const std::string& text) { options.crop = parse_crop(text); });
+    line.choice<CostKind>(
+        "--map", options.map,
+        {{"tests", CostKind::tests}, {"boxes", CostKind::boxes}, {"depth", CostKind::depth}, {"time", CostKind::time}});
+    line.option("--map-scale", [&options](const std::string& text) {
+        options.map_scale = static_cast<std::uint64_t>(number_between("--map-scale", text, 1, 1'000'000'000));
+    });
+    line.flag("--quiet", options.quiet).flag("--spd", options.spd).ending("--list-accel", options.list_accelerations);
+    const std::vector<std::string> words = line.parse(arguments);
+    if (!options.help && !options.list_accelerations) {
+        options.scene = scene_of(words);
+        check(options);
     }
-    check(options);
     return options;
 }
 

@@ -1,18 +1,14 @@
 #pragma once
-// The command line of raytrace.
+// The command line of raytrace, and what inspect and view share with it.
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "io/command_line.hpp"
+#include "io/nff_reader.hpp"
 #include "render/renderer.hpp"
 
 namespace raysteps {
-
-struct Size {
-    int width = 0;
-    int height = 0;
-};
 
 struct RaytraceOptions {
     std::string scene;
@@ -20,7 +16,7 @@ struct RaytraceOptions {
     std::string stats;  ///< empty: none wanted
     int step = 8;
     View view = View::color;
-    std::optional<Size> size;  ///< nothing: the scene's resolution
+    std::optional<PictureSize> size;  ///< nothing: the scene's resolution
     int depth = 5;
     int threads = 0;                           ///< 0: one per core
     std::optional<Acceleration> acceleration;  ///< nothing: none before step 06, octree from there on, bvh for step 9
@@ -33,11 +29,6 @@ struct RaytraceOptions {
     bool help = false;
 };
 
-class UsageError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
 extern const char* const k_raytrace_usage;
 
 /// Of the course, or of the part of it that this kit has.
@@ -45,6 +36,13 @@ extern const char* const k_raytrace_usage;
 
 /// The names that --accel takes in this program, a line each.
 [[nodiscard]] std::string list_accelerations();
+
+/// --step, --view, --size, --depth, --accel and --help, which all programs have.
+void add_shared_options(CommandLine& line, RaytraceOptions& options);
+void add_threads(CommandLine& line, RaytraceOptions& options);
+
+/// The scene among the words of a command line. Throws UsageError when there is none.
+[[nodiscard]] std::string scene_of(const std::vector<std::string>& words);
 
 /// Throws UsageError with a message that says what was expected.
 [[nodiscard]] RaytraceOptions parse_options(const std::vector<std::string>& arguments);

@@ -61,10 +61,8 @@ if(RAYSTEPS_WINDOW)
 endif()
 
 # worker, which answers the judge's cases with the functions that it is linked with. The kit links it.
-if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/worker.cpp")  # a students' kit has no judge
-    add_library(worker-app OBJECT apps/worker.cpp apps/worker_bvh.cpp apps/worker_functions.cpp
-                apps/worker_intersections.cpp apps/worker_light.cpp apps/worker_output.cpp apps/worker_surfaces.cpp
-                apps/worker_tracer.cpp apps/worker_tree.cpp apps/worker_trees.cpp apps/worker_values.cpp
-                apps/worker_words.cpp ${RAYSTEPS_OWN_WORKERS})
+file(GLOB sources CONFIGURE_DEPENDS "worker/*.cpp")
+if(sources)  # a students' kit has no judge
+    add_library(worker-app OBJECT ${sources} ${RAYSTEPS_OWN_WORKERS})
     target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
 endif()

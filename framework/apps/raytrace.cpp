@@ -1,18 +1,14 @@
-// raytrace: from an NFF scene to a PPM picture, with the steps that it was linked with. `./raysteps render` runs it, and
-// makes a PNG of the picture where one is asked for.
+// raytrace: from an NFF scene to a picture, with the steps that it was linked with. `./raysteps render` runs it.
 #include <algorithm>
 #include <cstdio>
 
 #include "apps/options.hpp"
-#include "apps/run_program.hpp"
 #include "apps/stats_json.hpp"
 #include "core/threads.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
-#include "io/ppm.hpp"
-#include "io/read_file.hpp"
-#include "io/terminal.hpp"
-#include "io/write_file.hpp"
+#include "io/picture_file.hpp"
+#include "io/platform.hpp"
 #include "render/accelerator_registry.hpp"
 #include "render/cost_heatmap.hpp"
 #if __has_include("render/spd.hpp")
@@ -52,29 +48,24 @@ void print_spd_counts(const Scene&, const RaytraceOptions&) {
 #endif
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
-    RenderOptions render_options{{options.step, options.view, options.depth},
-                                 acceleration_of(options),
-                                 default_threads(),
-                                 options.crop,
-                                 !options.quiet && stderr_is_terminal(),
-                                 options.map.has_value()};
-    const Rendering rendering = render(scene, render_options);
+    const Rendering rendering = render(scene, {.step = {options.step, options.view, options.depth},
+                                               .acceleration = acceleration_of(options),
+                                               .threads = default_threads(),
+                                               .crop = options.crop,
+                                               .show_progress = !options.quiet && stderr_is_terminal(),
+                                               .measure_cost = options.map.has_value()});
     if (!options.stats.empty()) {
         write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
     }
-    write_ppm(options.map ? cost_heatmap(rendering.costs, *options.map, options.map_scale) : rendering.image,
-              path_of(options.output));
+    write_picture(options.map ? cost_heatmap(rendering.costs, *options.map, options.map_scale) : rendering.image,
+                  path_of(options.output));
 }
 
 void run(const RaytraceOptions& options) {
     if (options.threads > 0) {
         set_default_threads(options.threads);
     }
-    Scene scene = read_nff(path_of(options.scene));
-    if (options.size) {
-        scene.camera.width = options.size->width;
-        scene.camera.height = options.size->height;
-    }
+    const Scene scene = load_scene(options.scene, options.size);
     if (options.crop) {
         check_crop(*options.crop, scene.camera);
     }

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/run_program.hpp"
 #include "apps/view_options.hpp"
 #include "core/threads.hpp"
-#include "io/arguments.hpp"
+#include "io/files.hpp"
 #include "io/nff_reader.hpp"
+#include "io/platform.hpp"
 #include "view/viewer.hpp"
 
 namespace {
@@ -36,21 +36,17 @@ void run(const ViewOptions& options) {
     if (picture.threads > 0) {
         set_default_threads(picture.threads);
     }
-    Scene scene = read_nff(path_of(picture.scene));
-    if (picture.size) {
-        scene.camera.width = picture.size->width;
-        scene.camera.height = picture.size->height;
-    }
+    Scene scene = load_scene(picture.scene, picture.size);
     check_size(scene.camera);
     check_click(options, scene.camera);
-    run_viewer(scene, {picture.scene,
-                       {picture.step, picture.view, picture.depth},
-                       last_step(),
-                       picture.acceleration,
-                       default_threads(),
-                       options.screenshot,
-                       options.strip,
-                       options.click});
+    run_viewer(scene, {.scene = picture.scene,
+                       .step = {picture.step, picture.view, picture.depth},
+                       .last_step = last_step(),
+                       .acceleration = picture.acceleration,
+                       .threads = default_threads(),
+                       .screenshot = options.screenshot,
+                       .strip = options.strip,
+                       .click = options.click});
 }
 
 }  // namespace

@@ -1,9 +1,5 @@
 #include "apps/view_options.hpp"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "io/numbers.hpp"
 #include "render/accelerator_registry.hpp"
 
@@ -33,73 +29,45 @@ about the pixel. 1 to 9 choose the step, A the structure, M a work map, + and - 
 
 namespace {
 
-constexpr std::array<std::string_view, 6> k_shared{"--step", "--view", "--size", "--depth", "--threads", "--accel"};
-
 Pixel parse_click(const std::string& text) {
     const std::size_t comma = text.find(',');
     const auto x = parse_whole(text.substr(0, comma));
     const auto y = comma == std::string::npos ? std::nullopt : parse_whole(text.substr(comma + 1));
     if (!x || !y) {
-        throw UsageError("--click: expected X,Y in pixels from the top left, like 80,60, found '" + text + "'");
+        refuse("--click", "X,Y in pixels from the top left, like 80,60", text);
     }
-    return {*x, *y};
+    return {.x = *x, .y = *y};
 }
 
-/// raytrace reads what the two programs share.
-RaytraceOptions shared_options(std::vector<std::string> words) {
-    words.insert(words.end(), {"-o", "-"});
-    RaytraceOptions options = parse_options(words);
-    if (options.acceleration) {
-        const AcceleratorEntry& entry = accelerator_entry(*options.acceleration);
-        if (entry.make == nullptr) {
-            throw UsageError(entry.kind == Acceleration::boxes
-                                 ? "--accel boxes: " + std::string(entry.unavailable_reason)
-                                 : "--accel: expected none, boxes, octree or bvh; a window has no wide trees");
-        }
+void check(const ViewOptions& options) {
+    if (options.strip && options.screenshot.empty()) {
+        throw UsageError("--strip: expected --screenshot FILE.ppm with it");
     }
-    return options;
+    if (!options.picture.acceleration) {
+        return;
+    }
+    const AcceleratorEntry& entry = accelerator_entry(*options.picture.acceleration);
+    if (entry.make == nullptr) {
+        throw UsageError(entry.kind == Acceleration::boxes
+                             ? "--accel boxes: " + std::string(entry.unavailable_reason)
+                             : "--accel: expected none, boxes, octree or bvh; a window has no wide trees");
+    }
 }
 
 }  // namespace
 
 ViewOptions parse_view_options(const std::vector<std::string>& arguments) {
     ViewOptions options;
-    std::vector<std::string> shared;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const std::string& argument = arguments[i];
-        if (argument == "-h" || argument == "--help") {
-            options.picture.help = true;
-            return options;
-        }
-        if (argument == "--strip") {
-            options.strip = true;
-            continue;
-        }
-        const bool is_shared = std::find(k_shared.begin(), k_shared.end(), argument) != k_shared.end();
-        if (!is_shared && argument != "--screenshot" && argument != "--click") {
-            if (argument.starts_with("-")) {
-                throw UsageError("arguments: expected one scene and the options that --help lists, found '" +
-                                 argument + "'");
-            }
-            shared.push_back(argument);
-            continue;
-        }
-        if (i + 1 == arguments.size()) {
-            throw UsageError(argument + ": expected a value after it");
-        }
-        const std::string& value = arguments[++i];
-        if (is_shared) {
-            shared.insert(shared.end(), {argument, value});
-        } else if (argument == "--click") {
-            options.click = parse_click(value);
-        } else {
-            options.screenshot = value;
-        }
+    CommandLine line(1, "one scene and the options that --help lists");
+    add_shared_options(line, options.picture);
+    add_threads(line, options.picture);
+    line.option("--screenshot", options.screenshot).flag("--strip", options.strip);
+    line.option("--click", [&options](const std::string& text) { options.click = parse_click(text); });
+    const std::vector<std::string> words = line.parse(arguments);
+    if (!options.picture.help) {
+        options.picture.scene = scene_of(words);
+        check(options);
     }
-    if (options.strip && options.screenshot.empty()) {
-        throw UsageError("--strip: expected --screenshot FILE.ppm with it");
-    }
-    options.picture = shared_options(shared);
     return options;
 }
 

@@ -1,6 +1,6 @@
 #include "inspect/inspect_json.hpp"
 
-#include "inspect/json_writer.hpp"
+#include "io/json_writer.hpp"
 #include "inspect/names.hpp"
 #include "inspect/ray_json.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // One ray and all that follow from it, as JSON.
-#include "inspect/json_writer.hpp"
+#include "io/json_writer.hpp"
 #include "inspect/pixel_record.hpp"
 
 namespace raysteps {

@@ -2,22 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
-#include <sstream>
+
+#include "io/numbers.hpp"
 
 namespace raysteps {
 namespace {
 
 constexpr int k_deepest = 16;
 constexpr std::size_t k_label = 12;
-
-std::string digits(double value, int precision) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(precision);
-    out << value;
-    return out.str();
-}
 
 }  // namespace
 
@@ -31,7 +23,7 @@ void TextLines::line(int level, const std::string& label, const std::string& tex
 
 std::string brief(float value) {
     const double tidy = std::abs(value) < 1e-7F ? 0.0 : static_cast<double>(value);  // no -0 and no rounding noise
-    return digits(std::isnan(value) ? static_cast<double>(value) : tidy, 6);
+    return number_text(std::isnan(value) ? static_cast<double>(value) : tidy, 6);
 }
 
 std::string brief(const glm::vec3& value) {
@@ -39,7 +31,7 @@ std::string brief(const glm::vec3& value) {
 }
 
 std::string share(std::uint64_t part, std::uint64_t whole) {
-    return digits(whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole), 3) + " %";
+    return number_text(whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole), 3) + " %";
 }
 
 std::string amount(std::uint64_t count, const std::string& noun) {

@@ -16,13 +16,13 @@
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
-#include "io/field_reader.hpp"
+#include "io/token_scanner.hpp"
 #include "io/triangulate.hpp"
 
 namespace raysteps {
 namespace {
 
-constexpr int k_most_corners = 1'000'000;
+constexpr int k_max_corners = 1'000'000;
 
 // In double: the squares of a short but valid normal vanish in float.
 glm::vec3 read_normal(TokenScanner& scanner) {
@@ -42,7 +42,7 @@ SmoothTriangle::Corner read_smooth_corner(TokenScanner& scanner) {
     return {position, read_normal(scanner)};
 }
 
-int read_count(TokenScanner& scanner) { return FieldReader(scanner).whole("number of vertices", 3, k_most_corners); }
+int read_count(TokenScanner& scanner) { return FieldReader(scanner).whole("number of vertices", 3, k_max_corners); }
 
 // Large scenes are made of triangles: they need no lists.
 void read_triangle(TokenScanner& scanner, const Fill& fill, Scene& scene) {

@@ -91,10 +91,10 @@ constexpr std::array<double, 23> k_tens{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
 /// The number without its sign, where one product or quotient of two exact doubles gives it: nearly always (Clinger
 /// 1990). It is rounded once, so it is the nearest double.
 std::optional<double> plain_value(const Decimal& decimal) {
-    constexpr std::size_t k_most_digits = 19;  // so many fit into 64 bits
+    constexpr std::size_t k_max_digits = 19;  // so many fit into 64 bits
     constexpr std::uint64_t k_largest = std::uint64_t{1} << 53U;
     const auto power = static_cast<std::size_t>(std::abs(decimal.power));
-    if (decimal.count > k_most_digits || decimal.digits > k_largest || power >= k_tens.size()) {
+    if (decimal.count > k_max_digits || decimal.digits > k_largest || power >= k_tens.size()) {
         return std::nullopt;
     }
     const auto digits = static_cast<double>(decimal.digits);
@@ -153,17 +153,21 @@ std::string number_text(float number) {
 #else
     std::string text;
     for (int digits = 1; digits <= std::numeric_limits<float>::max_digits10; ++digits) {
-        std::ostringstream stream;
-        stream.imbue(std::locale::classic());
-        stream.precision(digits);
-        stream << number;
-        text = stream.str();
+        text = number_text(static_cast<double>(number), digits);
         if (static_cast<float>(parse_number(text).value_or(0.0)) == number) {
             break;
         }
     }
     return text;
 #endif
+}
+
+std::string number_text(double number, int digits) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream.precision(digits);
+    stream << number;
+    return stream.str();
 }
 
 }  // namespace raysteps

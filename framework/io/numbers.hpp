@@ -16,7 +16,10 @@ namespace raysteps {
 /// Whether a token is meant to be a number: it starts with a digit, a sign or a point.
 [[nodiscard]] bool looks_like_number(std::string_view text);
 
-/// The shortest text that reads back as the same float. The number must be finite.
+/// The shortest text that reads back as the same float; `inf`, `-inf` or `nan`, too.
 [[nodiscard]] std::string number_text(float number);
+
+/// At most so many digits, as printf's %g has them.
+[[nodiscard]] std::string number_text(double number, int digits);
 
 }  // namespace raysteps

@@ -50,3 +50,18 @@ TEST_CASE("What is no number is not read as one", "[io][numbers]") {
     CHECK(parse_number(std::string(100, '1')).has_value());
     CHECK_FALSE(parse_number(std::string(101, '1')).has_value());
 }
+
+TEST_CASE("A float is written in as few characters as give it back", "[io][numbers]") {
+    CHECK(number_text(0.1F) == "0.1");
+    CHECK(number_text(-0.0F) == "-0");
+    CHECK(number_text(16777216.0F) == "16777216");
+    CHECK(number_text(std::numeric_limits<float>::max()) == "3.4028235e+38");
+    CHECK(number_text(-std::numeric_limits<float>::infinity()) == "-inf");
+    CHECK(number_text(std::numeric_limits<float>::quiet_NaN()) == "nan");
+}
+
+TEST_CASE("Digits are cut off where fewer are wanted", "[io][numbers]") {
+    CHECK(number_text(2.0 / 3.0, 3) == "0.667");
+    CHECK(number_text(2.0, 9) == "2");
+    CHECK(number_text(1234567.0, 3) == "1.23e+06");
+}

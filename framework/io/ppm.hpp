@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/image.hpp"
-#include "io/read_error.hpp"
+#include "io/files.hpp"
 
 namespace raysteps {
 
@@ -18,8 +18,5 @@ namespace raysteps {
 
 /// The picture as a P6 file.
 [[nodiscard]] std::string ppm_bytes(const Image& image);
-
-/// As write_file, with the picture as P6.
-void write_ppm(const Image& image, const std::filesystem::path& path);
 
 }  // namespace raysteps

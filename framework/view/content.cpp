@@ -2,14 +2,13 @@
 
 #include "render/encode.hpp"
 #include "render/cost_heatmap.hpp"
-#include "view/exposure.hpp"
-#include "view/strip.hpp"
+#include "view/status_bar.hpp"
 
 namespace raysteps {
 namespace {
 
-Image strip_for(int width, const Settings& settings, const std::string& status) {
-    return settings.step.step >= 7 ? exposure_strip(width, status, settings.stops) : status_strip(width, status);
+Image bar_for(int width, const Settings& settings, const std::string& status) {
+    return settings.step.step >= 7 ? exposure_bar(width, status, settings.stops) : status_bar(width, status);
 }
 
 Image stacked(const Image& above, const Image& below) {
@@ -40,10 +39,10 @@ Image content(const Frame& frame, const Settings& settings, const std::string& s
         return cost_heatmap(frame.costs, *settings.map, std::nullopt);
     }
     return stacked(exposed(frame.colors, settings.step.step, settings.stops),
-                   strip_for(frame.colors.width(), settings, status));
+                   bar_for(frame.colors.width(), settings, status));
 }
 
-Image without_strip(const Image& content, const Camera& camera) {
+Image without_status_bar(const Image& content, const Camera& camera) {
     Image picture(camera.width, camera.height);
     for (int y = 0; y < picture.height(); ++y) {
         for (int x = 0; x < picture.width(); ++x) {

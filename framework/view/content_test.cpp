@@ -4,8 +4,7 @@
 #include "render/encode.hpp"
 #include "render/cost_heatmap.hpp"
 #include "testing/testing.hpp"
-#include "view/exposure.hpp"
-#include "view/strip.hpp"
+#include "view/status_bar.hpp"
 
 using namespace raysteps;
 
@@ -50,12 +49,12 @@ TEST_CASE("The slider ends at four stops to either side", "[view]") {
     }
 }
 
-TEST_CASE("Below the picture lies a strip that tells step, progress and exposure", "[view]") {
+TEST_CASE("Below the picture lies a bar that tells step, progress and exposure", "[view]") {
     const Frame frame = frame_of(k_white);
     Settings settings = settings_of(8);
     const Image shown = content(frame, settings, "step 8");
     REQUIRE(shown.height() == content_height(settings.camera));
-    CHECK(without_strip(shown, settings.camera) == exposed(frame.colors, 8, 0.0F));
+    CHECK(without_status_bar(shown, settings.camera) == exposed(frame.colors, 8, 0.0F));
     CHECK_FALSE(shown == content(frame, settings, "step 9"));
     settings.stops = 1.0F;
     const Image brighter = content(frame, settings, "step 8");

@@ -7,14 +7,13 @@
 
 #include "render/accelerator_registry.hpp"
 #include "view/camera_moves.hpp"
-#include "view/exposure.hpp"
-#include "view/strip.hpp"
+#include "view/status_bar.hpp"
 
 namespace raysteps {
 namespace {
 
-constexpr float k_click_reach = 3.0F;       // window pixels that a hand may slip while it clicks
-constexpr float k_wheel_factor = 0.9F;      // of the distance, per notch
+constexpr float k_click_reach = 3.0F;   // window pixels that a hand may slip while it clicks
+constexpr float k_wheel_factor = 0.9F;  // of the distance, per notch
 constexpr float k_stops_per_key = 0.5F;
 constexpr std::array<std::optional<CostKind>, 5> k_maps{std::nullopt, CostKind::tests, CostKind::boxes, CostKind::depth,
                                                         CostKind::time};
@@ -23,7 +22,7 @@ bool same_view(const Camera& a, const Camera& b) { return a.from == b.from && a.
 
 }  // namespace
 
-Shot Controls::shot() const {
+RenderRequest Controls::request() const {
     return {settings_.camera, settings_.step,
             settings_.acceleration.value_or(default_accelerator(settings_.step.step))};
 }
@@ -72,8 +71,8 @@ void Controls::key(char character) {
 
 void Controls::press(const Point& place, Button button, bool shift) {
     pressed_ = last_ = place;
-    const bool in_strip = layout_.in_picture(place).y >= static_cast<float>(settings_.camera.height);
-    if (in_strip) {
+    const bool in_bar = layout_.in_picture(place).y >= static_cast<float>(settings_.camera.height);
+    if (in_bar) {
         drag_ = has_slider() ? Drag::slider : Drag::none;
         slide_to(place);
     } else if (button == Button::other || shift) {
@@ -120,7 +119,7 @@ void Controls::wheel(float notches) { set_camera(dolly(settings_.camera, std::po
 void Controls::choose_step(int step) {
     if (step <= settings_.last_step) {
         settings_.step.step = step;
-        events_.new_shot = true;
+        events_.new_request = true;
     }
 }
 
@@ -131,14 +130,14 @@ void Controls::next_acceleration() {
             all.push_back(entry.kind);
         }
     }
-    const Acceleration now = shot().acceleration;
+    const Acceleration now = request().acceleration;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i] == now) {
             settings_.acceleration = all[(i + 1) % all.size()];
             break;
         }
     }
-    events_.new_shot = true;
+    events_.new_request = true;
 }
 
 void Controls::next_map() {
@@ -161,7 +160,7 @@ void Controls::expose(float stops) {
 void Controls::set_camera(const Camera& camera) {
     if (!same_view(camera, settings_.camera)) {
         settings_.camera = camera;
-        events_.new_shot = true;
+        events_.new_request = true;
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include "render/pixel_cost.hpp"
 #include "view/layout.hpp"
-#include "view/progressive.hpp"
+#include "view/progressive_renderer.hpp"
 
 namespace raysteps {
 
@@ -39,13 +39,13 @@ public:
     void wheel(float notches);
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
-    [[nodiscard]] Shot shot() const;
+    [[nodiscard]] RenderRequest request() const;
     [[nodiscard]] bool camera_moved() const;
 
     /// What happened since it was last asked for.
     struct Events {
-        bool new_shot = false;  ///< another picture must be traced
-        bool new_look = false;  ///< the picture is the same, and shown in another way
+        bool new_request = false;  ///< another picture must be traced
+        bool new_look = false;     ///< the picture is the same, and shown in another way
         bool save = false;
         bool quit = false;
         std::optional<Pixel> click;

@@ -5,7 +5,7 @@
 
 #include "testing/testing.hpp"
 #include "view/content.hpp"
-#include "view/strip.hpp"
+#include "view/status_bar.hpp"
 
 using namespace raysteps;
 
@@ -40,7 +40,7 @@ TEST_CASE("A click is a pixel, also when the hand slips a little", "[view]") {
     REQUIRE(events.click);
     CHECK(events.click->x == 30);
     CHECK(events.click->y == 40);
-    CHECK_FALSE(events.new_shot);
+    CHECK_FALSE(events.new_request);
     CHECK_FALSE(controls.take_events().click);
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("Dragging turns the camera: the scene follows the hand", "[view]") {
     Controls controls = controls_of_step(8);  // from (0, 0, 5) at the origin
     drag(controls, {100.0F, 80.0F}, {140.0F, 80.0F}, Button::left, false);
     const Controls::Events events = controls.take_events();
-    CHECK(events.new_shot);
+    CHECK(events.new_request);
     CHECK_FALSE(events.click);
     const Camera& camera = controls.settings().camera;
     CHECK(camera.from.x < -1.0F);
@@ -75,7 +75,7 @@ TEST_CASE("Shift or another button moves the camera sideways", "[view]") {
         const Camera& camera = controls.settings().camera;
         CHECK(camera.at.x < 0.0F);
         CHECK(camera.from.x == Approx(camera.at.x));
-        CHECK(controls.take_events().new_shot);
+        CHECK(controls.take_events().new_request);
     }
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("The wheel changes the distance", "[view]") {
     CHECK(distance(controls.settings().camera) < 5.0F);
     controls.wheel(-2.0F);
     CHECK(distance(controls.settings().camera) > 5.0F);
-    CHECK(controls.take_events().new_shot);
+    CHECK(controls.take_events().new_request);
 }
 
 TEST_CASE("A digit beyond the kit's last step does nothing", "[view]") {
@@ -94,30 +94,30 @@ TEST_CASE("A digit beyond the kit's last step does nothing", "[view]") {
     start.last_step = 4;
     Controls controls(start);
     controls.key('5');
-    CHECK(controls.shot().step.step == 3);
-    CHECK_FALSE(controls.take_events().new_shot);
+    CHECK(controls.request().step.step == 3);
+    CHECK_FALSE(controls.take_events().new_request);
     controls.key('4');
-    CHECK(controls.shot().step.step == 4);
+    CHECK(controls.request().step.step == 4);
     controls.key('a');  // no structure belongs to these steps
-    CHECK(controls.shot().acceleration == Acceleration::none);
+    CHECK(controls.request().acceleration == Acceleration::none);
 }
 
 TEST_CASE("A digit chooses the step, and the step its structure unless a person chose one", "[view]") {
     Controls controls = controls_of_step(8);
-    CHECK(controls.shot().acceleration == Acceleration::octree);
+    CHECK(controls.request().acceleration == Acceleration::octree);
     controls.key('5');
-    CHECK(controls.shot().step.step == 5);
-    CHECK(controls.shot().acceleration == Acceleration::none);
+    CHECK(controls.request().step.step == 5);
+    CHECK(controls.request().acceleration == Acceleration::none);
     controls.key('9');
-    CHECK(controls.shot().acceleration == Acceleration::bvh);
+    CHECK(controls.request().acceleration == Acceleration::bvh);
     controls.key('0');
-    CHECK(controls.shot().step.step == 9);
-    CHECK(controls.take_events().new_shot);
+    CHECK(controls.request().step.step == 9);
+    CHECK(controls.take_events().new_request);
     controls.key('5');
     controls.key('a');
-    CHECK(controls.shot().acceleration == Acceleration::boxes);
+    CHECK(controls.request().acceleration == Acceleration::boxes);
     controls.key('8');
-    CHECK(controls.shot().acceleration == Acceleration::boxes);
+    CHECK(controls.request().acceleration == Acceleration::boxes);
 }
 
 TEST_CASE("M goes through the work maps and back to the picture", "[view]") {
@@ -126,7 +126,7 @@ TEST_CASE("M goes through the work maps and back to the picture", "[view]") {
     CHECK(controls.settings().map == CostKind::tests);
     const Controls::Events events = controls.take_events();
     CHECK(events.new_look);
-    CHECK_FALSE(events.new_shot);
+    CHECK_FALSE(events.new_request);
     for (int i = 0; i < 4; ++i) {
         controls.key('M');
     }
@@ -142,11 +142,12 @@ TEST_CASE("Exposure by key and by slider, from step 07 on", "[view]") {
     CHECK(controls.settings().stops == -0.5F);
     const Slider slider = slider_in(100);
     const float y = 2.0F * static_cast<float>(80 + slider.top + 1);
-    drag(controls, {100.0F, y}, {2.0F * static_cast<float>(slider.left + slider.width), y + 300.0F}, Button::left, false);
+    drag(controls, {100.0F, y}, {2.0F * static_cast<float>(slider.left + slider.width), y + 300.0F}, Button::left,
+         false);
     CHECK(controls.settings().stops == 4.0F);
     const Controls::Events events = controls.take_events();
     CHECK(events.new_look);
-    CHECK_FALSE(events.new_shot);
+    CHECK_FALSE(events.new_request);
     CHECK_FALSE(events.click);
 
     Controls earlier = controls_of_step(6);

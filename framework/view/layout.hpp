@@ -15,11 +15,11 @@ class Layout {
 public:
     Layout() = default;
     /// most_scale: a limit, as for a screenshot, which wants pixel for pixel
-    Layout(int width, int height, int window_width, int window_height, float most_scale)
+    Layout(int width, int height, int window_width, int window_height, float max_scale)
         : width_(width), height_(height), window_width_(window_width), window_height_(window_height) {
         const float fit = std::min(static_cast<float>(window_width) / static_cast<float>(width),
                                    static_cast<float>(window_height) / static_cast<float>(height));
-        scale_ = std::min(fit >= 1.0F ? std::floor(fit) : std::max(fit, 1e-3F), most_scale);
+        scale_ = std::min(fit >= 1.0F ? std::floor(fit) : std::max(fit, 1e-3F), max_scale);
     }
 
     [[nodiscard]] float scale() const { return scale_; }
@@ -32,7 +32,8 @@ public:
     [[nodiscard]] int window_height() const { return window_height_; }
 
     [[nodiscard]] Point in_picture(const Point& in_window) const {
-        return {(in_window.x - static_cast<float>(left())) / scale_, (in_window.y - static_cast<float>(top())) / scale_};
+        return {(in_window.x - static_cast<float>(left())) / scale_,
+                (in_window.y - static_cast<float>(top())) / scale_};
     }
 
     bool operator==(const Layout&) const = default;

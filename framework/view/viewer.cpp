@@ -7,12 +7,11 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "io/arguments.hpp"
-#include "io/ppm.hpp"
-#include "io/read_file.hpp"
+#include "io/files.hpp"
+#include "io/picture_file.hpp"
 #include "render/accelerator_registry.hpp"
+#include "view/async_inspector.hpp"
 #include "view/content.hpp"
-#include "view/pixel_asker.hpp"
 #include "view/window.hpp"
 
 namespace raysteps {
@@ -42,18 +41,23 @@ class Viewer {
 public:
     Viewer(Scene& scene, const ViewerOptions& options)
         : options_(options),
-          structures_(scene),
-          progressive_(scene, structures_, options.threads),
-          asker_(scene, structures_, options.scene),
-          controls_({scene.camera, options.step, options.acceleration, std::nullopt, 0.0F, options.last_step}),
+          accelerators_(scene),
+          renderer_(scene, accelerators_, options.threads),
+          inspector_(scene, accelerators_, options.scene),
+          controls_({.camera = scene.camera,
+                     .step = options.step,
+                     .acceleration = options.acceleration,
+                     .map = std::nullopt,
+                     .stops = 0.0F,
+                     .last_step = options.last_step}),
           window_(name(), scene.camera.width, content_height(scene.camera), !options.screenshot.empty(), events()) {}
 
     void run() {
-        progressive_.start(controls_.shot());
+        renderer_.start(controls_.request());
         while (!window_.is_closing() && !done_) {
             controls_.set_layout(window_.layout());
             window_.wait(is_idle() ? k_idle_seconds : k_frame_seconds);
-            obey(controls_.take_events());
+            handle(controls_.take_events());
             refresh();
             print_answer();
         }
@@ -66,25 +70,26 @@ private:
     [[nodiscard]] std::string name() const { return display_name(path_of(options_.scene).filename()); }
 
     WindowEvents events() {
-        return {[this](char character) { controls_.key(character); },
-                [this](const Point& place, Button button, bool shift) { controls_.press(place, button, shift); },
-                [this](const Point& place) { controls_.move(place); },
-                [this](const Point& place) { controls_.release(place); },
-                [this](float notches) { controls_.wheel(notches); }};
+        return {
+            .key = [this](char character) { controls_.key(character); },
+            .press = [this](const Point& place, Button button, bool shift) { controls_.press(place, button, shift); },
+            .move = [this](const Point& place) { controls_.move(place); },
+            .release = [this](const Point& place) { controls_.release(place); },
+            .wheel = [this](float notches) { controls_.wheel(notches); }};
     }
 
     [[nodiscard]] bool is_idle() const {
-        const Progressed progressed = progressive_.progressed();
-        return progressed.finished && progressed.version == shown_ && !redraw_ && asker_.is_idle();
+        const RenderStatus status = renderer_.status();
+        return status.finished && status.version == shown_ && !redraw_ && inspector_.is_idle();
     }
 
-    void obey(const Controls::Events& events) {
-        if (events.new_shot) {
-            progressive_.start(controls_.shot());
+    void handle(const Controls::Events& events) {
+        if (events.new_request) {
+            renderer_.start(controls_.request());
         }
         redraw_ = redraw_ || events.new_look;
         if (events.click) {
-            asker_.ask(controls_.shot(), *events.click, controls_.camera_moved());
+            inspector_.ask(controls_.request(), *events.click, controls_.camera_moved());
         }
         if (events.save) {
             save();
@@ -94,25 +99,25 @@ private:
 
     /// Shows what is new.
     void refresh() {
-        const Progressed progressed = progressive_.progressed();
+        const RenderStatus status = renderer_.status();
         redraw_ = window_.take_damage() || redraw_;
         const Clock::time_point begun = Clock::now();
-        if ((progressed.version == shown_ && !redraw_) || begun < earliest_) {
+        if ((status.version == shown_ && !redraw_) || begun < earliest_) {
             return;
         }
-        shown_ = progressed.version;
+        shown_ = status.version;
         redraw_ = false;
-        const std::string status = status_of(progressed);
+        const std::string text = status_of(status);
         copy_what_is_shown();
-        const Image image = content(frame_, controls_.settings(), status);
-        window_.set_title(name() + ", " + status);
-        if (progressed.finished && !completed_) {
+        const Image image = content(frame_, controls_.settings(), text);
+        window_.set_title(name() + ", " + text);
+        if (status.finished && !completed_) {
             completed_ = true;
             complete(image);
         } else {
             window_.show(image);
         }
-        report(progressed.problem);
+        report(status.problem);
         const Clock::time_point ended = Clock::now();
         earliest_ = ended + (ended - begun);
     }
@@ -129,34 +134,34 @@ private:
 
     void copy_what_is_shown() {
         if (controls_.settings().map) {
-            progressive_.copy_costs(frame_);
+            renderer_.copy_costs(frame_);
         } else {
-            progressive_.copy_colors(frame_);
+            renderer_.copy_colors(frame_);
         }
     }
 
-    [[nodiscard]] std::string status_of(const Progressed& progressed) const {
-        const Shot shot = controls_.shot();
-        const std::string made = progressed.problem.empty()
-                                     ? std::to_string(std::lround(std::floor(100.0 * progressed.share))) + "%"
+    [[nodiscard]] std::string status_of(const RenderStatus& status) const {
+        const RenderRequest request = controls_.request();
+        const std::string made = status.problem.empty()
+                                     ? std::to_string(std::lround(std::floor(100.0 * status.share))) + "%"
                                      : "failed, see the terminal";
-        return "step " + std::to_string(shot.step.step) + "  " + std::string(accelerator_entry(shot.acceleration).name) +
-               "  " + made;
+        return "step " + std::to_string(request.step.step) + "  " +
+               std::string(accelerator_entry(request.acceleration).name) + "  " + made;
     }
 
     /// Once, when the first picture is complete.
     void complete(const Image& image) {
         if (options_.click) {
-            asker_.ask(controls_.shot(), *options_.click, controls_.camera_moved());
+            inspector_.ask(controls_.request(), *options_.click, controls_.camera_moved());
         }
         if (options_.screenshot.empty()) {
             window_.show(image);
             return;
         }
         const Image read = window_.show_and_read(image);
-        write_ppm(options_.strip ? read : without_strip(read, controls_.settings().camera),
-                  path_of(options_.screenshot));
-        while (!asker_.idle_within(k_patience)) {
+        write_picture(options_.strip ? read : without_status_bar(read, controls_.settings().camera),
+                      path_of(options_.screenshot));
+        while (!inspector_.idle_within(k_patience)) {
         }
         print_answer();
         done_ = true;
@@ -168,7 +173,7 @@ private:
             copy_what_is_shown();
             const Image image = content(frame_, controls_.settings(), "");
             const bool map = controls_.settings().map.has_value();
-            write_ppm(map ? image : without_strip(image, controls_.settings().camera), path);
+            write_picture(map ? image : without_status_bar(image, controls_.settings().camera), path);
             say("saved " + display_name(path) + "\n");
         } catch (const std::exception& error) {
             std::fprintf(stderr, "raysteps view: %s\n", error.what());
@@ -176,22 +181,22 @@ private:
     }
 
     void print_answer() {
-        if (const std::optional<std::string> text = asker_.answer()) {
+        if (const std::optional<std::string> text = inspector_.answer()) {
             say(*text);
         }
     }
 
     void leave() {
-        if (!progressive_.stop(k_patience) || !asker_.idle_within(k_patience)) {
+        if (!renderer_.stop(k_patience) || !inspector_.idle_within(k_patience)) {
             std::fputs("raysteps view: a step did not come to an end, and was left\n", stderr);
             std::_Exit(0);  // a thread that hangs cannot be joined
         }
     }
 
     ViewerOptions options_;
-    Structures structures_;
-    Progressive progressive_;
-    PixelAsker asker_;
+    AcceleratorCache accelerators_;
+    ProgressiveRenderer renderer_;
+    AsyncInspector inspector_;
     Controls controls_;
     Window window_;
     Frame frame_;

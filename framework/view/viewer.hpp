@@ -14,7 +14,7 @@ struct ViewerOptions {
     std::optional<Acceleration> acceleration;
     int threads = 1;
     std::string screenshot;      ///< empty: stays open; else the complete picture is read back, written, and that is it
-    bool strip = false;          ///< whether the strip is written with it
+    bool strip = false;          ///< whether the status bar is written with it
     std::optional<Pixel> click;  ///< as if it was clicked once the picture is complete
 };
 

@@ -3,9 +3,8 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <bit>
 #include <utility>
-
-#include "view/window_texture.hpp"
 
 namespace raysteps {
 namespace {
@@ -37,6 +36,68 @@ public:
     Library& operator=(const Library&) = delete;
 };
 
+// The image as a texture on one rectangle.
+class WindowTexture {
+public:
+    /// Throws WindowError for an image that the graphics card has no room for.
+    void load(const Image& image);
+
+    /// In window pixels, from the top left corner.
+    void draw(const Layout& layout) const;
+
+private:
+    void grow(const Image& image);
+    void corner(bool right, bool bottom, const Layout& layout) const;
+
+    int width_ = 0;
+    int height_ = 0;
+    float right_ = 0.0F;  ///< the part of the texture that the image fills
+    float bottom_ = 0.0F;
+};
+
+void WindowTexture::load(const Image& image) {
+    static_assert(sizeof(Rgb8) == 3);
+    glEnable(GL_TEXTURE_2D);
+    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (image.width() > width_ || image.height() > height_) {
+        grow(image);
+    }
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width(), image.height(), GL_RGB, GL_UNSIGNED_BYTE,
+                    image.pixels().data());
+    right_ = static_cast<float>(image.width()) / static_cast<float>(width_);
+    bottom_ = static_cast<float>(image.height()) / static_cast<float>(height_);
+}
+
+/// OpenGL 1.1, which is all that Windows offers without further help, wants powers of two.
+void WindowTexture::grow(const Image& image) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    width_ = static_cast<int>(std::bit_ceil(static_cast<unsigned int>(image.width())));
+    height_ = static_cast<int>(std::bit_ceil(static_cast<unsigned int>(image.height())));
+    if (std::max(width_, height_) > most) {
+        throw WindowError("the picture is too large for a window: at most " + std::to_string(most) +
+                          " pixels a side, strip included; --size WxH makes it smaller");
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE, nullptr);
+}
+
+void WindowTexture::draw(const Layout& layout) const {
+    glBegin(GL_QUADS);
+    corner(false, false, layout);
+    corner(true, false, layout);
+    corner(true, true, layout);
+    corner(false, true, layout);
+    glEnd();
+}
+
+void WindowTexture::corner(bool right, bool bottom, const Layout& layout) const {
+    glTexCoord2f(right ? right_ : 0.0F, bottom ? bottom_ : 0.0F);
+    glVertex2i(layout.left() + (right ? layout.shown_width() : 0), layout.top() + (bottom ? layout.shown_height() : 0));
+}
+
 struct Extent {
     int width = 0;
     int height = 0;
@@ -52,8 +113,8 @@ Extent size_for(int width, int height, bool pixel_for_pixel) {
     int top = 0;
     Extent room;
     glfwGetMonitorWorkarea(monitor, &left, &top, &room.width, &room.height);
-    const int enlarged = std::max(1, std::min({k_wanted_width / width, k_wanted_height / height,
-                                               room.width / width, room.height / height}));
+    const int enlarged = std::max(
+        1, std::min({k_wanted_width / width, k_wanted_height / height, room.width / width, room.height / height}));
     return {std::clamp(enlarged * width, 1, std::max(1, room.width)),
             std::clamp(enlarged * height, 1, std::max(1, room.height))};
 }

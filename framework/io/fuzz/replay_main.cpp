@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/files.hpp"
 #include "io/numbers.hpp"
-#include "io/read_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -123,6 +123,7 @@ def test_the_container_has_what_the_kit_asks_for() -> None:
         "python3",
         "python3-venv",
         "libglm-dev",
+        "libstb-dev",
         "catch2",
         "libhwy-dev",
         "bubblewrap",

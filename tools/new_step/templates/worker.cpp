@@ -1,11 +1,11 @@
 // How the judge's worker asks the functions of step @NUMBER@: it reads what judge.py draws, in the same order.
-#include "apps/worker_functions.hpp"
 #include "steps/@ID@/@FILE@.hpp"
+#include "worker/functions.hpp"
 
 namespace raysteps {
 namespace {
 
-void ask_@FILE@_color(Words& words, Answer& answer) {
+void ask_@FILE@_color(TokenReader& words, TokenWriter& answer) {
     const Color color = words.vector();
     answer.vector(@FILE@_color(color, words.number()));
 }

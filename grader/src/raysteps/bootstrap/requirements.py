@@ -40,7 +40,11 @@ NINJA = Need(
 )
 VENV = Need("Python's venv", {"apt-get": "python3-venv"})
 # Asked for only where apt-get can bring them; elsewhere CMake fetches them itself.
-LIBRARIES = (Need("GLM", {"apt-get": "libglm-dev"}), Need("Catch2", {"apt-get": "catch2"}))
+LIBRARIES = (
+    Need("GLM", {"apt-get": "libglm-dev"}),
+    Need("Catch2", {"apt-get": "catch2"}),
+    Need("stb_image_write", {"apt-get": "libstb-dev"}),
+)
 # Grading other people's work needs a sandbox; one's own work does not, so nobody is stopped for want of it.
 SANDBOX = Need("bubblewrap", {"apt-get": "bubblewrap"})
 # For --accel wide; everything else works without it.

@@ -46,6 +46,7 @@ COMMANDS = (
     Command("update", "take in a newer kit; your own files stay", "raysteps.cli.update", "students"),
     Command("replay", "ask a hidden case again, as `check` or `grade` wrote it", "raysteps.cli.replay"),
     Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade"),
+    Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),

@@ -14,7 +14,6 @@ from raysteps.common.files import usable_folder
 from raysteps.common.text import number
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project, generated
-from raysteps.images.compare import read_ppm, write_png
 from raysteps.results.model import Results
 from raysteps.toolchain.build_kit import build_kit
 
@@ -35,13 +34,11 @@ def complain_about(sample: str, results: Results) -> None:
 
 
 def _render(program: Path, scene: Path, step: Step, folder: Path) -> Path:
-    picture, path = folder / f"{step.id}.ppm", folder / f"{step.id}.png"
-    words: list[str | Path] = [program, scene, "--step", str(step.index), "--size", _SIZE, "-o", picture, "--quiet"]
+    path = folder / f"{step.id}.png"
+    words: list[str | Path] = [program, scene, "--step", str(step.index), "--size", _SIZE, "-o", path, "--quiet"]
     outcome = process.run(words + (["--accel", "boxes"] if step.index < 6 else []), seconds=_SECONDS)
     if outcome.code != 0 or outcome.timed_out:
         raise GraderFault(f"the reference cannot render step {step.id}: {outcome.stderr.strip()}")
-    write_png(read_ppm(picture), path)
-    picture.unlink()
     return path
 
 

@@ -4,7 +4,6 @@ import argparse
 import re
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 from raysteps.cli.todo_steps import advice, as_far_as_written, wanted_step
@@ -22,7 +21,6 @@ from raysteps.grading.build_messages import (
     missing_name,
     undefined_message,
 )
-from raysteps.images.compare import PictureError, read_ppm, write_png
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
@@ -143,7 +141,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run_words(project: Project, args: list[str]) -> int:
-    """Same arguments as raytrace, and a name in .png makes a PNG."""
+    """Same arguments as raytrace, and --impl."""
     impl, args = take_impl(args)
     at = args.index("-o") + 1 if "-o" in args else len(args)
     if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
@@ -156,18 +154,5 @@ def run_words(project: Project, args: list[str]) -> int:
         said = advice(project, wanted_step(project, args))
         if said:
             print(f"raysteps: {said}", file=sys.stderr)
-    if at >= len(args) or Path(args[at]).suffix.lower() != ".png":
-        run_raytrace(program, args)
-        return 0
-    target = Path(args[at])
-    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        picture = Path(folder) / "picture.ppm"
-        run_raytrace(program, [*args[:at], str(picture), *args[at + 1 :]])
-        if not picture.exists():  # such as --help, which renders nothing
-            return 0
-        try:
-            write_png(read_ppm(picture), target)
-        except (PictureError, OSError) as error:
-            print(f"raysteps: {target}: {error}", file=sys.stderr)
-            return 2
+    run_raytrace(program, args)
     return 0

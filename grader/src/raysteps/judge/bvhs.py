@@ -7,7 +7,7 @@ from raysteps.judge.compare import Answer, TooLarge, TooMuchWork
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, TokenReader
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
-# Whoever writes an answer by hand may write any tree; framework/apps/worker_bvh.cpp knows the same numbers.
+# Whoever writes an answer by hand may write any tree; framework/worker/simple_bvh.cpp knows the same numbers.
 MOST_NODES = 5000
 MOST_ENTRIES = 50000
 _MAX = {"nodes": f"{MOST_NODES} nodes", "surfaces": f"{MOST_ENTRIES} surfaces"}

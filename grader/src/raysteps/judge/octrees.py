@@ -81,7 +81,7 @@ class Boxes:
 
 _Table: TypeAlias = npt.NDArray[np.bool_]  # of nodes (rows) and surfaces (columns)
 
-# Whoever writes an answer by hand may write any tree; framework/apps/worker_tree.cpp knows the same numbers.
+# Whoever writes an answer by hand may write any tree; framework/worker/simple_octree.cpp knows the same numbers.
 MOST_NODES = 5000
 MOST_ENTRIES = 50000
 DEEPEST = 500

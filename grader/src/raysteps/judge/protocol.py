@@ -1,6 +1,6 @@
 """What the judge gives to a function: numbers for the worker's line, and words for people.
 
-The order of the numbers is that of framework/apps/worker_values.hpp.
+The order of the numbers is that of framework/worker/protocol.hpp.
 """
 
 from collections.abc import Mapping

@@ -21,5 +21,5 @@ trap 'rm -rf "$out"' EXIT
 # This builds all that grading needs, and shows that this machine grades as it should: the sample is worth all points.
 raysteps grade grader/samples/complete --out "$out" --jobs 1
 # What the known mistakes answer and draw: a submission's container is thrown away, and would learn it again each time.
-raysteps dev learn
+raysteps learn
 chmod 700 "$kit"

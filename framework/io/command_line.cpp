@@ -1,0 +1,123 @@
+#include "io/command_line.hpp"
+
+#include <charconv>
+#include <cstdio>
+
+#include "io/files.hpp"
+
+namespace raysteps {
+namespace {
+
+bool is_digit(char character) { return character >= '0' && character <= '9'; }
+
+/// Such as --step; -5 is a number.
+bool looks_like_option(const std::string& word) {
+    return word.starts_with('-') && (word.size() == 1 || !is_digit(word[1]));
+}
+
+}  // namespace
+
+void refuse(std::string_view option, const std::string& expected, const std::string& found) {
+    throw UsageError(std::string(option) + ": expected " + expected + ", found '" + found + "'");
+}
+
+std::vector<int> numbers_in(std::string_view text, char separator, std::size_t count) {
+    std::vector<int> values;
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0 && (at == end || *at++ != separator)) {
+            return {};
+        }
+        int value = 0;
+        const auto [after, error] = std::from_chars(at, end, value);
+        if (error != std::errc{}) {
+            return {};
+        }
+        values.push_back(value);
+        at = after;
+    }
+    return at == end ? values : std::vector<int>{};
+}
+
+int number_between(std::string_view option, const std::string& text, int least, int most) {
+    const std::vector<int> values = numbers_in(text, ' ', 1);
+    if (values.empty() || values.front() < least || values.front() > most) {
+        refuse(option, "a whole number from " + std::to_string(least) + " to " + std::to_string(most), text);
+    }
+    return values.front();
+}
+
+std::string join_or(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+CommandLine& CommandLine::option(const std::string& name, Setter set) {
+    options_[name] = std::move(set);
+    return *this;
+}
+
+CommandLine& CommandLine::option(const std::string& name, std::string& text) {
+    return option(name, [&text](const std::string& value) { text = value; });
+}
+
+CommandLine& CommandLine::number(const std::string& name, int& number, int least, int most) {
+    return option(name, [=, &number](const std::string& text) { number = number_between(name, text, least, most); });
+}
+
+CommandLine& CommandLine::flag(const std::string& name, bool& set) {
+    flags_[name] = {.set = &set, .ends = false};
+    return *this;
+}
+
+CommandLine& CommandLine::ending(const std::string& name, bool& set) {
+    flags_[name] = {.set = &set, .ends = true};
+    return *this;
+}
+
+std::vector<std::string> CommandLine::parse(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& argument = arguments[i];
+        const auto option = options_.find(argument);
+        const auto flag = flags_.find(argument);
+        if (option != options_.end()) {
+            if (i + 1 == arguments.size()) {
+                throw UsageError(argument + ": expected a value after it");
+            }
+            option->second(arguments[++i]);
+        } else if (flag != flags_.end()) {
+            *flag->second.set = true;
+            if (flag->second.ends) {
+                return words;
+            }
+        } else if (looks_like_option(argument) || words.size() == max_words_) {
+            refuse("arguments", expected_, argument);
+        } else {
+            words.push_back(argument);
+        }
+    }
+    return words;
+}
+
+int run_program(const char* command, const std::function<void()>& work) {
+    constexpr int k_exit_usage = 2;
+    try {
+        work();
+        return 0;
+    } catch (const ReadError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    } catch (const UsageError& error) {
+        std::fprintf(stderr, "raysteps %s: %s\nAll options: ./raysteps %s --help\n", command, error.what(), command);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "raysteps %s: %s\n", command, error.what());
+    }
+    return k_exit_usage;
+}
+
+}  // namespace raysteps

@@ -1,0 +1,62 @@
+#pragma once
+// Surfaces of the worker's own: they count for themselves how often they were asked.
+#include "core/scene.hpp"
+#include "core/sphere.hpp"
+#include "core/triangle.hpp"
+#include "worker/protocol.hpp"
+
+namespace raysteps {
+
+/// How often the surfaces of one case were asked.
+struct Asked {
+    long long times = 0;
+};
+
+class CountedSphere final : public Sphere {
+public:
+    CountedSphere(const glm::vec3& center, float radius, const Fill& fill, Asked& asked)
+        : Sphere(center, radius, fill), asked_(asked) {}
+
+    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override {
+        ++asked_.times;
+        return Sphere::intersect(ray);
+    }
+
+private:
+    Asked& asked_;
+};
+
+class CountedTriangle final : public Triangle {
+public:
+    CountedTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const Fill& fill, Asked& asked)
+        : Triangle(a, b, c, fill), asked_(asked) {}
+
+    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override {
+        ++asked_.times;
+        return Triangle::intersect(ray);
+    }
+
+private:
+    Asked& asked_;
+};
+
+/// Is hit by every ray at one distance, or by none: a search can be judged without anybody's intersection.
+class ScriptedSurface final : public Surface {
+public:
+    ScriptedSurface(std::optional<float> distance, const Fill& fill, Asked& asked)
+        : Surface(fill), distance_(distance), asked_(asked) {}
+
+    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
+    [[nodiscard]] Box bounds() const override { return {glm::vec3(-1e6F), glm::vec3(1e6F)}; }
+    [[nodiscard]] bool overlaps(const Box& /*box*/) const override { return true; }
+
+private:
+    std::optional<float> distance_;
+    Asked& asked_;
+};
+
+/// How many, then each: 0 and a sphere (centre, radius), 1 and a triangle (three corners), 2 and a distance,
+/// 3 for a surface that no ray hits. Surface i has red (i + 1) / 256, by which an answer is known.
+[[nodiscard]] Scene read_surfaces(TokenReader& words, Asked& asked);
+
+}  // namespace raysteps

@@ -1,0 +1,71 @@
+#pragma once
+// The text that the worker reads and writes: words and numbers between blanks, and the kit's values as such numbers.
+// The judge's values.py writes and reads the same order.
+#include <glm/vec3.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/box.hpp"
+#include "core/camera.hpp"
+#include "core/hit_record.hpp"
+#include "core/light.hpp"
+
+namespace raysteps {
+
+/// A case that nobody can run: the judge's mistake, not the student's.
+class ProtocolError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The words of one line, from left to right. Every reader throws ProtocolError where there is no such word.
+class TokenReader {
+public:
+    explicit TokenReader(std::string_view line) : rest_(line) {}
+
+    [[nodiscard]] std::string word();
+    [[nodiscard]] float number();  ///< also inf, -inf and nan
+    [[nodiscard]] int whole();
+    [[nodiscard]] bool flag() { return whole() != 0; }
+    [[nodiscard]] int count();  ///< from 0 to a million
+    [[nodiscard]] glm::vec3 vector();
+    void expect_end();
+
+private:
+    std::string_view rest_;
+};
+
+/// The words of an answer.
+class TokenWriter {
+public:
+    TokenWriter& word(std::string_view word);
+    TokenWriter& number(float value);  ///< the shortest text that reads back as the same float
+    TokenWriter& whole(long long value);
+    TokenWriter& vector(const glm::vec3& value);
+
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+[[nodiscard]] Ray read_ray(TokenReader& words);          ///< origin, direction
+[[nodiscard]] Camera read_camera(TokenReader& words);    ///< from, at, up, angle, width, height
+[[nodiscard]] ViewFrame read_frame(TokenReader& words);  ///< right, up, forward, half width, half height
+[[nodiscard]] Fill read_fill(TokenReader& words);        ///< colour, kd, ks, shine, transmittance, index
+[[nodiscard]] Light read_light(TokenReader& words);      ///< position, colour
+[[nodiscard]] Box read_box(TokenReader& words);          ///< min, max
+/// Position, fill, normal, ray direction, distance, from outside.
+[[nodiscard]] HitRecord read_hit(TokenReader& words);
+/// How many, then each.
+[[nodiscard]] std::vector<Light> read_lights(TokenReader& words);
+
+void write_ray(TokenWriter& answer, const Ray& ray);
+void write_frame(TokenWriter& answer, const ViewFrame& frame);
+void write_hit(TokenWriter& answer, const std::optional<HitRecord>& hit);  ///< `miss`, or `hit` and the record
+void write_box(TokenWriter& answer, const Box& box);
+
+}  // namespace raysteps

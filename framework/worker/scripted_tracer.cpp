@@ -1,0 +1,48 @@
+#include "worker/scripted_tracer.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "steps/02-intersection/intersection.hpp"
+#include "steps/05-reflection/reflection.hpp"
+
+namespace raysteps {
+
+std::optional<HitRecord> ListQuery::closest_hit(const Ray& ray) const {
+    return raysteps::closest_hit(surfaces_, ray);
+}
+
+// Position and side follow the ray that really came, so that a record is never at odds with it.
+std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {
+    const std::size_t number = calls_.cast.size();
+    calls_.cast.push_back(ray);
+    if (number >= script_.hits.size()) {
+        return std::nullopt;
+    }
+    const ScriptedHit& scripted = script_.hits[number];
+    HitRecord hit;
+    hit.position = ray.origin + scripted.distance * ray.direction;
+    hit.fill.color = scripted.local;  // what is mirrored keeps its hue, whatever the colour of the mirror
+    hit.fill.ks = scripted.ks;
+    hit.normal = glm::dot(scripted.normal, ray.direction) <= 0.0F ? scripted.normal : -scripted.normal;
+    hit.ray_direction = ray.direction;
+    hit.distance = scripted.distance;
+    return hit;
+}
+
+// The distances of a script differ, so that they tell which hit it is.
+Color ScriptedTracer::local_light(const HitRecord& hit, int depth) {
+    calls_.shaded.push_back({hit.distance, depth});
+    for (const ScriptedHit& scripted : script_.hits) {
+        if (scripted.distance == hit.distance) {
+            return scripted.local;
+        }
+    }
+    return k_black;
+}
+
+Color ScriptedTracer::trace(const Ray& ray, int depth) {
+    calls_.traced.push_back({ray, depth});
+    return script_.traced ? *script_.traced : raysteps::trace(*this, ray, depth);
+}
+
+}  // namespace raysteps
