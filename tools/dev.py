@@ -6,6 +6,8 @@ from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.common.errors import UsageError
+from raysteps.common.text import join_and
 from raysteps.course.manifest import read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
@@ -14,7 +16,9 @@ from raysteps.toolchain.kit_artifacts import ProgressCallback
 from tools import mistake_pages as handbook
 from tools.calibration.calibrate import calibrate
 from tools.grade_audit import check_truth
+from tools.lint import LANGUAGES, TIDY, lint_checks, reformat
 from tools.new_step import new_step
+from tools.selftest.checks import run_checks
 from tools.test_submissions import outdated_samples, write_samples
 
 # The commands `dev stubs`, `dev samples` and `dev mistakes`, for those who maintain the kit.
@@ -83,6 +87,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
     add.add_argument("--pairs", type=int, default=0, metavar="N", help="also random pairs of mistakes in two steps")
     add.add_argument("--seed", type=int, default=1, metavar="N", help="of the hidden cases and of the pairs (1)")
+    for name, said in (
+        ("lint", "ask the linters and formatters what they would change"),
+        ("format", "format the kit's own code, and mend what linters mend by themselves"),
+    ):
+        add = commands.add_parser(name, help=said)
+        add.add_argument(
+            "languages", nargs="*", metavar="LANGUAGE", help=f"of {', '.join(LANGUAGES)} (all of these), {TIDY}"
+        )
+
+
+def _chosen(languages: list[str]) -> tuple[str, ...]:
+    unknown = [language for language in languages if language not in (*LANGUAGES, TIDY)]
+    if unknown:
+        raise UsageError(f"{join_and(unknown)}: expected {', '.join((*LANGUAGES, TIDY))}")
+    return tuple(languages) or LANGUAGES
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -90,6 +109,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     match arguments.what:
         case "new":
             return new_step.run(project, arguments)
+        case "lint" | "format":
+            return run_checks(
+                (lint_checks if arguments.what == "lint" else reformat)(project, _chosen(arguments.languages)), console
+            )
         case "stubs":
             return stubs(project, check=arguments.check)
         case "samples":

@@ -20,7 +20,10 @@ RayRole role_of(RayKind kind, const Ray& ray, const RayNode& parent) {
     return back ? RayRole::internal : RayRole::refract;
 }
 
-bool same(const HitRecord& a, const HitRecord& b) { return a.distance == b.distance && a.position == b.position; }
+bool gave(const RayNode* ray, const HitRecord& hit) {
+    return ray != nullptr && ray->hit && ray->hit->hit.position == hit.position &&
+           ray->hit->hit.distance == hit.distance;
+}
 
 }  // namespace
 
@@ -77,8 +80,7 @@ RayNode* RayTree::kept(RayNode* node, const Ray& ray) {
 
 RayNumber RayTree::ray_of_hit(const HitRecord& hit, RayNumber first, RayNumber last) const {
     for (RayNumber ray = last;; ray = rays_[ray].from) {
-        const RayNode* const sent = node(ray);
-        if (sent != nullptr && sent->hit && same(sent->hit->hit, hit)) {
+        if (gave(node(ray), hit)) {
             return ray;
         }
         if (ray == first) {

@@ -17,6 +17,7 @@ struct Letter {
     std::array<std::uint8_t, k_letter_height> rows;
 };
 
+// clang-format off
 constexpr std::array k_letters = std::to_array<Letter>({
     {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
     {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
@@ -60,6 +61,7 @@ constexpr std::array k_letters = std::to_array<Letter>({
     {'-', {0x00, 0x00, 0x00, 0x1f, 0x00, 0x00, 0x00}},
     {'%', {0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03}},
 });
+// clang-format on
 
 char capital(char letter) { return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter; }
 

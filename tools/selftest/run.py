@@ -12,6 +12,7 @@ from raysteps.course.stubs import outdated_stubs
 from raysteps.toolchain.cmake import BuildTree
 from tools.figures.command import out_of_date as old_figures
 from tools.grade_audit import check_truth
+from tools.lint import TIDY, lint_checks
 from tools.mistake_pages import out_of_date
 from tools.selftest.checks import Check, Report, run_checks
 from tools.selftest.debian import CACHE, PAGES, WINDOW, install
@@ -63,16 +64,13 @@ def _figures(project: Project) -> Report:
 
 
 def python_checks(project: Project) -> list[Check]:
-    grader = project.root / "grader"
     python = Path(sys.executable)
     generator = project.scenes / "generate.py"
     return [
         Check("stubs match the solutions", lambda: _stubs(project)),
         Check("samples match the solutions", lambda: _samples(project)),
         Check("generated scenes match the generator", lambda: command([python, generator, "--check"], project.root)),
-        Check("ruff check", lambda: command([python, "-m", "ruff", "check", "."], grader)),
-        Check("ruff format", lambda: command([python, "-m", "ruff", "format", "--check", "."], grader)),
-        Check("mypy --strict", lambda: command([python, "-m", "mypy"], grader)),
+        *lint_checks(project, ("python", "scripts", "cpp")),
         Check("pytest, with grading from end to end", lambda: run_pytest(project, "not slow")),
     ]
 
@@ -121,9 +119,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     checks += python_checks(project)
     if full:
         checks.append(Check(_SLOW, lambda: run_pytest(project, "slow")))
-        checks += asan_checks(project) + clang_checks(project) + windows_checks(project, tree)
+        checks += asan_checks(project) + clang_checks(project) + lint_checks(project, (TIDY,))
+        checks += windows_checks(project, tree)
     else:
         more = Report("skipped", "run: ./raysteps test --full")
-        names = (_SLOW, "sanitizers", "build everything with clang", "fuzz-readers for 60 s", "Windows")
+        names = (_SLOW, "sanitizers", "build everything with clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
         checks += [Check(name, lambda: more) for name in names]
     return run_checks(checks, console)

@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 import sys
+from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
 from raysteps.common.markdown import Block, with_tags, with_targets
 from raysteps.course.project import Project, here
-from tools.site.documents import COMMANDS_PAGE, below, documents, front_page, sections
+from tools.site.documents import below, documents, front_page, sections
 from tools.site.links import is_elsewhere, is_shell, split
 
 # What the theme leaves out for people who use a keyboard or a screen reader.
@@ -166,13 +167,15 @@ class _Stage:
         path.write_text(text, encoding="utf-8")
 
 
-def stage(project: Project, folder: Path, commands: str, *, gallery: bool) -> None:
-    """Fills the folder. `commands` is the text of the page of commands; `gallery` is whether the site has its page."""
+def stage(project: Project, folder: Path, made_pages: Mapping[Path, str], *, gallery: bool) -> None:
+    """Fills the folder. `made_pages` are the texts of pages that nobody wrote; `gallery` is whether the site has its
+    page."""
     made = _Stage(project, folder)
     for document in documents(project):
         is_gallery = gallery and document == Path("docs/gallery.md")
         made.put(document, _OPEN_GALLERY if is_gallery else _menu(project, document))
-    made.write(COMMANDS_PAGE, commands)
+    for page, text in made_pages.items():
+        made.write(page, text)
     static = folder / "_static"
     static.mkdir()
     shutil.copyfile(Path(__file__).parent / "static" / "site.css", static / "site.css")

@@ -12,9 +12,10 @@ from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.report.terminal import short_path
+from tools.site.api_pages import api_pages
 from tools.site.build import GALLERY, build_site, check_place, check_tools, put, stage
 from tools.site.command_page import command_page
-from tools.site.documents import documents
+from tools.site.documents import COMMANDS_PAGE, documents
 from tools.site.links import dead_links
 
 
@@ -40,13 +41,13 @@ def _troubles(project: Project) -> list[str]:
     return [*dead_links(project.root, written), *bad_formulas(project.root, written)]
 
 
-def _build(project: Project, out: Path, gallery: Path | None, commands: str, console: Console) -> list[str]:
+def _build(project: Project, out: Path, gallery: Path | None, pages: dict[Path, str], console: Console) -> list[str]:
     """Builds beside its place, and puts it there when nothing is wrong."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
         work = Path(name)
         (work / "stage").mkdir()
-        stage(project, work / "stage", commands, gallery=gallery is not None)
+        stage(project, work / "stage", pages, gallery=gallery is not None)
         with console.status("building the site"):
             troubles = build_site(work / "stage", work / "site", work)
         if gallery is not None:
@@ -63,7 +64,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     check_tools()
     troubles = _troubles(project)
     if not troubles:
-        troubles = _build(project, out, arguments.gallery, command_page(project, new_parser(project)), console)
+        pages = {COMMANDS_PAGE: command_page(project, new_parser(project)), **api_pages(project)}
+        troubles = _build(project, out, arguments.gallery, pages, console)
     for trouble in troubles:
         console.print(escape(trouble), highlight=False)
     if troubles:

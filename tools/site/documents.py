@@ -6,18 +6,23 @@ from pathlib import Path
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 
-COMMANDS_PAGE = Path("docs/commands.md")  # made from the command line itself, so not in the repository
+# Made from the command line and from the headers, so not in the repository.
+COMMANDS_PAGE = Path("docs/commands.md")
+CORE_PAGE = Path("docs/core.md")
+CONTRACTS_PAGE = Path("docs/contracts.md")
+_MADE = (COMMANDS_PAGE, CORE_PAGE, CONTRACTS_PAGE)
 MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
     ("For students", ("students", "where-students-work", "paper")),
     ("For instructors", ("instructors", "class", "exports", "release")),
     ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
-    ("Reference", ("commands", "formats", "mistakes/README", "spd", "benchmarks")),
+    ("Reference", ("glossary", "commands", "contracts", "core", "formats", "mistakes/README", "spd", "benchmarks")),
     (
         "How it works",
         ("architecture", "handouts", "site", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration"),
     ),
 )
+_PROJECT = ("CONTRIBUTING", "CHANGELOG", "SECURITY", "THIRD_PARTY", "LICENSE-CC-BY-4.0")  # at the top of the repository
 
 
 @dataclass(frozen=True)
@@ -49,14 +54,16 @@ def sections(project: Project) -> list[Section]:
     for title, names in _SECTIONS:
         wanted = [*names, *others] if title == _SECTIONS[-1][0] else list(names)
         pages = [Path("docs") / f"{name}.md" for name in wanted]
-        made.append(Section(title, tuple(p for p in pages if p == COMMANDS_PAGE or (project.root / p).is_file())))
+        made.append(Section(title, tuple(p for p in pages if p in _MADE or (project.root / p).is_file())))
     reference = next(section for section in made if section.title == "Reference")
     made[made.index(reference)] = Section(reference.title, (*reference.pages, Path("scenes/README.md")))
     made.insert(1, Section("The steps", handouts))
+    project_pages = tuple(Path(f"{name}.md") for name in _PROJECT if (project.root / f"{name}.md").is_file())
+    made.append(Section("The project", project_pages))
     return [section for section in made if section.pages]
 
 
 def documents(project: Project) -> list[Path]:
     """All that are written by hand, from the repository on."""
-    pages = [page for section in sections(project) for page in section.pages if page != COMMANDS_PAGE]
+    pages = [page for section in sections(project) for page in section.pages if page not in _MADE]
     return [front_page(), *pages, *(child for page in pages for child in below(project, page))]

@@ -7,6 +7,8 @@ import pytest
 from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
 from raysteps.common.errors import UsageError
 
+pytestmark = pytest.mark.portable
+
 _POLICY = """
 deadline = 2026-11-20T23:59:00+01:00
 grace_minutes = 10

@@ -7,6 +7,8 @@ import pytest
 from raysteps.classroom.roster import Student, match, read_roster
 from raysteps.common.errors import UsageError
 
+pytestmark = pytest.mark.portable
+
 
 def _write(folder: Path, text: str) -> Path:
     path = folder / "roster.csv"

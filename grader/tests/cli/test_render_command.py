@@ -115,6 +115,6 @@ def test_the_renderer_speaks_of_the_command_that_a_person_types(
 def test_a_png_has_the_pixels_of_the_ppm(kit: BuiltKit, project: Project, tmp_path: Path) -> None:
     scene = project.scenes / "lessons" / "three-spheres.nff"
     for name in ("a.ppm", "a.png"):
-        words = [kit.reference("raytrace"), scene, "--size", "67x41", "-o", tmp_path / name]
+        words: list[str | Path] = [kit.reference("raytrace"), scene, "--size", "67x41", "-o", tmp_path / name]
         assert run(words, seconds=60).code == 0
     assert (read_png(tmp_path / "a.png") == read_ppm(tmp_path / "a.ppm")).all()

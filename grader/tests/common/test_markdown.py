@@ -4,6 +4,8 @@ import pytest
 
 from raysteps.common.markdown import unlinked
 
+pytestmark = pytest.mark.portable
+
 
 @pytest.mark.parametrize(
     ("text", "expected"),

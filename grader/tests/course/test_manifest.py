@@ -8,6 +8,8 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step, choose, read_step
 from raysteps.course.project import Project
 
+pytestmark = pytest.mark.portable
+
 
 def test_points_sum_to_100_and_a_bonus_of_20(steps: list[Step]) -> None:
     assert [step.points for step in steps] == [10, 20, 15, 10, 15, 20, 10, 10, 10]

@@ -16,6 +16,8 @@ from raysteps.judge.cases import functions_of
 from raysteps.judge.functions import Case
 from raysteps.judge.random_source import RandomSource
 
+pytestmark = pytest.mark.portable
+
 _AMOUNT = 40
 
 

@@ -8,6 +8,8 @@ import pytest
 from raysteps.course.project import Project
 from tools.site.links import dead_links
 
+pytestmark = pytest.mark.portable
+
 _WIDEST = 120  # columns
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _NOT_TO_BREAK = re.compile(r"\|.*|!\[.*\]\(\S+\)")  # a row of a table, a picture
@@ -16,7 +18,7 @@ _NOT_TO_BREAK = re.compile(r"\|.*|!\[.*\]\(\S+\)")  # a row of a table, a pictur
 def _documents(project: Project) -> list[Path]:
     folders = ("docs", "steps", "scenes", "solutions")
     found = [path for folder in folders for path in (project.root / folder).rglob("*.md")]
-    return [project.root / "README.md", *found]
+    return [*project.root.glob("*.md"), *found]
 
 
 def test_every_link_within_the_kit_leads_somewhere(project: Project) -> None:

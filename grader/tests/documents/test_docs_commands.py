@@ -8,6 +8,8 @@ from doc_commands import all_commands, complaint
 from raysteps.course.project import Project
 from tools.site.links import typed
 
+pytestmark = pytest.mark.portable
+
 
 def test_every_command_of_the_documents_can_be_read(project: Project) -> None:
     commands = all_commands(project)

@@ -11,6 +11,8 @@ from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import validate
 from raysteps.exports.hosted import by_id
 
+pytestmark = pytest.mark.portable
+
 
 def test_the_last_line_holds_the_scores(steps: list[Step]) -> None:
     made = mixed(steps, HOSTILE)

@@ -10,6 +10,8 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.exports.gradebook import Sheet, read_sheet
 
+pytestmark = pytest.mark.portable
+
 
 def _sheet(tmp_path: Path, data: bytes) -> Sheet:
     path = tmp_path / "in.csv"

@@ -7,6 +7,8 @@ from export_documents import HOSTILE, document, full, step_result
 
 from raysteps.course.manifest import Step
 
+pytestmark = pytest.mark.portable
+
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_grader_would_accept_them(steps: list[Step], seed: int) -> None:

@@ -5,6 +5,8 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.exports.class_results import GradedStudent, Person, match
 
+pytestmark = pytest.mark.portable
+
 
 def _graded(submission: str = "x", id: str = "", name: str = "", email: str = "") -> GradedStudent:  # noqa: A002
     return GradedStudent(submission, id, name, email, 1.0, 1.0, 10.0)

@@ -9,6 +9,8 @@ from export_documents import mixed, step_result
 from raysteps.course.manifest import Step
 from raysteps.exports.items import apportion, entries_of
 
+pytestmark = pytest.mark.portable
+
 
 def _hundredths(value: float) -> int:
     assert abs(value * 100 - round(value * 100)) < 1e-6, f"{value} is no whole number of hundredths"

@@ -17,6 +17,8 @@ from raysteps.exports.formats import encoded, validate
 from raysteps.exports.hosted import by_id
 from raysteps.exports.prairielearn import MAX_BYTES, not_gradable, score, to_prairielearn
 
+pytestmark = pytest.mark.portable
+
 
 def _with_pictures(made: dict[str, Any], folder: Path, size: tuple[int, int], *, noisy: bool) -> None:
     chance = np.random.default_rng(3)

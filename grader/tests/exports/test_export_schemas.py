@@ -9,6 +9,8 @@ import pytest
 
 from raysteps.exports import formats
 
+pytestmark = pytest.mark.portable
+
 _FOLDER = Path(formats.__file__).parent / "schemas"
 
 

@@ -100,7 +100,7 @@ def _synopsis(project: Project, parser: argparse.ArgumentParser, words: list[str
     if words[0] in ("render", "view"):
         program = "raytrace" if words[0] == "render" else "view"
         known |= {"--impl", *re.findall(r"--?[\w-]+", usage(project, program))}
-    if len(found) == 1 and words[0] not in ("...", "…") and not words[0].isupper():
+    if len(found) == 1 and words[0] not in ("...", "…") and not words[0].isupper() and not words[0].startswith("-"):
         return f"no command is called {words[0]}"
     unknown = [option for word in words for option in re.findall(r"^\[?(--?[a-z][\w-]*)", word) if option not in known]
     return f"unknown: {', '.join(unknown)}" if unknown else ""

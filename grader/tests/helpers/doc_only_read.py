@@ -7,6 +7,9 @@ _FIGURES = "takes minutes; `test` does what --check does"
 
 COMMANDS = {
     "./raysteps test": "is what runs the tests",
+    "./raysteps test --full": "is what runs the tests",
+    "./raysteps dev lint": "`test` asks the same",
+    "./raysteps dev format": "`test` asks whether it would change anything",
     "./raysteps dev check": _TRUTH,
     "./raysteps dev check --only 02": _TRUTH,
     "./raysteps dev check --pairs 40": _TRUTH,
@@ -27,6 +30,7 @@ SOMEBODY_ELSES = {
     "../.venv/bin/python": "runs a test; `test --full` runs all",
     ".venv/bin/dask": "starts a cluster; test_class_cluster does it",
     ".venv/bin/pip": "installs",
+    ".venv/bin/pre-commit": "changes what git does",
     "brew": "installs",
     "docker": "takes minutes, and needs a network",
     "java": "JPlag is no part of the kit",

@@ -25,8 +25,9 @@ _WORKSHEET = """Identifier,"Full name","ID number","Email address",Status,Grade,
 """
 # What is copied: a person's own submissions and grades may lie beside it.
 _FILES = (
-    ".clang-format", ".editorconfig", ".gitattributes", ".gitignore", "CMakeLists.txt", "CMakePresets.json", "LICENSE",
-    "README.md", "raysteps",
+    ".clang-format", ".editorconfig", ".gitattributes", ".gitignore", "CHANGELOG.md", "CMakeLists.txt",
+    "CMakePresets.json", "CONTRIBUTING.md", "LICENSE", "LICENSE-CC-BY-4.0.md", "README.md", "SECURITY.md",
+    "THIRD_PARTY.md", "raysteps",
 )  # fmt: skip
 _FOLDERS = (
     ".devcontainer", ".github", ".vscode", "bench", "cmake", "course", "docs", "framework", "grader", "scenes",

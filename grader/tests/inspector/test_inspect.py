@@ -164,11 +164,11 @@ def test_what_nobody_saw_is_no_difference(record: Record) -> None:
     """A step 05 that calls itself tells only the sum of what its reflected rays bring."""
     mine = copy.deepcopy(record)
     mine["ray"]["bounces"][0]["color"] = None
-    assert find_parting(mine, record) is None
+    assert find_divergence(mine, record) is None
     mine["ray"]["color"] = [0.5, 0.5, 0.5]
-    parting = find_parting(mine, record)
-    assert parting is not None
-    assert (parting.place, parting.function) == (("eye", "color"), "trace")
+    divergence = find_divergence(mine, record)
+    assert divergence is not None
+    assert (divergence.place, divergence.function) == (("eye", "color"), "trace")
 
 
 def test_other_boxes_and_more_tests_are_no_difference(project: Project, program: Path, record: Record) -> None:
@@ -232,9 +232,9 @@ def test_the_first_difference_is_named(
 ) -> None:
     mine = copy.deepcopy(record)
     change(mine)
-    parting = find_divergence(mine, record)
-    assert parting is not None
-    assert (parting.place, parting.function) == (place, function)
+    divergence = find_divergence(mine, record)
+    assert divergence is not None
+    assert (divergence.place, divergence.function) == (place, function)
     assert words in parting.words
     for width in (60, 160):
         console = Console(width=width, record=True, file=io.StringIO())

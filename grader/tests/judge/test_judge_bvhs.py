@@ -10,6 +10,8 @@ from raysteps.judge.compare import Verdict
 from raysteps.judge.protocol import Box, Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
 
+pytestmark = pytest.mark.portable
+
 _LEFT, _RIGHT = Sphere((-2.0, 0.0, 0.0), 1.0), Sphere((2.0, 0.0, 0.0), 1.0)
 _TWO: Inputs = {"surfaces": Surfaces((_LEFT, _RIGHT))}
 _ALL, _WEST, _EAST = "-3 -1 -1 3 1 1", "-3 -1 -1 -1 1 1", "1 -1 -1 3 1 1"

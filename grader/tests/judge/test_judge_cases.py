@@ -13,6 +13,8 @@ from raysteps.judge.hidden_tests import ORDINARY_SHARE, make_cases
 from raysteps.judge.numbers import f32, text
 from raysteps.judge.plan import Plan, read_plan
 
+pytestmark = pytest.mark.portable
+
 _SLIPS = 2  # of the ordinary cases may be wrong before the other kinds do not count
 _FEW = 3  # kinds of cases at least, so that a share says something
 

@@ -8,6 +8,8 @@ from raysteps.grading.options import Feedback, withhold
 from raysteps.results.model import CaseGroup, HiddenResult, Results, StepResult
 from raysteps.results.store import validate
 
+pytestmark = pytest.mark.portable
+
 _SECRETS = ("given-secret", "expected-secret", "actual-secret")
 _DIAGNOSIS = ("message-secret", "group-secret", "name-secret")
 

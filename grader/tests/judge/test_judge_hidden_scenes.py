@@ -9,6 +9,8 @@ from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes, perturbed_s
 from raysteps.judge.plan import read_plan
 from raysteps.judge.random_source import RandomSource
 
+pytestmark = pytest.mark.portable
+
 
 def _scenes(project: Project, step: Step, seed: int) -> list[HiddenScene]:
     plan = read_plan(project, step)

@@ -7,6 +7,8 @@ import pytest
 from raysteps.judge.protocol import Ray
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Triangle, distance_to, first_distance
 
+pytestmark = pytest.mark.portable
+
 _BALL = Sphere((0.0, 0.0, 0.0), 1.0)
 _SHEET = Triangle((-1.0, -1.0, -3.0), (1.0, -1.0, -3.0), (0.0, 1.0, -3.0))
 _DOWN = (0.0, 0.0, -1.0)

@@ -9,6 +9,8 @@ from tools.bench.records import geometric_mean, growth, spread_of
 from tools.bench.scale import growth_of, sizes
 from tools.bench.threads import thread_counts
 
+pytestmark = pytest.mark.portable
+
 
 def test_the_geometric_mean_of_a_ratio_and_its_inverse_is_1() -> None:
     assert geometric_mean([4.0, 0.25]) == pytest.approx(1.0)

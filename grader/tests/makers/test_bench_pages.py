@@ -11,6 +11,8 @@ from tools.bench.page_tables import markdown
 from tools.bench.records import NAMES
 from tools.bench.render import against_embree, names_of
 
+pytestmark = pytest.mark.portable
+
 _SVG = "{http://www.w3.org/2000/svg}"
 
 

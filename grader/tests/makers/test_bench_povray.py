@@ -9,6 +9,8 @@ from PIL import Image
 from raysteps.common.errors import GraderFault, UsageError
 from tools.bench.povray import brightness_difference, linear_picture, pov_text, read_flat, trace_seconds
 
+pytestmark = pytest.mark.portable
+
 _VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 90\nhither 1\nresolution 64 64\nb 0.1 0.2 0.3\n"
 _SHAPES = """l 1 2 3 0.5 0.6 0.7
 l 4 5 6

@@ -15,9 +15,10 @@ from raysteps.common.errors import UsageError
 from raysteps.common.markdown import anchors, formulas
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
+from tools.site.api_pages import api_pages
 from tools.site.build import check_place, put
 from tools.site.command_page import command_page
-from tools.site.documents import documents
+from tools.site.documents import CONTRACTS_PAGE, CORE_PAGE, documents
 from tools.site.formulas import BadFormula, bad_formulas, mathml
 from tools.site.links import dead_links
 
@@ -62,6 +63,17 @@ def test_the_page_of_commands_has_every_option(project: Project) -> None:
         assert re.search(f"^##+ {command}$", page, re.MULTILINE)
     for option in ("--require-sandbox", "--late-policy", "--map-scale", "--screenshot"):
         assert option in page
+
+
+def test_the_pages_of_headers_have_every_declaration_and_nothing_private(project: Project) -> None:
+    pages = api_pages(project)
+    contracts, core = pages[CONTRACTS_PAGE], pages[CORE_PAGE]
+    for step in read_steps(project):
+        assert f"## {step.number} {step.title}" in contracts
+        assert [name for name in step.functions if name.rpartition(":")[2] not in contracts + core] == []
+    assert "Box::clip" in contracts
+    assert "virtual bool overlaps" in core
+    assert not re.search("#include|private:|Fill fill_;", contracts + core)
 
 
 def _written(folder: Path, *names: str) -> Path:

@@ -13,6 +13,8 @@ from PIL import Image
 from raysteps.release.leaks import find_leaks, strange
 from raysteps.release.secrets import NgramIndex, Secrets
 
+pytestmark = pytest.mark.portable
+
 _TEXT = b"int main() { return 0; }\n" * 20
 
 

@@ -10,6 +10,8 @@ from raysteps.progress.check import exit_code
 from raysteps.results.model import ImageResult, Results, StepResult, TestResult
 from raysteps.results.store import validate, write_document
 
+pytestmark = pytest.mark.portable
+
 
 def _step(**changes: object) -> StepResult:
     step = StepResult("01-camera-rays", "passed", 10.0, 10.0, False)

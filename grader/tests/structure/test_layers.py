@@ -7,6 +7,8 @@ import pytest
 
 from raysteps.course.project import Project
 
+pytestmark = pytest.mark.portable
+
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 _LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "worker", "testing")
 _ALLOWED = {

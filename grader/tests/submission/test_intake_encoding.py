@@ -11,6 +11,8 @@ from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
 from raysteps.submission.load import load_submission
 
+pytestmark = pytest.mark.portable
+
 TEXT = "// Gr\u00f6\u00dfe\n#include <a>\n\nint x = 1;\n"
 
 

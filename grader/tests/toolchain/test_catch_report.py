@@ -4,6 +4,8 @@ import pytest
 
 from raysteps.toolchain.catch2 import Failure, parse_report
 
+pytestmark = pytest.mark.portable
+
 CASES = """<TestCase name="good" tags="[04-shadows][is_lit]" filename="/k/a_test.cpp" line="3">
 <OverallResult success="true"/></TestCase>
 <TestCase name="bad" filename="/k/a_test.cpp" line="7"><Section name="inner">

@@ -7,6 +7,8 @@ import pytest
 from raysteps.course.project import Project
 from raysteps.toolchain.build_kit import fingerprint
 
+pytestmark = pytest.mark.portable
+
 FILES = {
     "CMakeLists.txt": "project(x)",
     "CMakePresets.json": "{}",

@@ -8,6 +8,8 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.toolchain.limits import limits_of, parse_limits
 
+pytestmark = pytest.mark.portable
+
 
 def test_a_course_changes_what_the_manifest_says(steps: list[Step]) -> None:
     step = replace(steps[0], more_limits=(("compile_seconds", 9.0), ("processes", 5.0)))

@@ -9,6 +9,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import Literal
 
+from raysteps import __version__
 from raysteps.cli.errors import EXITS, console_here, exit_code_of
 from raysteps.course.project import Project, here
 
@@ -83,6 +84,7 @@ def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentPa
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
+    parser.add_argument("--version", action="version", version=f"raysteps {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     impl = "; --impl mine|reference" if project.has_reference else ""
     for command in _commands(project):

@@ -70,7 +70,7 @@ def into_folder(members: Sequence[Member], folder: Path) -> None:
 
 # The files of the kit that another machine needs for grading.
 
-_FILES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "raysteps")
+_FILES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "LICENSE-CC-BY-4.0.md", "README.md", "raysteps")
 _FOLDERS = ("cmake", "framework", "grader", "scenes", "solutions", "steps")
 _LEFT_OUT = (("grader", "tests"),)
 _TOOLS = {"__pycache__", "build"}
@@ -105,7 +105,7 @@ def kit_files(project: Project) -> list[KitFile]:
     found = [KitFile(place, root / place) for place in sorted(listed) if _belongs(place)]
     files = [file for file in found if file.source.is_file() and not file.source.is_symlink()]
     there = {file.place.parts[0] for file in files}
-    missing = [name for name in (*_FILES, *_FOLDERS) if name not in there and name not in ("LICENSE", "README.md")]
+    missing = [name for name in (*_FILES, *_FOLDERS) if name not in there and not name.endswith((".md", "LICENSE"))]
     if missing:
         raise GraderFault(f"{root}: {', '.join(missing)} is missing, so this is no whole kit")
     return files

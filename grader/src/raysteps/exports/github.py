@@ -21,7 +21,7 @@ _FIELDS = {
 
 
 def whole_points(document: Mapping[str, Any]) -> list[tuple[int, int]]:
-    """Each step's points and their most as whole numbers. The sums are the rounded sums; no step exceeds its most."""
+    """Each step's points and maximum as whole numbers. The sums are the rounded sums; no step exceeds its most."""
     results = document["steps"]
     most = [round(result["max"] * 100) for result in results]
     points = [min(round(result["points"] * 100), cap) for result, cap in zip(results, most, strict=True)]

@@ -129,9 +129,9 @@ def blame_bounce(mine: Record, own: Vector | None, theirs: Vector | None, whole:
     return whole if same_direction(own, theirs) else part
 
 
-# What the contracts of the steps make of the values that a record itself holds. A right program may hit a hair's
-# breadth beside the reference, and mirrors spread that. So a value that differs is no mistake where it follows from
-# the record's own values.
+# What the contracts of the steps make of the values that a record itself holds. A right program may hit slightly
+# beside the reference, and mirrors amplify that. So a value that differs is no mistake where it follows from the
+# record's own values.
 
 Color = Vector | None
 _BLACK = (0.0, 0.0, 0.0)

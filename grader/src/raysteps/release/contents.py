@@ -153,6 +153,7 @@ _ROOT = {
     "CMakeLists.txt",
     "CMakePresets.json",
     "LICENSE",
+    "LICENSE-CC-BY-4.0.md",
     "raysteps",
     "raysteps.cmd",
     "raysteps.py",

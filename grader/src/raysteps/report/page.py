@@ -17,6 +17,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from PIL import Image
 
+from raysteps import __version__
+
 _UNSAFE = {ord(sign): f"\\u{ord(sign):04x}" for sign in "<>&\u2028\u2029"}
 _ENDING = re.compile(r"</|<!--", re.IGNORECASE)
 
@@ -82,6 +84,7 @@ def render_page(
     programs = [_static(f"{name}.js") for name in scripts]
     shell = {
         "page_title": title,
+        "page_version": __version__,
         "page_policy": _policy(sheets, programs, connect=connect),
         "page_styles": [Markup(sheet) for sheet in sheets],  # noqa: S704 - files of this package
         "page_scripts": [Markup(program) for program in programs],  # noqa: S704

@@ -323,6 +323,7 @@ def _page(document: Mapping[str, Any], album: Mapping[Place, ShownImage], steps:
         "left_out": sum(shown.left_out for shown in album.values()),
         "facts": {
             "kit": clean(document["kit"], 200),
+            "version": clean(document.get("version", ""), 200),
             "isolation": clean(document["isolation"]["name"], 200),
         },
     }

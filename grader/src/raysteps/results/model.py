@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
+from raysteps import __version__
 from raysteps.results.work_ratio import Work
 from raysteps.sandbox.task import Isolation
 
@@ -154,6 +155,7 @@ class Results:
             "schema": "raysteps/results/v1",
             "submission": self.submission,
             "kit": self.kit,
+            "version": __version__,
             "seed": self.seed,
             "isolation": asdict(self.isolation),
             "timing": asdict(self.timing),

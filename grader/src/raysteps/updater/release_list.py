@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from raysteps import __version__
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash
 from raysteps.common.schemas import complaint, read_schema
@@ -85,6 +86,7 @@ class Release:
     kit: str  # fingerprint of the kit that it was made from
     steps: tuple[str, ...]
     files: tuple[ListedFile, ...]
+    version: str = __version__  # of that kit; empty where one before 0.2.0 made the release
 
     def by_path(self) -> dict[str, ListedFile]:
         return {file.path: file for file in self.files}
@@ -92,7 +94,7 @@ class Release:
 
 def encoded(release: Release) -> bytes:
     """The document; one that breaks its schema is the kit's fault, a file that no repository may have the course's."""
-    document = {"schema": _FORM, **asdict(release)}
+    document = {"schema": _FORM, "version": release.version, **asdict(release)}
     document["steps"], document["files"] = list(release.steps), [asdict(file) for file in release.files]
     problem = complaint(document, read_schema("raysteps.updater", "release.schema.json"))
     if problem:
@@ -126,7 +128,7 @@ def parse(data: bytes, where: str) -> Release:
     wrong = path_problem(file.path for file in files)
     if wrong:
         raise UsageError(f"{where}: {wrong}")
-    return Release(document["course"], document["kit"], tuple(document["steps"]), files)
+    return Release(document["course"], document["kit"], tuple(document["steps"]), files, document.get("version", ""))
 
 
 def read_release(folder: Path) -> Release | None:

@@ -52,11 +52,13 @@ class ClassFilter {
     const hidden = this.rows.namesHidden;
     const count = this.rows.filter(({ facts }) => {
       const words = hidden ? facts.alias : facts.words;
-      return search.every((word) => words.includes(word))
-        && this.matchesStep(facts)
-        && (!this.value("look") || facts.look)
-        && (!this.value("late") || facts.late)
-        && (this.mistake === null || facts.mistakes.includes(this.mistake));
+      return (
+        search.every((word) => words.includes(word)) &&
+        this.matchesStep(facts) &&
+        (!this.value("look") || facts.look) &&
+        (!this.value("late") || facts.late) &&
+        (this.mistake === null || facts.mistakes.includes(this.mistake))
+      );
     });
     this.tell(count);
   }

@@ -3,10 +3,9 @@
 /** Hides who is who: names, addresses of links and everything that may tell a name, until it is switched off. */
 class ClassNames {
   /**
-   * @param {HTMLTableElement} table
    * @param {ClassRows} rows
    */
-  constructor(table, rows) {
+  constructor(rows) {
     this.rows = rows;
     this.named = rows.rows.map(({ element, facts }) => ({ element: element.cells[0].firstElementChild, facts }));
     for (const element of document.querySelectorAll("[data-row]")) {

@@ -7,7 +7,7 @@ function startClassPage() {
   const table = document.querySelector(".class-table");
   const form = document.getElementById("filters");
   const rows = new ClassRows(table, data.rows);
-  const names = new ClassNames(table, rows);
+  const names = new ClassNames(rows);
   const sortAgain = makeSortable(table, rows);
   const filter = new ClassFilter(form, rows, data.mistakes);
 

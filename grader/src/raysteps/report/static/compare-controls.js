@@ -34,8 +34,15 @@ const compareKeys = [
 ];
 
 function makeHelp() {
-  const rows = compareKeys.map(([keys, does]) => make("tr", {}, make("th", { scope: "row" }, keys), make("td", {}, does)));
-  return make("details", { class: "compare-help" }, make("summary", {}, "Keys"), make("table", {}, make("tbody", {}, ...rows)));
+  const rows = compareKeys.map(([keys, does]) =>
+    make("tr", {}, make("th", { scope: "row" }, keys), make("td", {}, does)),
+  );
+  return make(
+    "details",
+    { class: "compare-help" },
+    make("summary", {}, "Keys"),
+    make("table", {}, make("tbody", {}, ...rows)),
+  );
 }
 
 function makeReadout(names) {
@@ -45,7 +52,10 @@ function makeReadout(names) {
     return make("tr", {}, make("th", { scope: "row" }, label), cells[id]);
   };
   const rows = [
-    row("place", "Pixel"), row("reference", names.reference), row("mine", names.mine), row("difference", "Difference"),
+    row("place", "Pixel"),
+    row("reference", names.reference),
+    row("mine", names.mine),
+    row("difference", "Difference"),
     row("flip", "FLIP"),
   ];
   return { readout: make("table", { class: "compare-readout" }, make("tbody", {}, ...rows)), cells };
@@ -60,33 +70,79 @@ function makeReadout(names) {
 function makeControls(label, names, act) {
   const ui = {};
   ui.views = compareViews.map(({ id, label: text }, at) =>
-    makeButton(text, { "data-view": id, "aria-pressed": "false", title: `${text} (key ${at + 1})` }, () => act.view(id)));
+    makeButton(text, { "data-view": id, "aria-pressed": "false", title: `${text} (key ${at + 1})` }, () =>
+      act.view(id),
+    ),
+  );
   ui.zoom = make("output", { class: "compare-zoom" }, "1×");
-  const bar = make("div", { class: "compare-bar" },
+  const bar = make(
+    "div",
+    { class: "compare-bar" },
     make("div", { role: "group", "aria-label": "View", class: "compare-group" }, ...ui.views),
-    make("div", { role: "group", "aria-label": "Zoom", class: "compare-group" },
-      makeButton("−", { "aria-label": "Zoom out" }, () => act.zoom(0.5)), ui.zoom,
-      makeButton("+", { "aria-label": "Zoom in" }, () => act.zoom(2)), makeButton("Fit", {}, () => act.fit())));
+    make(
+      "div",
+      { role: "group", "aria-label": "Zoom", class: "compare-group" },
+      makeButton("−", { "aria-label": "Zoom out" }, () => act.zoom(0.5)),
+      ui.zoom,
+      makeButton("+", { "aria-label": "Zoom in" }, () => act.zoom(2)),
+      makeButton("Fit", {}, () => act.fit()),
+    ),
+  );
 
   ui.canvas = make("canvas", { "aria-hidden": "true" });
-  ui.names = { left: make("span", { class: "compare-name left" }), right: make("span", { class: "compare-name right" }) };
-  ui.divider = make("div", {
-    class: "compare-divider", role: "slider", tabindex: 0, "aria-orientation": "horizontal", "aria-valuemin": 0,
-    "aria-valuemax": 100, "aria-label": `Divider between ${names.reference} and ${names.mine}`,
-  }, make("span", { "aria-hidden": "true" }, "⇔"));
-  ui.stage = make("div", {
-    class: "compare-stage", tabindex: 0, role: "application", "aria-label": `${label}: ${names.reference} and ${names.mine}`,
-    "aria-roledescription": "picture comparison",
-  }, ui.canvas, ui.names.left, ui.names.right, ui.divider);
+  ui.names = {
+    left: make("span", { class: "compare-name left" }),
+    right: make("span", { class: "compare-name right" }),
+  };
+  ui.divider = make(
+    "div",
+    {
+      class: "compare-divider",
+      role: "slider",
+      tabindex: 0,
+      "aria-orientation": "horizontal",
+      "aria-valuemin": 0,
+      "aria-valuemax": 100,
+      "aria-label": `Divider between ${names.reference} and ${names.mine}`,
+    },
+    make("span", { "aria-hidden": "true" }, "⇔"),
+  );
+  ui.stage = make(
+    "div",
+    {
+      class: "compare-stage",
+      tabindex: 0,
+      role: "application",
+      "aria-label": `${label}: ${names.reference} and ${names.mine}`,
+      "aria-roledescription": "picture comparison",
+    },
+    ui.canvas,
+    ui.names.left,
+    ui.names.right,
+    ui.divider,
+  );
 
   ui.play = makeButton("Pause", {}, () => act.play());
   ui.rate = make("input", { type: "range", min: 0.5, max: 3, step: 0.5, value: 1, "aria-label": "Changes a second" });
   ui.rate.addEventListener("input", () => act.rate(Number(ui.rate.value)));
-  ui.blink = make("div", { class: "compare-below", hidden: true }, ui.play, makeButton("Swap", {}, () => act.swap()),
-    make("span", { class: "muted" }, "slow"), ui.rate, make("span", { class: "muted" }, "fast"));
+  ui.blink = make(
+    "div",
+    { class: "compare-below", hidden: true },
+    ui.play,
+    makeButton("Swap", {}, () => act.swap()),
+    make("span", { class: "muted" }, "slow"),
+    ui.rate,
+    make("span", { class: "muted" }, "fast"),
+  );
   const scale = make("canvas", { "aria-hidden": "true" });
   drawHeatLegend(scale);
-  ui.legend = make("div", { class: "compare-below", hidden: true }, make("span", {}, "0 same"), scale, make("span", {}, "1 different"));
+  ui.legend = make(
+    "div",
+    { class: "compare-below", hidden: true },
+    make("span", {}, "0 same"),
+    scale,
+    make("span", {}, "1 different"),
+  );
 
   ui.count = make("p", { class: "compare-count" }, "The pictures are read when they are seen.");
   ui.first = makeButton("First wrong pixel", { disabled: true }, () => act.go("first"));
@@ -98,9 +154,26 @@ function makeControls(label, names, act) {
   makeCopyButton(ui.copy, ui.command);
   ui.inspect = make("div", { class: "compare-command", hidden: true }, ui.command, ui.copy);
   ui.say = make("p", { role: "status", class: "hidden-text" });
-  const panel = make("div", { class: "compare-panel" }, ui.count, make("div", { class: "compare-group" }, ui.first, ui.worst),
-    readout, ui.inspect, makeHelp(), ui.say);
-  ui.root = make("div", { class: "compare" }, bar,
-    make("div", { class: "compare-body" }, make("div", { class: "compare-show" }, ui.stage, ui.blink, ui.legend), panel));
+  const panel = make(
+    "div",
+    { class: "compare-panel" },
+    ui.count,
+    make("div", { class: "compare-group" }, ui.first, ui.worst),
+    readout,
+    ui.inspect,
+    makeHelp(),
+    ui.say,
+  );
+  ui.root = make(
+    "div",
+    { class: "compare" },
+    bar,
+    make(
+      "div",
+      { class: "compare-body" },
+      make("div", { class: "compare-show" }, ui.stage, ui.blink, ui.legend),
+      panel,
+    ),
+  );
   return ui;
 }

@@ -158,7 +158,9 @@ class CompareDesk {
 
   #tellView() {
     const { ui, view } = this;
-    ui.views.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.view === view)));
+    for (const button of ui.views) {
+      button.setAttribute("aria-pressed", String(button.dataset.view === view));
+    }
     ui.stage.dataset.view = view;
     ui.divider.hidden = view !== "slider";
     ui.blink.hidden = view !== "blink";
@@ -172,7 +174,10 @@ class CompareDesk {
     const percent = Math.round(this.split * 100);
     this.ui.divider.style.left = `${this.split * 100}%`;
     this.ui.divider.setAttribute("aria-valuenow", String(percent));
-    this.ui.divider.setAttribute("aria-valuetext", `${percent} % ${this.names.reference}, ${100 - percent} % ${this.names.mine}`);
+    this.ui.divider.setAttribute(
+      "aria-valuetext",
+      `${percent} % ${this.names.reference}, ${100 - percent} % ${this.names.mine}`,
+    );
     this.refresh();
   }
 

@@ -15,7 +15,10 @@ const heatStops = [
  * @returns {number[]} red, green and blue
  */
 function heatColour(value) {
-  const after = Math.max(1, heatStops.findIndex(([at]) => at >= value));
+  const after = Math.max(
+    1,
+    heatStops.findIndex(([at]) => at >= value),
+  );
   const [[from, dark], [to, light]] = [heatStops[after - 1], heatStops[after]];
   const share = (value - from) / (to - from);
   return dark.map((channel, at) => Math.round(channel + share * (light[at] - channel)));

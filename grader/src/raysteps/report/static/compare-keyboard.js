@@ -54,15 +54,25 @@ function compareKey(event, ui, act) {
     return true;
   }
   if (target === ui.stage && (key === "Enter" || key === " ")) {
-    return key === " " && act.blinks() ? (act.play(), true) : (act.keep(), true);
+    if (key === " " && act.blinks()) {
+      act.play();
+    } else {
+      act.keep();
+    }
+    return true;
   }
   if (/^[1-5]$/.test(key)) {
     act.view(compareViews[Number(key) - 1].id);
     return true;
   }
   const others = {
-    "+": () => act.zoom(2), "=": () => act.zoom(2), "-": () => act.zoom(0.5), "_": () => act.zoom(0.5),
-    "0": () => act.fit(), f: () => act.go("first"), w: () => act.go("worst"),
+    "+": () => act.zoom(2),
+    "=": () => act.zoom(2),
+    "-": () => act.zoom(0.5),
+    _: () => act.zoom(0.5),
+    0: () => act.fit(),
+    f: () => act.go("first"),
+    w: () => act.go("worst"),
   };
   const other = others[key.toLowerCase()];
   other?.();

@@ -62,11 +62,15 @@ function listenToPointers({ stage, divider }, act) {
   stage.addEventListener("pointercancel", lift);
   stage.addEventListener("pointerleave", () => act.leave());
   stage.addEventListener("dblclick", (event) => act.zoomAt(2, place(event).left, place(event).top));
-  stage.addEventListener("wheel", (event) => {
-    const factor = 1.0025 ** -(event.deltaY * (event.deltaMode === 1 ? 16 : 1));
-    if (event.ctrlKey || event.metaKey || (stage.matches(":focus-within") && act.canZoom(factor))) {
-      event.preventDefault();
-      act.zoomAt(factor, place(event).left, place(event).top);
-    }
-  }, { passive: false });
+  stage.addEventListener(
+    "wheel",
+    (event) => {
+      const factor = 1.0025 ** -(event.deltaY * (event.deltaMode === 1 ? 16 : 1));
+      if (event.ctrlKey || event.metaKey || (stage.matches(":focus-within") && act.canZoom(factor))) {
+        event.preventDefault();
+        act.zoomAt(factor, place(event).left, place(event).top);
+      }
+    },
+    { passive: false },
+  );
 }

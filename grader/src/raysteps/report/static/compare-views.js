@@ -38,8 +38,14 @@ function halves(whole, stacked) {
   const gap = 2;
   const [width, height] = [(whole.width - gap) / 2, (whole.height - gap) / 2];
   return stacked
-    ? [{ ...whole, height }, { ...whole, top: height + gap, height }]
-    : [{ ...whole, width }, { ...whole, left: width + gap, width }];
+    ? [
+        { ...whole, height },
+        { ...whole, top: height + gap, height },
+      ]
+    : [
+        { ...whole, width },
+        { ...whole, left: width + gap, width },
+      ];
 }
 
 /**
@@ -57,7 +63,13 @@ function shownIn(view, pair, names, size, shared, state) {
   const show = (role, box, clip, at) => {
     const raster = pair[role];
     const picture = raster ?? { width: pair.width || 4, height: pair.height || 3 };
-    return { pane: new Pane(box, picture, shared), layer: pictureLayer(raster), clip, name: raster ? names[role] : `${names[role]}: no picture`, at };
+    return {
+      pane: new Pane(box, picture, shared),
+      layer: pictureLayer(raster),
+      clip,
+      name: raster ? names[role] : `${names[role]}: no picture`,
+      at,
+    };
   };
   const single = (layer, name) => [{ pane: new Pane(whole, pair, shared), layer, clip: whole, name, at: "left" }];
   switch (view) {

@@ -38,7 +38,9 @@ function tellColour(cell, colour) {
 /** Fills the readout with a pixel, or empties it. */
 function tellPixel(cells, pair, pixel) {
   if (!pixel) {
-    Object.values(cells).forEach((cell) => cell.replaceChildren("–"));
+    for (const cell of Object.values(cells)) {
+      cell.replaceChildren("–");
+    }
     return;
   }
   const { x, y } = pixel;
@@ -61,7 +63,8 @@ function tellPair(ui, pair, names) {
     const { id, needsBoth } = compareViews.find((view) => view.id === button.dataset.view);
     button.disabled = (needsBoth && !pair.comparable) || (id === "flip" && !pair.flip);
     if (id === "flip" && !pair.flip) {
-      button.title = pair.comparable && !pair.wrong ? "FLIP: there is no difference" : "FLIP: there is no map of these pictures";
+      button.title =
+        pair.comparable && !pair.wrong ? "FLIP: there is no difference" : "FLIP: there is no map of these pictures";
     }
   }
   ui.first.disabled = ui.worst.disabled = !pair.wrong;

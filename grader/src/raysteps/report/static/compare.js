@@ -2,13 +2,18 @@
 
 /** @type {WeakMap<Element, (seen: boolean) => void>} */
 const compareSeen = new WeakMap();
-const compareWatch = new IntersectionObserver((entries) => {
-  for (const entry of entries) {
-    compareSeen.get(entry.target)?.(entry.isIntersecting);
-  }
-}, { rootMargin: "150px" });
+const compareWatch = new IntersectionObserver(
+  (entries) => {
+    for (const entry of entries) {
+      compareSeen.get(entry.target)?.(entry.isIntersecting);
+    }
+  },
+  { rootMargin: "150px" },
+);
 const compareResize = new ResizeObserver((entries) => {
-  entries.forEach(({ target }) => target.closest("compare-pictures")?.resized());
+  for (const { target } of entries) {
+    target.closest("compare-pictures")?.resized();
+  }
 });
 
 /** `<compare-pictures>`: two pictures, and the ways to find where they differ. Nothing is read before it is seen. */
@@ -38,7 +43,9 @@ class ComparePictures extends HTMLElement {
    * @param {{reference?: {src: string, name?: string, alt?: string}, mine?: object, flip?: object}} pictures
    */
   setPictures(pictures) {
-    this.querySelectorAll(":scope > img").forEach((image) => image.remove());
+    for (const image of this.querySelectorAll(":scope > img")) {
+      image.remove();
+    }
     for (const [role, picture] of Object.entries(pictures)) {
       if (picture) {
         const { src, name = role, alt = name } = picture;
@@ -76,7 +83,12 @@ class ComparePictures extends HTMLElement {
   #build() {
     const name = (role) => this.#image(role)?.dataset.name ?? this.getAttribute(`${role}-name`) ?? role;
     const names = { reference: name("reference"), mine: name("mine") };
-    this.#desk = new CompareDesk(this.getAttribute("label") ?? "Pictures", names, this.#shared, this.getAttribute("inspect"));
+    this.#desk = new CompareDesk(
+      this.getAttribute("label") ?? "Pictures",
+      names,
+      this.#shared,
+      this.getAttribute("inspect"),
+    );
     this.#desk.marks.onPixel = ({ x, y }) => this.#tell(x, y);
     const sized = this.#image("reference") ?? this.#image("mine");
     this.append(this.#desk.ui.root);

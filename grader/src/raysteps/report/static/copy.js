@@ -27,7 +27,9 @@ function makeCopyButton(button, shown) {
   button.addEventListener("click", async () => {
     button.textContent = (await copyShown(shown)) ? "Copied" : "Selected: Ctrl+C";
     clearTimeout(back);
-    back = setTimeout(() => { button.textContent = label; }, 2500);
+    back = setTimeout(() => {
+      button.textContent = label;
+    }, 2500);
   });
 }
 

@@ -17,8 +17,12 @@ class Gallery {
 
   start() {
     this.walk.read(location.hash);
-    this.onClick("[data-scene]", (button) => { this.walk.scene = Number(button.dataset.scene); });
-    this.onClick("[data-mode]", (button) => { this.walk.mode = button.dataset.mode; });
+    this.onClick("[data-scene]", (button) => {
+      this.walk.scene = Number(button.dataset.scene);
+    });
+    this.onClick("[data-mode]", (button) => {
+      this.walk.mode = button.dataset.mode;
+    });
     this.onClick("[data-go]", (button) => {
       this.walk.go(Number(button.dataset.go));
       this.find("wall").scrollIntoView({ block: "nearest" });
@@ -48,7 +52,9 @@ class Gallery {
     const acts = {
       n: () => this.walk.move(1),
       p: () => this.walk.move(-1),
-      s: () => { this.walk.scene = (this.walk.scene + 1) % this.walk.scenes; },
+      s: () => {
+        this.walk.scene = (this.walk.scene + 1) % this.walk.scenes;
+      },
     };
     if (Object.hasOwn(acts, event.key)) {
       acts[event.key]();
@@ -80,9 +86,10 @@ class Gallery {
     this.hang(left, right);
     this.tell(left, right);
     this.strip.mark(walk);
-    const press = (which, chosen) => document.querySelectorAll(which).forEach((button) => {
-      button.setAttribute("aria-pressed", String(chosen(button)));
-    });
+    const press = (which, chosen) =>
+      document.querySelectorAll(which).forEach((button) => {
+        button.setAttribute("aria-pressed", String(chosen(button)));
+      });
     press("[data-scene]", (button) => Number(button.dataset.scene) === walk.scene);
     press("[data-mode]", (button) => button.dataset.mode === walk.mode);
     this.find("previous").disabled = !walk.canMoveBack;
@@ -102,7 +109,9 @@ class Gallery {
     }
     this.shownPair = pair;
     const picture = ({ name, shot }) => ({
-      src: this.data.pictures[shot.picture], name, alt: `${this.scene.title}: ${name}`,
+      src: this.data.pictures[shot.picture],
+      name,
+      alt: `${this.scene.title}: ${name}`,
     });
     const focused = this.picture.contains(document.activeElement);
     this.picture.setPictures({ reference: picture(left), mine: picture(right) });
@@ -122,11 +131,13 @@ class Gallery {
       ? "To the left, all that a first ray knows: where it goes. To the right, what the same ray brings back in the end."
       : step.new;
     this.find("next").firstChild.textContent = overview ? "Begin the walk " : "Next ";
-    this.find("same").hidden = left.shot.picture === null || left.shot.picture !== right.shot.picture
-      || (this.walk.mode === "steps" && this.walk.left === this.walk.right);
+    this.find("same").hidden =
+      left.shot.picture === null ||
+      left.shot.picture !== right.shot.picture ||
+      (this.walk.mode === "steps" && this.walk.left === this.walk.right);
     this.find("note").textContent = right.shot.picture === null ? "" : right.shot.note;
     this.find("note").hidden = this.find("note").textContent === "";
-    showGalleryWork(this.find("work"), overview ? [] : this.scene.work[step.index] ?? [], this.data.pictures);
+    showGalleryWork(this.find("work"), overview ? [] : (this.scene.work[step.index] ?? []), this.data.pictures);
   }
 }
 

@@ -8,7 +8,11 @@
  */
 
 const RAY_COLORS = {
-  eye: [1, 1, 1], reflect: [0.35, 0.8, 1], refract: [0.45, 0.95, 0.55], lit: [1, 0.85, 0.3], blocked: [1, 0.42, 0.36],
+  eye: [1, 1, 1],
+  reflect: [0.35, 0.8, 1],
+  refract: [0.45, 0.95, 0.55],
+  lit: [1, 0.85, 0.3],
+  blocked: [1, 0.42, 0.36],
 };
 const BOX_NOW = [1, 0.62, 0.2];
 const BOX_ENTERED = [0.72, 0.74, 0.8];
@@ -26,8 +30,14 @@ class InsideView {
     this.surfaces = [];
     for (const surface of space.surfaces) {
       const mesh = meshOf(surface);
-      const around = surface.radii.length === 1 && Math.hypot(...sub3(surface.points[0], space.camera.from)) < surface.radii[0];
-      if (mesh) this.surfaces.push({ number: surface.surface, color: surface.color, kept: this.painter.keepMesh(mesh, around) });
+      const around =
+        surface.radii.length === 1 && Math.hypot(...sub3(surface.points[0], space.camera.from)) < surface.radii[0];
+      if (mesh)
+        this.surfaces.push({
+          number: surface.surface,
+          color: surface.color,
+          kept: this.painter.keepMesh(mesh, around),
+        });
     }
     this.rays = space.rays.map((ray) => ({ ray, kept: this.painter.keepLines([[ray.origin, ray.end]]) }));
     this.lamps = space.lights.map((at) => this.painter.keepMesh(sphereMesh(at, 0.02 * space.size, 10)));
@@ -41,13 +51,18 @@ class InsideView {
   pyramid() {
     const { from, corners } = this.space.camera;
     const ends = corners.map((corner) => addScaled3(from, corner, 0.18 * this.space.size));
-    return ends.flatMap((end, i) => [[from, end], [end, ends[(i + 1) % 4]]]);
+    return ends.flatMap((end, i) => [
+      [from, end],
+      [end, ends[(i + 1) % 4]],
+    ]);
   }
 
   /** @param {InsideRay} ray @param {number} boxes how many of its boxes, in their order */
   show(ray, boxes) {
     this.ray = ray;
-    this.boxes = ray.boxes.slice(0, boxes).map((box) => ({ ...box, kept: this.painter.keepLines(boxEdges(box.min, box.max)) }));
+    this.boxes = ray.boxes
+      .slice(0, boxes)
+      .map((box) => ({ ...box, kept: this.painter.keepLines(boxEdges(box.min, box.max)) }));
     const tested = ray.tests.filter((test) => boxes >= ray.boxes.length || test.before <= boxes);
     this.tested = new Map(tested.map((test) => [test.surface, test.hit]));
     this.later();
@@ -65,7 +80,11 @@ class InsideView {
 
   /** Once per frame, however much has changed. */
   later() {
-    if (!this.waiting) this.waiting = requestAnimationFrame(() => { this.waiting = 0; this.paint(); });
+    if (!this.waiting)
+      this.waiting = requestAnimationFrame(() => {
+        this.waiting = 0;
+        this.paint();
+      });
   }
 
   paint() {
@@ -103,11 +122,16 @@ class InsideView {
       this.painter.draw(this.eye, [0.8, 0.8, 0.85, 0.8 * alpha], 1.2 * scale);
       this.boxes.forEach((box, i) => {
         const color = i === last ? BOX_NOW : box.entered ? BOX_ENTERED : BOX_MISSED;
-        if (box.entered || i === last) this.painter.draw(box.kept, [...color, (i === last ? 1 : 0.5) * alpha], (i === last ? 2.6 : 1.1) * scale);
+        if (box.entered || i === last)
+          this.painter.draw(box.kept, [...color, (i === last ? 1 : 0.5) * alpha], (i === last ? 2.6 : 1.1) * scale);
       });
       for (const { ray, kept } of this.rays) {
         const chosen = ray === this.ray;
-        this.painter.draw(kept, [...(RAY_COLORS[ray.role] ?? RAY_COLORS.eye), (chosen ? 1 : 0.6) * alpha], (chosen ? 4 : 1.6) * scale);
+        this.painter.draw(
+          kept,
+          [...(RAY_COLORS[ray.role] ?? RAY_COLORS.eye), (chosen ? 1 : 0.6) * alpha],
+          (chosen ? 4 : 1.6) * scale,
+        );
       }
     };
     this.painter.through(() => lines(0.35));

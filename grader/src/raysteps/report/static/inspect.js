@@ -18,7 +18,10 @@ class PixelInside extends HTMLElement {
     this.piece("play").addEventListener("click", () => this.play());
     this.piece("eye").addEventListener("click", () => this.view.fromTheEye());
     this.piece("side").addEventListener("click", () => this.view.fromTheSide());
-    this.piece("solid").addEventListener("change", (event) => { this.view.solid = event.target.checked; this.view.later(); });
+    this.piece("solid").addEventListener("change", (event) => {
+      this.view.solid = event.target.checked;
+      this.view.later();
+    });
     for (const button of this.querySelectorAll("button[data-space]")) {
       button.addEventListener("click", () => this.choose(button.dataset.space));
     }

@@ -14,8 +14,16 @@ class Orbit {
     this.goHome();
     stage.addEventListener("pointerdown", (event) => this.press(event, stage));
     stage.addEventListener("pointermove", (event) => this.move(event));
-    for (const end of ["pointerup", "pointercancel"]) stage.addEventListener(end, (event) => this.fingers.delete(event.pointerId));
-    stage.addEventListener("wheel", (event) => { event.preventDefault(); this.zoom(Math.exp(event.deltaY * 0.0012)); }, { passive: false });
+    for (const end of ["pointerup", "pointercancel"])
+      stage.addEventListener(end, (event) => this.fingers.delete(event.pointerId));
+    stage.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.zoom(Math.exp(event.deltaY * 0.0012));
+      },
+      { passive: false },
+    );
     stage.addEventListener("keydown", (event) => this.key(event));
   }
 
@@ -63,7 +71,10 @@ class Orbit {
   move(event) {
     const before = this.fingers.get(event.pointerId);
     if (!before) return;
-    const spread = () => { const [a, b] = [...this.fingers.values()]; return b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0; };
+    const spread = () => {
+      const [a, b] = [...this.fingers.values()];
+      return b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
+    };
     const old = spread();
     this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
     if (old > 0 && spread() > 0) this.zoom(old / spread());

@@ -73,13 +73,24 @@ class SpacePainter {
   keepLines(lines) {
     const [position, other, side] = [[], [], []];
     for (const [a, b] of lines) {
-      for (const [here, there, where] of [[a, b, 1], [a, b, -1], [b, a, 1], [a, b, 1], [b, a, 1], [b, a, -1]]) {
+      for (const [here, there, where] of [
+        [a, b, 1],
+        [a, b, -1],
+        [b, a, 1],
+        [a, b, 1],
+        [b, a, 1],
+        [b, a, -1],
+      ]) {
         position.push(...here);
         other.push(...there);
         side.push(where);
       }
     }
-    const parts = { position: [this.buffer(position), 3], other: [this.buffer(other), 3], side: [this.buffer(side), 1] };
+    const parts = {
+      position: [this.buffer(position), 3],
+      other: [this.buffer(other), 3],
+      side: [this.buffer(side), 1],
+    };
     return { program: "line", parts, count: side.length };
   }
 

@@ -28,7 +28,11 @@ function sphereMesh(center, radius, steps) {
   for (let i = 0; i < steps; ++i) {
     for (let j = 0; j < 2 * steps; ++j) {
       const normals = [normal(i, j), normal(i, j + 1), normal(i + 1, j + 1), normal(i + 1, j)];
-      addQuad(mesh, normals.map((n) => addScaled3(center, n, radius)), normals);
+      addQuad(
+        mesh,
+        normals.map((n) => addScaled3(center, n, radius)),
+        normals,
+      );
     }
   }
   return mesh;
@@ -54,7 +58,12 @@ function coneMesh(ends, radii, steps) {
   const mesh = { positions: [], normals: [] };
   for (let k = 0; k < steps; ++k) {
     const [n, m] = [outward(k), outward(k + 1)];
-    const ring = [[0, n], [0, m], [1, m], [1, n]].map(([end, out]) => addScaled3(ends[end], out, radii[end]));
+    const ring = [
+      [0, n],
+      [0, m],
+      [1, m],
+      [1, n],
+    ].map(([end, out]) => addScaled3(ends[end], out, radii[end]));
     addQuad(mesh, ring, [n, m, m, n]);
   }
   return mesh;

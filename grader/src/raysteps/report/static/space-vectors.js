@@ -4,13 +4,19 @@
 /** @typedef {Float32Array} Mat4 column by column, as WebGL takes it */
 
 /** @param {Vec3} a @param {Vec3} b @returns {Vec3} */
-function sub3(a, b) { return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]; }
+function sub3(a, b) {
+  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+}
 
 /** a + s b @param {Vec3} a @param {Vec3} b @param {number} s @returns {Vec3} */
-function addScaled3(a, b, s) { return [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]; }
+function addScaled3(a, b, s) {
+  return [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+}
 
 /** @param {Vec3} a @param {Vec3} b @returns {number} */
-function dot3(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+function dot3(a, b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /** @param {Vec3} a @param {Vec3} b @returns {Vec3} */
 function cross3(a, b) {
@@ -48,10 +54,22 @@ function lookAt4(from, at, up) {
   const right = unit3(cross3(up, back));
   const top = cross3(back, right);
   return new Float32Array([
-    right[0], top[0], back[0], 0,
-    right[1], top[1], back[1], 0,
-    right[2], top[2], back[2], 0,
-    -dot3(right, from), -dot3(top, from), -dot3(back, from), 1,
+    right[0],
+    top[0],
+    back[0],
+    0,
+    right[1],
+    top[1],
+    back[1],
+    0,
+    right[2],
+    top[2],
+    back[2],
+    0,
+    -dot3(right, from),
+    -dot3(top, from),
+    -dot3(back, from),
+    1,
   ]);
 }
 

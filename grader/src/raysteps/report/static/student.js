@@ -17,9 +17,13 @@ function listenToUnfold(button, steps) {
   button.hidden = false;
   button.addEventListener("click", () => {
     const open = !steps.every((step) => step.open);
-    steps.forEach((step) => { step.open = open; });
+    steps.forEach((step) => {
+      step.open = open;
+    });
   });
-  steps.forEach((step) => step.addEventListener("toggle", tell));
+  for (const step of steps) {
+    step.addEventListener("toggle", tell);
+  }
   tell();
 }
 

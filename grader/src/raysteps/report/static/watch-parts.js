@@ -4,7 +4,8 @@
 function watchFacts(facts) {
   const told = facts.filter(([, text]) => text);
   const rows = told.flatMap(([label, text, mono]) => [
-    make("dt", {}, label), make("dd", {}, mono ? make("code", { class: "watch-lines" }, text) : text),
+    make("dt", {}, label),
+    make("dd", {}, mono ? make("code", { class: "watch-lines" }, text) : text),
   ]);
   return rows.length ? [make("dl", { class: "watch-facts" }, ...rows)] : [];
 }
@@ -40,19 +41,31 @@ function watchMessages(state) {
 }
 
 function watchDiagnosis(found) {
-  const facts = [["You see", found.sees], ["Cause", found.cause], ["Hint", found.hint], ["Or", found.alike.join("; ")]];
+  const facts = [
+    ["You see", found.sees],
+    ["Cause", found.cause],
+    ["Hint", found.hint],
+    ["Or", found.alike.join("; ")],
+  ];
   return watchPanel("warn", watchName(`${found.word}: ${found.title}`), ...watchFacts(facts));
 }
 
 function watchTest(test) {
   const message = test.message ? [make("p", { class: "watch-lines" }, test.message)] : [];
-  const facts = [["expected", test.expected, true], ["actual", test.actual, true], ["where", test.place, true]];
+  const facts = [
+    ["expected", test.expected, true],
+    ["actual", test.actual, true],
+    ["where", test.place, true],
+  ];
   return watchPanel("bad", watchName(test.name), ...watchFacts(facts), ...message);
 }
 
 function watchHidden(item) {
   const facts = [
-    ["given", item.given, true], ["expected", item.expected, true], ["actual", item.actual, true], ["again", item.again, true],
+    ["given", item.given, true],
+    ["expected", item.expected, true],
+    ["actual", item.actual, true],
+    ["again", item.again, true],
   ];
   return watchPanel("bad", watchName(item.name), make("p", {}, item.message), ...watchFacts(facts));
 }
@@ -63,7 +76,11 @@ function watchKind(title, items, makeOne) {
     return [];
   }
   const right = items.passed === items.all;
-  const sign = make("span", { class: right ? "watch-good" : "watch-bad" }, `${right ? "✓" : "✗"} ${items.passed} of ${items.all}`);
+  const sign = make(
+    "span",
+    { class: right ? "watch-good" : "watch-bad" },
+    `${right ? "✓" : "✗"} ${items.passed} of ${items.all}`,
+  );
   return [make("h2", {}, `${title}: `, sign), ...items.failed.map(makeOne)];
 }
 

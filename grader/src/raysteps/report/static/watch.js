@@ -18,14 +18,23 @@ class WatchPictures {
       }
       this.#step = state.step.id;
     }
-    state.pictures.forEach((picture) => this.#showOne(picture, state.step));
+    for (const picture of state.pictures) {
+      this.#showOne(picture, state.step);
+    }
   }
 
   /** Where there is no picture of mine, the reference shows where it goes. */
   #showOne(picture, step) {
     const known = this.#shown.get(picture.name) ?? this.#add(picture, step);
-    known.words.textContent = picture.message || (picture.passed ? "" : picture.mine ? "" : "This is what it shall look like.");
-    known.sign.textContent = picture.passed ? " ✓ right" : picture.mine ? " ✗ wrong" : picture.message ? " ✗ missing" : "";
+    known.words.textContent =
+      picture.message || (picture.passed ? "" : picture.mine ? "" : "This is what it shall look like.");
+    known.sign.textContent = picture.passed
+      ? " ✓ right"
+      : picture.mine
+        ? " ✗ wrong"
+        : picture.message
+          ? " ✗ missing"
+          : "";
     known.sign.className = picture.passed ? "watch-good" : "watch-bad";
     const key = [picture.reference, picture.mine, picture.flip].join(" ");
     if (key === known.key) {
@@ -67,11 +76,15 @@ class WatchPage {
     document.getElementById("watch-title").textContent = `${state.step.number} ${state.step.title}`;
     document.title = `${{ good: "✓ ", bad: "✗ ", warn: "! " }[state.verdict.tone] ?? ""}${state.step.number} ${state.step.title}`;
     const verdict = document.getElementById("watch-verdict");
-    const took = state.seconds !== null && !state.full && state.verdict.tone !== "plain" ? ` (${state.seconds.toFixed(1)} s)` : "";
+    const took =
+      state.seconds !== null && !state.full && state.verdict.tone !== "plain" ? ` (${state.seconds.toFixed(1)} s)` : "";
     WatchPage.#say(verdict, state.verdict.text + took);
     verdict.dataset.tone = state.verdict.tone;
     const saved = state.saved ? `, saved ${state.saved}` : "";
-    this.tell(state.over ? "over" : state.phase, state.over ? "Not watching any more." : `${state.file}${saved}: ${state.doing}`);
+    this.tell(
+      state.over ? "over" : state.phase,
+      state.over ? "Not watching any more." : `${state.file}${saved}: ${state.doing}`,
+    );
     const stale = state.phase === "looking" && !state.complete;
     this.#words.parentElement.dataset.stale = String(stale && state.step.id === this.#step && !state.known);
     if (!stale || state.known || state.step.id !== this.#step) {
@@ -105,7 +118,9 @@ function watchServer(page) {
       source.close();
     }
   });
-  source.addEventListener("error", () => page.tell("over", "Not watching any more. Type ./raysteps watch to go on, and open its new address."));
+  source.addEventListener("error", () =>
+    page.tell("over", "Not watching any more. Type ./raysteps watch to go on, and open its new address."),
+  );
 }
 
 const watchPage = new WatchPage();

@@ -1,0 +1,82 @@
+"""What reads the kit's own code without running it: linters and formatters, the same for `test`, `dev lint` and git."""
+
+import re
+import shutil
+import sys
+import sysconfig
+from functools import partial
+from pathlib import Path
+
+from raysteps.common.platform import executable
+from raysteps.course.project import Project, places
+from raysteps.toolchain.cmake import BuildTree
+from tools.selftest.checks import Check, Report
+from tools.selftest.programs import command
+
+LANGUAGES = ("python", "scripts", "cpp")
+TIDY = "tidy"  # for C++ as well; by itself, as it takes minutes
+_TIDY_SECONDS = 1800
+# Submissions by others keep their form, samples follow the solutions, and templates are not C++ yet.
+_FORMATTED = re.compile(r"(?!grader/tests/|grader/samples/).*(?<!/templates)/[^/]+\.[ch]pp")
+
+
+def _tool(name: str) -> Path:
+    """A program that a package of the extra `dev` brings."""
+    return executable(Path(sysconfig.get_path("scripts")) / name)
+
+
+def _biome(project: Project, *words: str) -> Report:
+    """Its package has it for Linux on x86-64; elsewhere it may be installed otherwise."""
+    program = _tool("biome") if _tool("biome").is_file() else shutil.which("biome")
+    if program is None:
+        return Report("skipped", "install: Biome, https://biomejs.dev")
+    return command([program, "check", *words], project.root)
+
+
+def _cpp(project: Project, *words: str) -> Report:
+    names = [place for place in places(project.root) if _FORMATTED.fullmatch(place.as_posix())]
+    files = [path for name in names if (path := project.root / name).is_file()]
+    return command([_tool("clang-format"), *words, *files], project.root)
+
+
+def _tidy(project: Project, *words: str) -> Report:
+    """Looks at each source but tests and stubs as the preset `dev` compiles it; nothing has to be built."""
+    tree = BuildTree(project, "dev", project.build / "dev", project.steps)
+    with tree.locked():
+        tree.configure()
+    sources = rf"^{re.escape(project.root.as_posix())}/(bench|framework|solutions)/(?!testing/|io/fuzz/|.*_test\.)"
+    runner: list[str | Path] = [sys.executable, _tool("run-clang-tidy.py"), "-clang-tidy-binary", _tool("clang-tidy")]
+    return command([*runner, "-quiet", "-p", tree.folder, *words, sources], project.root, _TIDY_SECONDS)
+
+
+def lint_checks(project: Project, languages: tuple[str, ...]) -> list[Check]:
+    """Those of the languages."""
+    grader = project.root / "grader"
+    python: list[str | Path] = [sys.executable, "-m"]
+    checks = {
+        "python": [
+            Check("ruff check", partial(command, [*python, "ruff", "check", ".", "../tools"], grader)),
+            Check("ruff format", partial(command, [*python, "ruff", "format", "--check", ".", "../tools"], grader)),
+            Check("mypy --strict", partial(command, [*python, "mypy"], grader)),
+        ],
+        "scripts": [Check("biome", partial(_biome, project, "--error-on-warnings"))],
+        "cpp": [Check("clang-format", partial(_cpp, project, "--dry-run", "-Werror"))],
+        TIDY: [Check("clang-tidy", partial(_tidy, project))],
+    }
+    return [check for language in languages for check in checks[language]]
+
+
+def reformat(project: Project, languages: tuple[str, ...]) -> list[Check]:
+    """Formats in place, and mends what the linters can mend without a doubt."""
+    grader = project.root / "grader"
+    python: list[str | Path] = [sys.executable, "-m", "ruff"]
+    checks = {
+        "python": [
+            Check("ruff check --fix", partial(command, [*python, "check", "--fix", ".", "../tools"], grader)),
+            Check("ruff format", partial(command, [*python, "format", ".", "../tools"], grader)),
+        ],
+        "scripts": [Check("biome", partial(_biome, project, "--write"))],
+        "cpp": [Check("clang-format", partial(_cpp, project, "-i"))],
+        TIDY: [Check("clang-tidy -fix", partial(_tidy, project, "-fix"))],
+    }
+    return [check for language in languages for check in checks[language]]
