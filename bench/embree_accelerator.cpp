@@ -49,9 +49,7 @@ Kind kind_of(const Surface& surface) {
                       surface.shape());
 }
 
-const Surface& surface_at(const void* list, unsigned place) {
-    return *(*static_cast<const SurfaceList*>(list))[place];
-}
+const Surface& surface_at(const void* list, unsigned place) { return *(*static_cast<const SurfaceList*>(list))[place]; }
 
 void bounds_callback(const RTCBoundsFunctionArguments* args) {
     const Box box = surface_at(args->geometryUserPtr, args->primID).bounds();
@@ -196,9 +194,8 @@ private:
             return;
         }
         const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-        auto* corner = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                   RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                                   3 * list.size()));
+        auto* corner = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * list.size()));
         auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
             geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), list.size()));
         unsigned next = 0;

@@ -30,7 +30,8 @@ const std::array k_commands{
     Command{"scale", bench::bench_scale, bench::k_scale_usage},
     Command{"parse", bench::bench_parse, bench::k_parse_usage},
     Command{"nff", bench::flat_nff, bench::k_nff_usage},
-    Command{"list", bench::list_structures, "  raysteps-bench list\n                      the structures that it knows\n"},
+    Command{"list", bench::list_structures,
+            "  raysteps-bench list\n                      the structures that it knows\n"},
 };
 
 void print_usage(std::FILE* to) {

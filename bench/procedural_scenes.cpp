@@ -6,9 +6,9 @@
 #include <map>
 #include <random>
 
-#include "io/command_line.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
+#include "io/command_line.hpp"
 
 namespace raysteps::bench {
 namespace {

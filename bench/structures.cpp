@@ -25,7 +25,8 @@ std::vector<Structure> make_table() {
     for (const Acceleration kind : k_own) {
         const AcceleratorEntry& entry = accelerator_entry(kind);
         if (entry.make != nullptr) {
-            table.push_back({.name = std::string(entry.name), .slow = is_slow(kind), .foreign = false, .make = entry.make});
+            table.push_back(
+                {.name = std::string(entry.name), .slow = is_slow(kind), .foreign = false, .make = entry.make});
         }
     }
     table.push_back({.name = "octree-by-bounds", .slow = false, .foreign = false, .make = make_octree_by_bounds});

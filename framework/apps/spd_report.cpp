@@ -32,7 +32,7 @@ std::string spd_report(const std::string& scene, const Stats& stats) {
     if (found != k_spd_published.end()) {
         published = *found;
     }
-    const auto of = [&published](std::uint64_t SpdCounts::*member) {
+    const auto of = [&published](std::uint64_t SpdCounts::* member) {
         return published ? std::optional((*published).*member) : std::nullopt;
     };
     std::ostringstream out;

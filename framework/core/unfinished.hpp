@@ -3,11 +3,10 @@
 #include <cstdio>
 
 /// In a kit with fewer steps: the framework calls what a later step would define.
-#define RAYSTEPS_ABSENT(step, function)                                                                            \
-    do {                                                                                                           \
-        [[maybe_unused]] static const int said_once =                                                              \
-            std::fprintf(stderr, "%s belongs to step %s, which this kit does not have: it does nothing\n", function, \
-                         step);                                                                                    \
+#define RAYSTEPS_ABSENT(step, function)                                                                        \
+    do {                                                                                                       \
+        [[maybe_unused]] static const int said_once = std::fprintf(                                            \
+            stderr, "%s belongs to step %s, which this kit does not have: it does nothing\n", function, step); \
     } while (false)
 
 /// step and function as in the step's manifest.

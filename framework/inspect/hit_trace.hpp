@@ -25,7 +25,7 @@ struct HitTrace {
     HitRecord hit;
     std::optional<std::size_t> surface;  ///< nothing: no surface that was tested gave this hit
     std::string kind;
-    glm::vec3 point{0.0F};  ///< step 01's point_at for the distance
+    glm::vec3 point{0.0F};               ///< step 01's point_at for the distance
     std::optional<glm::vec3> mirrored;   ///< from step 05 on: step 03's mirror of the ray
     std::optional<glm::vec3> refracted;  ///< from step 08 on, glass: step 08's refract of the ray; nothing: it cannot
 };

@@ -1,8 +1,8 @@
 #include "inspect/inspect_json.hpp"
 
-#include "io/json_writer.hpp"
 #include "inspect/names.hpp"
 #include "inspect/ray_json.hpp"
+#include "io/json_writer.hpp"
 
 namespace raysteps {
 namespace {

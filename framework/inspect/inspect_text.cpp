@@ -35,8 +35,9 @@ void write_end(TextLines& out, const PixelRecord& record) {
     } else {
         out.line(0, "colour", brief(*record.color) + ", cut off at 1");
     }
-    out.line(0, "bytes", std::to_string(record.bytes.r) + " " + std::to_string(record.bytes.g) + " " +
-                             std::to_string(record.bytes.b));
+    out.line(0, "bytes",
+             std::to_string(record.bytes.r) + " " + std::to_string(record.bytes.g) + " " +
+                 std::to_string(record.bytes.b));
 }
 
 void write_totals(TextLines& out, const PixelRecord& record) {
@@ -45,14 +46,16 @@ void write_totals(TextLines& out, const PixelRecord& record) {
         out.line(0, "the pixel", "shows the direction of its eye ray, which was not traced");
         return;
     }
-    out.line(0, "the pixel", amount(stats.rays(), "ray") + " (" + std::to_string(stats.eye) + " eye, " +
-                                 std::to_string(stats.shadow) + " shadow, " + std::to_string(stats.reflect) +
-                                 " reflected, " + std::to_string(stats.refract) + " refracted)");
+    out.line(0, "the pixel",
+             amount(stats.rays(), "ray") + " (" + std::to_string(stats.eye) + " eye, " + std::to_string(stats.shadow) +
+                 " shadow, " + std::to_string(stats.reflect) + " reflected, " + std::to_string(stats.refract) +
+                 " refracted)");
     out.line(0, "", search_words(record.counts, record.surfaces));
     if (record.left_out.any()) {
         const LeftOut& left = record.left_out;
-        out.line(0, "left out", "counted but not kept, as it is too much: " + amount(left.rays, "ray") + ", " +
-                                    amount(left.boxes, "box test") + ", " + amount(left.tests, "surface test"));
+        out.line(0, "left out",
+                 "counted but not kept, as it is too much: " + amount(left.rays, "ray") + ", " +
+                     amount(left.boxes, "box test") + ", " + amount(left.tests, "surface test"));
     }
 }
 

@@ -122,7 +122,7 @@ private:
 }  // namespace
 
 std::optional<LostHit> find_lost_hit(const RayNode& node, float limit, const SurfaceList& surfaces,
-                                  const Accelerator& accelerator, const SearchRecorder& recorder) {
+                                     const Accelerator& accelerator, const SearchRecorder& recorder) {
     const Unheard unheard;
     const Nearest nearest = nearest_of(surfaces, node.ray);
     if (nearest.surface == nullptr || !(nearest.hit.distance < limit)) {

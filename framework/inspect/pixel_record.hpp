@@ -30,9 +30,9 @@ struct BoxEvent {
 
 /// One surface that was asked.
 struct SurfaceEvent {
-    std::size_t surface = 0;        ///< Surface::order()
-    std::optional<float> distance;  ///< nothing: the ray misses it
-    std::uint64_t boxes_before = 0; ///< box tests of the same ray that came earlier
+    std::size_t surface = 0;         ///< Surface::order()
+    std::optional<float> distance;   ///< nothing: the ray misses it
+    std::uint64_t boxes_before = 0;  ///< box tests of the same ray that came earlier
 };
 
 /// What one ray cost. Exact, however many events are kept.
@@ -55,11 +55,11 @@ struct RayNode {
     Ray ray;
     std::optional<float> limit;  ///< only hits nearer than this were asked for
     SearchCounts counts;
-    std::optional<bool> any;      ///< the answer, where the ray asked no more than whether anything is hit
+    std::optional<bool> any;  ///< the answer, where the ray asked no more than whether anything is hit
     std::vector<BoxEvent> boxes;
     std::vector<SurfaceEvent> tests;
-    std::optional<HitTrace> hit;    ///< of any hit: the surface that ended the search
-    std::optional<LostHit> lost;    ///< where a search through all surfaces finds something else
+    std::optional<HitTrace> hit;  ///< of any hit: the surface that ended the search
+    std::optional<LostHit> lost;  ///< where a search through all surfaces finds something else
     std::vector<LightRecord> lights;
     std::optional<Color> direct;       ///< step 03's sum over the lights that reach the hit
     std::optional<Color> transmitted;  ///< what shines through, weighed with the transmittance
@@ -73,7 +73,7 @@ struct RayNode {
 struct LightRecord {
     std::size_t light = 0;
     bool lit = true;
-    std::list<RayNode> rays;  ///< shadow rays; none before step 04
+    std::list<RayNode> rays;        ///< shadow rays; none before step 04
     std::optional<Ray> shadow_ray;  ///< step 04's own answer, which is_lit need not have used
     glm::vec3 to_light{0.0F};
     glm::vec3 mirrored{0.0F};  ///< the light's direction of travel, mirrored

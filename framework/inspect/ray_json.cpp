@@ -7,9 +7,7 @@ namespace {
 
 void write_color(JsonWriter& json, const std::optional<Color>& color) { color ? json.vector(*color) : json.null(); }
 
-void write_number(JsonWriter& json, const std::optional<float>& number) {
-    number ? json.number(*number) : json.null();
-}
+void write_number(JsonWriter& json, const std::optional<float>& number) { number ? json.number(*number) : json.null(); }
 
 void write_whole(JsonWriter& json, const std::optional<std::uint64_t>& number) {
     number ? json.whole(*number) : json.null();

@@ -1,7 +1,7 @@
 #pragma once
 // One ray and all that follow from it, as JSON.
-#include "io/json_writer.hpp"
 #include "inspect/pixel_record.hpp"
+#include "io/json_writer.hpp"
 
 namespace raysteps {
 

@@ -34,9 +34,8 @@ Unheard::~Unheard() {
 }
 
 SearchRecorder::SearchRecorder(const Accelerator& accelerator, std::size_t surfaces) : last_ray_(surfaces, 0) {
-    accelerator.visit_nodes(nullptr, [this](const NodeInfo& place) {
-        known_.push_back({&place.box, place.level, place.listed});
-    });
+    accelerator.visit_nodes(
+        nullptr, [this](const NodeInfo& place) { known_.push_back({&place.box, place.level, place.listed}); });
     std::sort(known_.begin(), known_.end(),
               [](const Known& a, const Known& b) { return std::less<const Box*>()(a.box, b.box); });
 }
@@ -106,8 +105,7 @@ void SearchRecorder::surface(const Surface& surface, const std::optional<HitReco
     }
     ++of_ray;
     ++of_pixel;
-    node_->tests.push_back(
-        {surface.order(), hit ? std::optional(hit->distance) : std::nullopt, counts_.box_tests});
+    node_->tests.push_back({surface.order(), hit ? std::optional(hit->distance) : std::nullopt, counts_.box_tests});
 }
 
 const Surface* SearchRecorder::surface_of_hit(const Ray& ray, const HitRecord& hit) const {

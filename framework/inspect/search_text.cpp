@@ -5,7 +5,7 @@
 namespace raysteps {
 namespace {
 
-constexpr std::size_t k_most_box_lines = 80;   // the paper has 73 boxes
+constexpr std::size_t k_most_box_lines = 80;  // the paper has 73 boxes
 constexpr std::size_t k_most_hit_lines = 40;
 constexpr std::size_t k_most_ranges = 60;
 
@@ -49,8 +49,7 @@ std::string reason_words(const LostHit& lost) {
         case LossReason::not_chosen:
             return "it was tested, but another answer was given";
         case LossReason::not_tested:
-            return lost.box ? "the box that lists it was entered, but it was not tested: " + box
-                              : "it was not tested";
+            return lost.box ? "the box that lists it was entered, but it was not tested: " + box : "it was not tested";
         case LossReason::box_missed:
             return "the ray was said to miss a box that holds the hit: " + box;
         case LossReason::not_visited:
@@ -115,15 +114,16 @@ void write_tests(TextLines& out, const PixelRecord& record, const RayNode& node,
     }
     const std::size_t shown = std::min(hits.size(), k_most_hit_lines);
     for (std::size_t i = 0; i < shown; ++i) {
-        out.line(level + 1, "surface " + std::to_string(hits[i]->surface) + " is hit at distance " +
-                                brief(*hits[i]->distance));
+        out.line(level + 1,
+                 "surface " + std::to_string(hits[i]->surface) + " is hit at distance " + brief(*hits[i]->distance));
     }
     say_more(out, hits.size(), shown, level + 1);
 }
 
 void write_lost(TextLines& out, const LostHit& lost, int level) {
-    out.line(level, "LOST", "a search through all surfaces finds surface " + std::to_string(lost.surface) + " (" +
-                                lost.kind + ") at distance " + brief(lost.distance) + ";");
+    out.line(level, "LOST",
+             "a search through all surfaces finds surface " + std::to_string(lost.surface) + " (" + lost.kind +
+                 ") at distance " + brief(lost.distance) + ";");
     out.line(level, "", reason_words(lost));
 }
 

@@ -23,7 +23,7 @@ private:
 
 [[nodiscard]] std::string brief(float value);  ///< six digits
 [[nodiscard]] std::string brief(const glm::vec3& value);
-[[nodiscard]] std::string share(std::uint64_t part, std::uint64_t whole);       ///< such as 0.16 %
+[[nodiscard]] std::string share(std::uint64_t part, std::uint64_t whole);        ///< such as 0.16 %
 [[nodiscard]] std::string amount(std::uint64_t count, const std::string& noun);  ///< 1 box, 2 boxes
 [[nodiscard]] std::string search_words(const SearchCounts& counts, std::uint64_t surfaces);
 

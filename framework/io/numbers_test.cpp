@@ -42,8 +42,8 @@ TEST_CASE("Numbers keep their sign, also 0 and what is too large or too small", 
 }
 
 TEST_CASE("What is no number is not read as one", "[io][numbers]") {
-    for (const char* text : {"", "+", "-", ".", "-.", "e5", ".e5", "1e", "1e+", "1e5e", "1e5.0", "1..2", "1.2.3", "+-1",
-                             "--1", "inf", "-inf", "nan", "0x10", "1f", "1,5", " 1", "1 "}) {
+    for (const char* text : {"",      "+",   "-",   ".",   "-.",   "e5",  ".e5",  "1e", "1e+", "1e5e", "1e5.0", "1..2",
+                             "1.2.3", "+-1", "--1", "inf", "-inf", "nan", "0x10", "1f", "1,5", " 1",   "1 "}) {
         INFO("`" << text << "`");
         CHECK_FALSE(parse_number(text).has_value());
     }

@@ -27,7 +27,11 @@ Table& table() {
          .step = 6,
          .make = paper_grid(),
          .unavailable_reason = k_no_paper_grid},
-        {.kind = Acceleration::octree, .name = "octree", .step = 6, .make = octree_accelerator, .unavailable_reason = {}},
+        {.kind = Acceleration::octree,
+         .name = "octree",
+         .step = 6,
+         .make = octree_accelerator,
+         .unavailable_reason = {}},
         {.kind = Acceleration::bvh, .name = "bvh", .step = 9, .make = bvh_accelerator, .unavailable_reason = {}},
         {.kind = Acceleration::wide,
          .name = "wide",
@@ -53,7 +57,8 @@ const AcceleratorEntry& accelerator_entry(Acceleration kind) { return entry_of(k
 
 const AcceleratorEntry* find_accelerator(std::string_view name) {
     const Table& entries = table();
-    const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
+    const auto found =
+        std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
     return found != entries.end() ? &*found : nullptr;
 }
 

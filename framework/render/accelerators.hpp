@@ -11,8 +11,8 @@ namespace raysteps {
 [[nodiscard]] std::unique_ptr<Accelerator> octree_accelerator(const SurfaceList& surfaces);
 [[nodiscard]] std::unique_ptr<Accelerator> bvh_accelerator(const SurfaceList& surfaces);
 
-/// Makes the paper's own structure: one box, 8 boxes in it, 8 in each of those, and a list for each of the 64. Null in a
-/// students' kit, which has none.
+/// Makes the paper's own structure: one box, 8 boxes in it, 8 in each of those, and a list for each of the 64. Null in
+/// a students' kit, which has none.
 [[nodiscard]] AcceleratorMaker paper_grid();
 
 }  // namespace raysteps

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/tiny_font.hpp"
 #include "render/colormap.hpp"
+#include "render/tiny_font.hpp"
 
 namespace raysteps {
 namespace {

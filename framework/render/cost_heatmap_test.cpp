@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "render/colormap.hpp"
 #include "render/renderer.hpp"
 #include "render/tiny_font.hpp"
-#include "render/colormap.hpp"
 #include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 

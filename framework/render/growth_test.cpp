@@ -14,7 +14,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-constexpr std::size_t k_surfaces = 6000;  // enough for the octree to be built on several threads
+constexpr std::size_t k_surfaces = 6000;        // enough for the octree to be built on several threads
 constexpr std::uint64_t k_max_references = 24;  // of a surface: what the octree promises
 
 Fill marked(std::size_t number) {

@@ -161,10 +161,7 @@ void PaperGrid::visit_nodes(const Surface* wanted, const NodeVisitor& visit) con
         visit({.box = middle.box, .level = 1});
         for (const Small& small : middle.small) {
             const bool member = place != surfaces_.end() && ((small.members[bit / 64] >> (bit % 64)) & 1U) != 0U;
-            visit({.box = small.box,
-                   .level = 2,
-                   .listed = count_members(small.members),
-                   .lists_wanted = member});
+            visit({.box = small.box, .level = 2, .listed = count_members(small.members), .lists_wanted = member});
         }
     }
 }

@@ -63,7 +63,8 @@ void work(Job& job) {
 }  // namespace
 
 Rendering render(const Scene& scene, const RenderOptions& options) {
-    const Rect crop = options.crop.value_or(Rect{.x = 0, .y = 0, .width = scene.camera.width, .height = scene.camera.height});
+    const Rect crop =
+        options.crop.value_or(Rect{.x = 0, .y = 0, .width = scene.camera.width, .height = scene.camera.height});
     const Clock::time_point build_start = Clock::now();
     const std::unique_ptr<Accelerator> accelerator = make_accelerator(options.acceleration, scene.surfaces());
     const double build_seconds = seconds_since(build_start);

@@ -1,7 +1,7 @@
 #include "view/content.hpp"
 
-#include "render/encode.hpp"
 #include "render/cost_heatmap.hpp"
+#include "render/encode.hpp"
 #include "view/status_bar.hpp"
 
 namespace raysteps {

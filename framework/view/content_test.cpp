@@ -1,8 +1,8 @@
 // What the window shows of a picture.
 #include "view/content.hpp"
 
-#include "render/encode.hpp"
 #include "render/cost_heatmap.hpp"
+#include "render/encode.hpp"
 #include "testing/testing.hpp"
 #include "view/status_bar.hpp"
 

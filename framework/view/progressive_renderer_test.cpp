@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "render/renderer.hpp"
 #include "render/cost_heatmap.hpp"
+#include "render/renderer.hpp"
 #include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 #include "view/content.hpp"
@@ -92,8 +92,10 @@ TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
     options.step.step = 8;
     options.measure_cost = true;
     const CostGrid costs = render(scene, options).costs;
-    CHECK(cost_heatmap(frame.costs, CostKind::tests, std::nullopt) == cost_heatmap(costs, CostKind::tests, std::nullopt));
-    CHECK(cost_heatmap(frame.costs, CostKind::depth, std::nullopt) == cost_heatmap(costs, CostKind::depth, std::nullopt));
+    CHECK(cost_heatmap(frame.costs, CostKind::tests, std::nullopt) ==
+          cost_heatmap(costs, CostKind::tests, std::nullopt));
+    CHECK(cost_heatmap(frame.costs, CostKind::depth, std::nullopt) ==
+          cost_heatmap(costs, CostKind::depth, std::nullopt));
 }
 
 TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "io/numbers.hpp"
-#include "render/tiny_font.hpp"
 #include "render/cost_heatmap.hpp"
+#include "render/tiny_font.hpp"
 
 namespace raysteps {
 namespace {

@@ -181,7 +181,7 @@ HWY_INLINE void ask_block(const SphereBlock& block, const SurfaceRay& ray, float
             continue;
         }
         const M in_front = nearer > error;
-        const M from_within = hn::And(nearer < hn::Neg(error), farther > error);
+        const M from_within = hn::And(nearer<hn::Neg(error), farther> error);
         const M sure = hn::And(hn::And(possible, square > square_error + square_error), hn::Or(in_front, from_within));
         write(verdicts, sure, possible, hn::IfThenElse(in_front, nearer, farther), error, at);
     }

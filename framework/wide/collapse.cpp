@@ -14,7 +14,9 @@ constexpr int k_deepest = 48;  // of the step's levels; what lies deeper is put 
 /// A binary tree is folded into one of eight: the largest box is opened until there are eight.
 class BvhFolder {
 public:
-    explicit BvhFolder(const Bvh& bvh) : bvh_(bvh), builder_(padding_within(bvh.nodes.front().box)) { count_surfaces(); }
+    explicit BvhFolder(const Bvh& bvh) : bvh_(bvh), builder_(padding_within(bvh.nodes.front().box)) {
+        count_surfaces();
+    }
 
     [[nodiscard]] Tree fold() { return builder_.finish(items_below(0, 0)); }
 
@@ -50,8 +52,8 @@ private:
         while (parts.size() < k_lanes) {
             auto largest = parts.end();
             for (auto part = parts.begin(); part != parts.end(); ++part) {
-                const bool larger = largest == parts.end() || surface_area(bvh_.nodes[*part].box) >
-                                                                  surface_area(bvh_.nodes[*largest].box);
+                const bool larger = largest == parts.end() ||
+                                    surface_area(bvh_.nodes[*part].box) > surface_area(bvh_.nodes[*largest].box);
                 largest = can_be_opened(*part) && larger ? part : largest;
             }
             if (largest == parts.end()) {

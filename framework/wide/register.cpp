@@ -38,8 +38,8 @@ std::unique_ptr<Accelerator> over_octree(const SurfaceList& surfaces) {
     return std::make_unique<WideTree>(collapse(build_octree(surfaces)));
 }
 
-[[maybe_unused]] const bool k_registered = register_accelerator(Acceleration::wide, over_bvh) &&
-                                           register_accelerator(Acceleration::wide_octree, over_octree);
+[[maybe_unused]] const bool k_registered =
+    register_accelerator(Acceleration::wide, over_bvh) && register_accelerator(Acceleration::wide_octree, over_octree);
 
 }  // namespace
 }  // namespace raysteps::wide

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
-    std::array<Open, k_lanes * static_cast<std::size_t>(k_max_levels)> entries_;
+    std::array<Open, k_lanes* static_cast<std::size_t>(k_max_levels)> entries_;
     std::size_t size_ = 0;
 };
 
@@ -176,9 +176,8 @@ bool any(const Tree& tree, const Ray& ray, float distance) {
         found = most < distance;
         return found || doubtful(at);
     };
-    const auto leaf = [&](Reference to) HWY_ATTR {
-        return ask_leaf(tree, to, surface_ray, distance, counts, doubtful, certain);
-    };
+    const auto leaf = [&](Reference to)
+                          HWY_ATTR { return ask_leaf(tree, to, surface_ray, distance, counts, doubtful, certain); };
     walk(tree, BoxRay(ray), counts, leaf, [&] { return distance; });
     return found;
 }

@@ -48,9 +48,9 @@ struct alignas(32) TriangleBlock {
     std::array<Lanes, 3> corner{};
     std::array<Lanes, 3> edge_ab{};
     std::array<Lanes, 3> edge_ac{};
-    Lanes longest{};      ///< edge
-    Lanes area_bound{};   ///< |ab| |ac|, at least twice the area
-    Lanes sliver_bound{};  ///< longest * |ab| |ac| / (twice the area); below 0: an empty place
+    Lanes longest{};                               ///< edge
+    Lanes area_bound{};                            ///< |ab| |ac|, at least twice the area
+    Lanes sliver_bound{};                          ///< longest * |ab| |ac| / (twice the area); below 0: an empty place
     std::array<std::uint32_t, k_lanes> surface{};  ///< place in Tree::surfaces
     std::uint32_t count = 0;
 };

@@ -7,9 +7,7 @@
 
 namespace raysteps {
 
-std::optional<HitRecord> ListQuery::closest_hit(const Ray& ray) const {
-    return raysteps::closest_hit(surfaces_, ray);
-}
+std::optional<HitRecord> ListQuery::closest_hit(const Ray& ray) const { return raysteps::closest_hit(surfaces_, ray); }
 
 // Position and side follow the ray that really came, so that a record is never at odds with it.
 std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {

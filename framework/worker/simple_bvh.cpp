@@ -27,9 +27,8 @@ Box box_around(Place begin, Place end) {
 void halve(Bvh& bvh, std::size_t at, Place begin, Place end, int axis, float padding) {
     const Box box = box_around(begin, end);
     const auto first_surface = static_cast<std::uint32_t>(begin - bvh.surfaces.begin());
-    bvh.nodes[at] = {.box = box.padded(padding),
-                     .first = first_surface,
-                     .count = static_cast<std::uint32_t>(end - begin)};
+    bvh.nodes[at] = {
+        .box = box.padded(padding), .first = first_surface, .count = static_cast<std::uint32_t>(end - begin)};
     if (end - begin <= k_leaf_size) {
         return;
     }

@@ -24,7 +24,7 @@ namespace {
 constexpr int k_max_depth = 12;
 constexpr std::size_t k_leaf_size = 8;
 constexpr std::size_t k_max_growth = 4;          // children may hold this many times the parent's surfaces
-constexpr std::uint64_t k_max_references = 24;  // of a surface on average, whatever the scene
+constexpr std::uint64_t k_max_references = 24;   // of a surface on average, whatever the scene
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
 
@@ -304,12 +304,9 @@ Node build_octree(const SurfaceList& surfaces) {
         const Box box = bounds_of(others);
         const std::uint64_t most_references = k_max_references * others.size();
         Node* const below = &root.children.emplace_back();
-        build_all({.node = below,
-                   .cell = box,
-                   .surfaces = std::move(others),
-                   .most_references = most_references,
-                   .depth = 0},
-                  padding);
+        build_all(
+            {.node = below, .cell = box, .surfaces = std::move(others), .most_references = most_references, .depth = 0},
+            padding);
     }
     return root;
     // END SOLUTION

@@ -130,16 +130,13 @@ private:
         const std::size_t middle = divide(range, cut);
         const std::size_t free = range.free + 2;
         const std::size_t free_of_right = free + 2 * (middle - range.begin) - 2;
-        return std::pair(Range{.begin = range.begin,
-                               .end = middle,
-                               .node = range.free,
-                               .free = free,
-                               .level = range.level + 1},
-                         Range{.begin = middle,
-                               .end = range.end,
-                               .node = range.free + 1,
-                               .free = free_of_right,
-                               .level = range.level + 1});
+        return std::pair(
+            Range{.begin = range.begin, .end = middle, .node = range.free, .free = free, .level = range.level + 1},
+            Range{.begin = middle,
+                  .end = range.end,
+                  .node = range.free + 1,
+                  .free = free_of_right,
+                  .level = range.level + 1});
     }
 
     /// The cheapest of the cuts between bins; of infinite cost where all surfaces have the same middle.

@@ -94,7 +94,8 @@ TEST_CASE("Box::clip: the interval holds what is inside for any box", "[06-octre
         REQUIRE(box.padded(1e-3F).contains(ray.origin + part->leave * ray.direction));
         INFO("a little before and behind, the ray is outside (unless it starts inside)");
         REQUIRE_FALSE(box.padded(-1e-3F).contains(ray.origin + (part->leave + 1e-2F) * ray.direction));
-        REQUIRE((part->enter < 1e-2F || !box.padded(-1e-3F).contains(ray.origin + (part->enter - 1e-2F) * ray.direction)));
+        REQUIRE(
+            (part->enter < 1e-2F || !box.padded(-1e-3F).contains(ray.origin + (part->enter - 1e-2F) * ray.direction)));
     }
 }
 

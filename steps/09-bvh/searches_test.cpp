@@ -73,7 +73,8 @@ TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the 
         Fill fill;
         fill.kd = static_cast<float>(i);  // to tell which one was hit
         scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
-                                             glm::vec3{0.0F, 1.0F + static_cast<float>((i * 7 + 100) % 200), 0.0F}, fill));
+                                             glm::vec3{0.0F, 1.0F + static_cast<float>((i * 7 + 100) % 200), 0.0F},
+                                             fill));
     }
     const Bvh bvh = build_bvh(scene.surfaces());
     const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down});
@@ -110,12 +111,12 @@ TEST_CASE("any_hit_in_bvh: whether there is a hit before the distance", "[09-bvh
     const Bvh bvh = build_bvh(scene.surfaces());
     for (int i = 0; i < 1500; ++i) {
         check_any_hit(bvh, scene.surfaces(), random.ray(5.0F), random.uniform(0.0F, 12.0F));
-        check_any_hit(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F), random.uniform(10.0F, 30.0F));
+        check_any_hit(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F),
+                      random.uniform(10.0F, 30.0F));
     }
 }
 
-TEST_CASE("any_hit_in_bvh: a hit at the distance itself does not count",
-          "[09-bvh][build_bvh][any_hit_in_bvh][part]") {
+TEST_CASE("any_hit_in_bvh: a hit at the distance itself does not count", "[09-bvh][build_bvh][any_hit_in_bvh][part]") {
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
                                          glm::vec3{0.0F, 1.0F, 0.0F}, Fill{}));
@@ -127,8 +128,7 @@ TEST_CASE("any_hit_in_bvh: a hit at the distance itself does not count",
     CHECK(any_hit_in_bvh(bvh, ray, std::numeric_limits<float>::infinity()));
 }
 
-TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared",
-          "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
     const Scene scene = hundred_sheets();
     const Bvh bvh = build_bvh(scene.surfaces());
     const auto sheets_tested = [&bvh](const Ray& ray) {

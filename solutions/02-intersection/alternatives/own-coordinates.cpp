@@ -45,12 +45,7 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
     const glm::vec3 outward = glm::normalize(origin + t * ray.direction);
     const bool entering = enter > 0.0F;
     const float distance = t * radius_;
-    return HitRecord{point_at(ray, distance),
-                     fill(),
-                     entering ? outward : -outward,
-                     ray.direction,
-                     distance,
-                     entering};
+    return HitRecord{point_at(ray, distance), fill(), entering ? outward : -outward, ray.direction, distance, entering};
 }
 
 std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {

@@ -1,5 +1,5 @@
-// As most books write it: the quadratic equation of the sphere in floats, and its normal divided by the radius. Both lose
-// digits that mirrors magnify.
+// As most books write it: the quadratic equation of the sphere in floats, and its normal divided by the radius. Both
+// lose digits that mirrors magnify.
 #include "steps/02-intersection/intersection.hpp"
 
 #include <cmath>

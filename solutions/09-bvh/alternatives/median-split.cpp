@@ -37,9 +37,8 @@ void build(Bvh& bvh, std::size_t at, Place begin, Place end, float margin) {
     }
     const int axis = widest_axis(middles);
     const Place half = begin + (end - begin) / 2;
-    std::nth_element(begin, half, end, [axis](const Surface* a, const Surface* b) {
-        return middle_of(*a)[axis] < middle_of(*b)[axis];
-    });
+    std::nth_element(begin, half, end,
+                     [axis](const Surface* a, const Surface* b) { return middle_of(*a)[axis] < middle_of(*b)[axis]; });
     const std::size_t first = bvh.nodes.size();
     bvh.nodes[at].first = static_cast<std::uint32_t>(first);
     bvh.nodes.emplace_back();

@@ -65,9 +65,8 @@ std::unique_ptr<Made> make(SurfaceList list, int level) {
     }
     const glm::vec3 size = middles.max - middles.min;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::stable_sort(list.begin(), list.end(), [axis](const Surface* a, const Surface* b) {
-        return middle_of(a, axis) < middle_of(b, axis);
-    });
+    std::stable_sort(list.begin(), list.end(),
+                     [axis](const Surface* a, const Surface* b) { return middle_of(a, axis) < middle_of(b, axis); });
     const std::size_t cut = level < 40 ? best_cut(list, axis, made->box) : list.size() / 2;
     const auto place = list.begin() + static_cast<std::ptrdiff_t>(cut);
     made->left = make(SurfaceList(list.begin(), place), level + 1);

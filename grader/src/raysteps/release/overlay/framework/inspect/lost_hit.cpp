@@ -4,7 +4,7 @@
 namespace raysteps {
 
 std::optional<LostHit> find_lost_hit(const RayNode& /*node*/, float /*limit*/, const SurfaceList& /*surfaces*/,
-                                  const Accelerator& /*accelerator*/, const SearchRecorder& /*recorder*/) {
+                                     const Accelerator& /*accelerator*/, const SearchRecorder& /*recorder*/) {
     return std::nullopt;
 }
 
