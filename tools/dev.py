@@ -19,6 +19,7 @@ from tools.grade_audit import check_truth
 from tools.lint import LANGUAGES, TIDY, lint_checks, reformat
 from tools.new_step import new_step
 from tools.selftest.checks import run_checks
+from tools.selftest.stamps import Stamps
 from tools.test_submissions import outdated_samples, write_samples
 
 # The commands `dev stubs`, `dev samples` and `dev mistakes`, for those who maintain the kit.
@@ -110,9 +111,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         case "new":
             return new_step.run(project, arguments)
         case "lint" | "format":
-            return run_checks(
-                (lint_checks if arguments.what == "lint" else reformat)(project, _chosen(arguments.languages)), console
-            )
+            make = lint_checks if arguments.what == "lint" else reformat
+            return run_checks(make(project, _chosen(arguments.languages)), console, Stamps(project, fresh=True))
         case "stubs":
             return stubs(project, check=arguments.check)
         case "samples":

@@ -2,6 +2,7 @@
 
 import os
 import random
+import shutil
 import tempfile
 from collections.abc import Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -13,14 +14,19 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.course.manifest import Step, choose
+from raysteps.course.mutants import read_mutants
 from raysteps.course.project import Project
+from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
 from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
+from raysteps.judge.plan import read_plan
 from raysteps.results.model import StepResult
-from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
+from tools.direct_grading import sandbox_of_the_kit
+from tools.selftest.stamps import machine_mark
 from tools.test_submissions import Entrant, alternatives, mutants, reference, stub
 
 # Which files are handed in together. A mistake must cost its own step and no other, so every mistake is graded
@@ -139,9 +145,10 @@ class ObservedGrade:
 # Grades one round: one submission made of the entrants of all steps.
 
 
-def grade_round(kit: BuiltKit, handed_in: Round, *, seed: int, only: Collection[str]) -> list[ObservedGrade]:
-    """Of the steps that the round grades, those in `only`. The kit's own files need no sandbox, and nobody reads the
-    smallest wrong cases."""
+def grade_round(
+    kit: BuiltKit, handed_in: Round, sandbox: Sandbox, *, seed: int, only: Collection[str]
+) -> list[ObservedGrade]:
+    """Of the steps that the round grades, those in `only`. Nobody reads the smallest wrong cases."""
     graded = tuple(step for step in handed_in.graded if step in only)
     if not graded:
         return []
@@ -150,8 +157,7 @@ def grade_round(kit: BuiltKit, handed_in: Round, *, seed: int, only: Collection[
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         submission = Submission("truth", sources, {})
         results = {
-            result.id: result
-            for result in grade_submission(kit, submission, settings, LimitsOnly(), Path(folder)).steps
+            result.id: result for result in grade_submission(kit, submission, settings, sandbox, Path(folder)).steps
         }
     return [ObservedGrade(entrant, results[entrant.step]) for entrant in handed_in.entrants if entrant.step in results]
 
@@ -253,25 +259,37 @@ def print_notes(console: Console, seen: Sequence[ObservedGrade]) -> None:
 
 
 def _graded(
-    kit: BuiltKit, rounds: Sequence[Round], what: str, seed: int, only: Collection[str], say: ProgressCallback
+    kit: BuiltKit,
+    rounds: Sequence[Round],
+    what: str,
+    seed: int,
+    only: Collection[str],
+    sandbox: Sandbox,
+    say: ProgressCallback,
 ) -> list[list[ObservedGrade]]:
     """Several rounds at a time, each on one processor: the slowest step of one holds up no other."""
 
     def grade(numbered: tuple[int, Round]) -> list[ObservedGrade]:
         number, handed_in = numbered
         say(f"{what} {number} of {len(rounds)}")
-        return grade_round(kit, handed_in, seed=seed, only=only)
+        return grade_round(kit, handed_in, sandbox, seed=seed, only=only)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(grade, enumerate(rounds, start=1)))
 
 
 def _pairs(
-    kit: BuiltKit, steps: Sequence[Step], amount: int, seed: int, console: Console, say: ProgressCallback
+    kit: BuiltKit,
+    steps: Sequence[Step],
+    amount: int,
+    seed: int,
+    sandbox: Sandbox,
+    console: Console,
+    say: ProgressCallback,
 ) -> list[str]:
     """Two mistakes at a time: both must be named."""
     rounds = random_pairs(kit.project, steps, amount, seed)
-    graded = _graded(kit, rounds, "pair", seed, {step.id for step in steps}, say)
+    graded = _graded(kit, rounds, "pair", seed, {step.id for step in steps}, sandbox, say)
     both = [seen for seen in graded if all(one.named for one in seen)]
     console.print(f"{len(both)} of {len(graded)} random pairs of mistakes in two steps have both named (seed {seed})")
     for seen in graded:
@@ -282,6 +300,15 @@ def _pairs(
     if len(both) < LEAST_PAIRS * len(graded):
         return [f"both are named in {len(both)} of {len(graded)} pairs, fewer than {LEAST_PAIRS:.0%}"]
     return []
+
+
+def _answers(project: Project) -> Path:
+    return project.build / "truth"
+
+
+def forget_answers(project: Project) -> None:
+    """What the kit's programs answered in earlier checks."""
+    shutil.rmtree(_answers(project), ignore_errors=True)
 
 
 def check_truth(
@@ -296,15 +323,21 @@ def check_truth(
     """Prints the table and what is wrong; 1 when something is."""
     kit = build_kit(project, say)
     chosen = [step.id for step in choose(kit.steps, list(only))]
-    rounds = _graded(kit, rounds_of(project, kit.steps), "round", seed, chosen, say)
+    sandbox = sandbox_of_the_kit(_answers(project), f"{machine_mark()} {kit.description.compiler_version}")
+    for step in kit.steps:
+        if step.id in chosen:  # before anybody is graded, and with what is run again for the grades
+            mutant_fingerprints(kit, step, read_plan(project, step), read_mutants(project, step), say, sandbox)
+    rounds = _graded(kit, rounds_of(project, kit.steps), "round", seed, chosen, sandbox, say)
     rows = [row_of(step, [one for seen in rounds for one in seen if one.entrant.step == step]) for step in chosen]
     every = [one for seen in rounds for one in seen]
     console.print(table_of(rows))
     print_notes(console, every)
     problems = problems_of(rounds) + shortfalls(total(rows))
     if pairs:
-        problems += _pairs(kit, [step for step in kit.steps if step.id in chosen], pairs, seed, console, say)
+        problems += _pairs(kit, [step for step in kit.steps if step.id in chosen], pairs, seed, sandbox, console, say)
     for problem in problems:
         console.print(f"not true: {problem}", markup=False, highlight=False)
+    if len(chosen) == len(kit.steps):
+        sandbox.forget_unused()
     console.print(f"{len(rounds)} rounds graded with seed {seed}; {len(problems) or 'no'} problems")
     return 1 if problems else 0

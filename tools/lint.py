@@ -14,6 +14,7 @@ from tools.selftest.checks import Check, Report
 from tools.selftest.programs import command
 
 LANGUAGES = ("python", "scripts", "cpp")
+_PYTHON = (".", "../tools")
 TIDY = "tidy"  # for C++ as well; by itself, as it takes minutes
 _TIDY_SECONDS = 1800
 # Submissions by others keep their form, samples follow the solutions, and templates are not C++ yet.
@@ -49,19 +50,34 @@ def _tidy(project: Project, *words: str) -> Report:
     return command([*runner, "-quiet", "-p", tree.folder, *words, sources], project.root, _TIDY_SECONDS)
 
 
+def _is_python(place: str) -> bool:
+    return place.startswith(("grader/", "tools/"))
+
+
+def _is_script(place: str) -> bool:
+    return place == "biome.json" or place.endswith(".js")
+
+
+def _is_cpp(place: str) -> bool:
+    return place.startswith((".clang-", "cmake/", "CMake")) or place.endswith((".cpp", ".hpp", "CMakeLists.txt"))
+
+
 def lint_checks(project: Project, languages: tuple[str, ...]) -> list[Check]:
     """Those of the languages."""
     grader = project.root / "grader"
     python: list[str | Path] = [sys.executable, "-m"]
+    ruff = [*python, "ruff"]
     checks = {
         "python": [
-            Check("ruff check", partial(command, [*python, "ruff", "check", ".", "../tools"], grader)),
-            Check("ruff format", partial(command, [*python, "ruff", "format", "--check", ".", "../tools"], grader)),
-            Check("mypy --strict", partial(command, [*python, "mypy"], grader)),
+            Check("mypy --strict", partial(command, [*python, "mypy"], grader), _is_python, beside=True),
+            Check("ruff check", partial(command, [*ruff, "check", *_PYTHON], grader), _is_python, beside=True),
+            Check(
+                "ruff format", partial(command, [*ruff, "format", "--check", *_PYTHON], grader), _is_python, beside=True
+            ),
         ],
-        "scripts": [Check("biome", partial(_biome, project, "--error-on-warnings"))],
-        "cpp": [Check("clang-format", partial(_cpp, project, "--dry-run", "-Werror"))],
-        TIDY: [Check("clang-tidy", partial(_tidy, project))],
+        "scripts": [Check("biome", partial(_biome, project, "--error-on-warnings"), _is_script, beside=True)],
+        "cpp": [Check("clang-format", partial(_cpp, project, "--dry-run", "-Werror"), _is_cpp, beside=True)],
+        TIDY: [Check("clang-tidy", partial(_tidy, project), _is_cpp)],
     }
     return [check for language in languages for check in checks[language]]
 
@@ -72,8 +88,8 @@ def reformat(project: Project, languages: tuple[str, ...]) -> list[Check]:
     python: list[str | Path] = [sys.executable, "-m", "ruff"]
     checks = {
         "python": [
-            Check("ruff check --fix", partial(command, [*python, "check", "--fix", ".", "../tools"], grader)),
-            Check("ruff format", partial(command, [*python, "format", ".", "../tools"], grader)),
+            Check("ruff check --fix", partial(command, [*python, "check", "--fix", *_PYTHON], grader)),
+            Check("ruff format", partial(command, [*python, "format", *_PYTHON], grader)),
         ],
         "scripts": [Check("biome", partial(_biome, project, "--write"))],
         "cpp": [Check("clang-format", partial(_cpp, project, "-i"))],

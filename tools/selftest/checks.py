@@ -1,21 +1,27 @@
 """What a check of the kit reports, and the table of all of them."""
 
+import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Literal
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from tools.selftest.stamps import Belongs, Stamps
+
 Verdict = Literal["passed", "failed", "skipped"]
+UNCHANGED = "as before: nothing that it depends on has changed"
 _COLORS = {"passed": "green", "failed": "red", "skipped": "yellow"}
 
 
 @dataclass(frozen=True)
 class Report:
-    """One check: for a failure, what to read; for a skip, what to install."""
+    """One check: for a failure, what to read; for a skip, what to install; for a pass, what was not run again."""
 
     verdict: Verdict
     detail: str = ""
@@ -23,36 +29,69 @@ class Report:
 
 @dataclass(frozen=True)
 class Check:
-    """A named check."""
+    """A named check. `inputs` are the files that it depends on; without them it is always run. One that keeps no more
+    than one processor busy may run `beside` others of its kind."""
 
     name: str
     run: Callable[[], Report]
+    inputs: Belongs | None = None
+    beside: bool = False
 
 
-def run_checks(checks: list[Check], console: Console) -> int:
-    """Runs all checks, prints each as it ends, then the table and the closing line."""
-    done: list[tuple[Check, Report, float]] = []
-    for check in checks:
-        start = time.monotonic()
-        with console.status(escape(check.name)):
+@dataclass(frozen=True)
+class _Done:
+    check: Check
+    report: Report
+    seconds: float
+
+
+def _done(check: Check, stamps: Stamps) -> _Done:
+    start = time.monotonic()
+    digest = None if check.inputs is None else stamps.digest(check.name, check.inputs)
+    if digest is not None and stamps.has_passed(check.name, digest):
+        return _Done(check, Report("passed", UNCHANGED), 0.0)
+    try:
+        report = check.run()
+    except Exception as error:
+        report = Report("failed", f"{type(error).__name__}: {error}")
+    if report.verdict == "passed" and check.inputs is not None and digest is not None:
+        stamps.keep(check.name, digest, check.inputs)
+    return _Done(check, report, time.monotonic() - start)
+
+
+def _all_done(checks: Sequence[Check], console: Console, stamps: Stamps) -> Iterator[_Done]:
+    """In their order."""
+    for beside, group in groupby(checks, lambda check: check.beside):
+        some = list(group)
+        with ThreadPoolExecutor((os.cpu_count() or 1) if beside else 1) as pool:
+            waiting = [pool.submit(_done, check, stamps) for check in some]
             try:
-                report = check.run()
-            except Exception as error:
-                report = Report("failed", f"{type(error).__name__}: {error}")
-        done.append((check, report, time.monotonic() - start))
-        if report.verdict == "skipped":
-            console.print(f"skipped: {check.name} ({report.detail})", markup=False)
-        else:
-            console.print(f"{report.verdict}: {check.name}", markup=False)
-        if report.verdict == "failed":
-            console.print(report.detail, markup=False, highlight=False)
+                for check, future in zip(some, waiting, strict=True):
+                    with console.status(escape(check.name)):
+                        done = future.result()
+                    yield done
+            finally:
+                pool.shutdown(cancel_futures=True)
+
+
+def run_checks(checks: Sequence[Check], console: Console, stamps: Stamps) -> int:
+    """Runs all checks whose inputs changed since they passed, prints each as it ends, then the table and the closing
+    line."""
+    done: list[_Done] = []
+    for one in _all_done(checks, console, stamps):
+        done.append(one)
+        detail = f" ({one.report.detail})" if one.report.detail and one.report.verdict != "failed" else ""
+        console.print(f"{one.report.verdict}: {one.check.name}{detail}", markup=False)
+        if one.report.verdict == "failed":
+            console.print(one.report.detail, markup=False, highlight=False)
     table = Table()
     table.add_column("check")
     table.add_column("result")
     table.add_column("seconds", justify="right")
-    for check, report, seconds in done:
-        table.add_row(escape(check.name), f"[{_COLORS[report.verdict]}]{report.verdict}[/]", f"{seconds:.0f}")
+    for one in done:
+        verdict = one.report.verdict
+        table.add_row(escape(one.check.name), f"[{_COLORS[verdict]}]{verdict}[/]", f"{one.seconds:.0f}")
     console.print(table)
-    amount = {verdict: sum(report.verdict == verdict for _, report, _ in done) for verdict in _COLORS}
+    amount = {verdict: sum(one.report.verdict == verdict for one in done) for verdict in _COLORS}
     print(f"{amount['passed']} passed, {amount['failed']} failed, {amount['skipped']} skipped", flush=True)
     return 1 if amount["failed"] else 0

@@ -3,6 +3,7 @@
 import os
 import shutil
 import tempfile
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from raysteps.course.project import Project
 from raysteps.toolchain.cmake import BuildTree, what_failed
 from tools.selftest.checks import Check, Report
 from tools.selftest.debian import CLANG, install
+from tools.selftest.stamps import Belongs
 
 # Whether the accelerations give the same picture, byte for byte.
 
@@ -61,8 +63,11 @@ def scenes_that_differ(project: Project, program: Path) -> list[str]:
     return lines
 
 
+Inputs = Callable[[str], Belongs]  # what a check that uses a module of the kit depends on
+
 _TEST_SECONDS = 900
 _FUZZ_SECONDS = 60
+LINES = "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG"  # all warnings; lines in what they report, no variables
 _QUICK = "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG"  # half the time to build, and lines in what they report
 
 
@@ -87,18 +92,27 @@ def _program(tree: BuildTree, name: str, *args: str | Path) -> Report:
     return command([tree.program(name), *args], tree.project.root) if built.verdict == "passed" else built
 
 
-def program_checks(tree: BuildTree, suffix: str = "") -> list[Check]:
+def build_check(name: str, tree: BuildTree, targets: list[str], inputs: Inputs) -> Check:
+    return Check(name, lambda: build(tree, targets), inputs(__name__))
+
+
+def _program_check(name: str, tree: BuildTree, inputs: Inputs, program: str, *args: str | Path) -> Check:
+    return Check(name, partial(_program, tree, program, *args), inputs(__name__), beside=True)
+
+
+def program_checks(tree: BuildTree, inputs: Inputs, suffix: str = "") -> list[Check]:
+    """The tests of the framework and of all steps."""
     names = ["test-framework", *(f"test-reference-{step.number}" for step in read_steps(tree.project))]
-    checks = [Check(name + suffix, partial(_program, tree, name)) for name in names]
+    checks = [_program_check(name + suffix, tree, inputs, name) for name in names]
     replay = "fuzz-readers-replay"
-    return [*checks, Check(replay + suffix, partial(_program, tree, replay, _corpus(tree.project)))]
+    return [*checks, _program_check(replay + suffix, tree, inputs, replay, _corpus(tree.project))]
 
 
 def _corpus(project: Project) -> Path:
     return project.root / "framework" / "io" / "fuzz" / "corpus"
 
 
-def same_pictures(project: Project, tree: BuildTree) -> Report:
+def _same_pictures(project: Project, tree: BuildTree) -> Report:
     built = build(tree, ["raytrace-reference"])
     if built.verdict != "passed":
         return built
@@ -106,12 +120,17 @@ def same_pictures(project: Project, tree: BuildTree) -> Report:
     return Report("failed", "\n".join(different)) if different else Report("passed")
 
 
-def asan_checks(project: Project) -> list[Check]:
+def same_pictures_check(project: Project, tree: BuildTree, inputs: Inputs) -> Check:
+    name = "all structures give the same picture"
+    return Check(name, lambda: _same_pictures(project, tree), inputs(__name__), beside=True)
+
+
+def asan_checks(project: Project, inputs: Inputs) -> list[Check]:
     tree = BuildTree(project, "asan", project.build / "asan", project.steps, (_QUICK,))
     tests = [f"test-reference-{step.number}" for step in read_steps(project)]
     targets = ["test-framework", *tests, "fuzz-readers-replay"]
     name = "build with address and undefined behaviour sanitizers"
-    return [Check(name, lambda: build(tree, targets)), *program_checks(tree, ", sanitized")]
+    return [build_check(name, tree, targets, inputs), *program_checks(tree, inputs, ", sanitized")]
 
 
 def _has_clang() -> bool:
@@ -126,7 +145,7 @@ def _fuzz(project: Project, tree: BuildTree) -> Report:
     return _program(tree, "fuzz-readers", *words, f"-artifact_prefix={corpus.parent}/")
 
 
-def clang_checks(project: Project) -> list[Check]:
+def clang_checks(project: Project, inputs: Inputs) -> list[Check]:
     if not _has_clang():
         missing = Report("skipped", "install: clang")
         return [Check(name, lambda: missing) for name in ("build everything with clang", "fuzz-readers for 60 s")]
@@ -135,10 +154,10 @@ def clang_checks(project: Project) -> list[Check]:
     watched = (*compiler, "-DRAYSTEPS_FUZZ=ON", "-DRAYSTEPS_SANITIZE=address,undefined,fuzzer-no-link")
     fuzzer = BuildTree(project, "asan", project.build / "fuzz", project.steps, watched)
     return [
-        Check("build everything with clang", lambda: build(tree, [])),
-        Check("test-framework, clang", partial(_program, tree, "test-framework")),
-        Check("build the fuzz target", lambda: build(fuzzer, ["fuzz-readers"])),
-        Check(f"fuzz-readers for {_FUZZ_SECONDS} s", lambda: _fuzz(project, fuzzer)),
+        build_check("build everything with clang", tree, [], inputs),
+        build_check("build the fuzz target", fuzzer, ["fuzz-readers"], inputs),
+        Check(f"fuzz-readers for {_FUZZ_SECONDS} s", lambda: _fuzz(project, fuzzer), inputs(__name__), beside=True),
+        _program_check("test-framework, clang", tree, inputs, "test-framework"),
     ]
 
 

@@ -1,36 +1,48 @@
 """The command `test`: everything that shows the kit works."""
 
 import argparse
+import json
+import os
 import sys
+import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.common import process
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs
 from raysteps.toolchain.cmake import BuildTree
 from tools.figures.command import out_of_date as old_figures
-from tools.grade_audit import check_truth
+from tools.grade_audit import check_truth, forget_answers
 from tools.lint import TIDY, lint_checks
 from tools.mistake_pages import out_of_date
-from tools.selftest.checks import Check, Report, run_checks
+from tools.selftest import failed_files
+from tools.selftest.checks import UNCHANGED, Check, Report, run_checks
 from tools.selftest.debian import CACHE, PAGES, WINDOW, install
 from tools.selftest.programs import (
+    LINES,
     asan_checks,
-    build,
+    build_check,
     clang_checks,
     command,
     program_checks,
-    same_pictures,
+    same_pictures_check,
     use_compiler_cache,
 )
+from tools.selftest.stamps import Belongs, Stamps
+from tools.selftest.test_inputs import Sources
 from tools.selftest.windows_build import windows_checks
 from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
 
 _PYTEST_SECONDS = 2400
+# pytest, with a plugin of these tools, which no installed package has
+_START = f"import sys, pytest; sys.path.append({str(Path(__file__).parents[2])!r}); sys.exit(pytest.main(sys.argv[1:]))"
+_NO_TESTS = 5  # the exit code of pytest when no test in the files has the marks
 _PAIRS = 40
 
 
@@ -63,35 +75,76 @@ def _figures(project: Project) -> Report:
     return Report("failed", text + ", ".join(old)) if old else Report("passed")
 
 
-def python_checks(project: Project) -> list[Check]:
+def python_checks(project: Project, inputs: Callable[..., Belongs]) -> list[Check]:
     python = Path(sys.executable)
     generator = project.scenes / "generate.py"
+    stubs, samples = inputs(outdated_stubs.__module__), inputs(outdated_samples.__module__)
     return [
-        Check("stubs match the solutions", lambda: _stubs(project)),
-        Check("samples match the solutions", lambda: _samples(project)),
-        Check("generated scenes match the generator", lambda: command([python, generator, "--check"], project.root)),
         *lint_checks(project, ("python", "scripts", "cpp")),
-        Check("pytest, with grading from end to end", lambda: run_pytest(project, "not slow")),
+        Check("stubs match the solutions", lambda: _stubs(project), stubs, beside=True),
+        Check("samples match the solutions", lambda: _samples(project), samples, beside=True),
+        Check(
+            "generated scenes match the generator",
+            lambda: command([python, generator, "--check"], project.root),
+            lambda place: place.startswith("scenes/"),
+            beside=True,
+        ),
     ]
 
 
-def run_pytest(project: Project, marked: str) -> Report:
-    spread = ["-n", "auto", "--dist", "loadgroup"]  # a group is for tests that would make something costly twice
-    words: list[str | Path] = [sys.executable, "-m", "pytest", "-q", "--tb", "short", *spread, "-m", marked]
-    return command(words, project.root / "grader", _PYTEST_SECONDS)
+def pytest_check(project: Project, name: str, stamps: Stamps, marked: str) -> Check:
+    return Check(name, lambda: run_pytest(project, stamps, marked))
 
 
-def grade_checks(project: Project, console: Console, *, full: bool) -> list[Check]:
+def run_pytest(project: Project, stamps: Stamps, marked: str) -> Report:
+    """The tests with these marks, of all files that are not as they were when they passed."""
+    sources = Sources(project, stamps.files())
+    inputs = {place: sources.of_test(place).belongs for place in sources.tests()}
+    digests = {place: stamps.digest(f"{marked}: {place}", belongs) for place, belongs in inputs.items()}
+    changed = [place for place in digests if not stamps.has_passed(f"{marked}: {place}", digests[place])]
+    if not changed:
+        return Report("passed", UNCHANGED)
+    spread = ["-n", str((os.cpu_count() or 1) + 1)]  # one more than processors: many tests wait for programs
+    spread += ["--dist", "loadgroup"]  # a group is for tests that would make something costly twice
+    names = [place.removeprefix("grader/") for place in changed]
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        failed = Path(folder) / "failed.json"
+        words: list[str | Path] = [sys.executable, "-P", "-c", _START, "-q", "--tb", "short", *spread, "-m", marked]
+        words += ["-p", failed_files.__name__, "--failed-files", failed, *(names if len(changed) < len(inputs) else [])]
+        outcome = process.run(words, seconds=_PYTEST_SECONDS, cwd=project.root / "grader")
+        wrong = set(json.loads(failed.read_text("utf-8"))) if failed.is_file() else set(names)
+    ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
+    for place, name in zip(changed, names, strict=True):
+        if ended and name not in wrong:
+            stamps.keep(f"{marked}: {place}", digests[place], inputs[place])
+    if ended and not wrong:
+        same = len(inputs) - len(changed)
+        return Report("passed", f"{same} of {len(inputs)} files are as before" if same else "")
+    output = (outcome.stdout + outcome.stderr)[-6000:]
+    return Report("failed", f"it ran longer than {_PYTEST_SECONDS} s\n{output}" if outcome.timed_out else output)
+
+
+def grade_checks(project: Project, console: Console, inputs: Callable[..., Belongs], *, full: bool) -> list[Check]:
     pairs = _PAIRS if full else 0
     name = "grades are true: stubs, references, known mistakes, other ways" + (", pairs of mistakes" if full else "")
     return [
-        Check(name, lambda: _truth(project, console, pairs=pairs)),
-        Check("pages of mistakes match the catalogue", lambda: _mistakes(project)),
-        Check("figures of the handouts are up to date", lambda: _figures(project)),
+        Check(name, lambda: _truth(project, console, pairs=pairs), inputs(check_truth.__module__)),
+        Check(
+            "pages of mistakes match the catalogue",
+            lambda: _mistakes(project),
+            inputs(out_of_date.__module__, texts=True),
+        ),
+        Check(
+            "figures of the handouts are up to date",
+            lambda: _figures(project),
+            inputs(old_figures.__module__, texts=True),
+        ),
     ]
 
 
+_PYTEST = "pytest, with grading from end to end"
 _SLOW = "pytest, hostile submissions and packages for other systems"
+_CHECKS = ("checks", "programs", "run", "windows_build")
 
 
 def _packages(project: Project) -> Report:
@@ -103,26 +156,51 @@ def _packages(project: Project) -> Report:
     return Report("passed") if installed else Report("skipped", f"install: {' '.join(wanted)}")
 
 
+class _Inputs:
+    """Of checks that use the kit's programs: what is no document and no test; of Python what these modules import."""
+
+    def __init__(self, sources: Sources) -> None:
+        self._sources = sources
+        self._own = sources.places_of(*(f"{__package__}.{name}" for name in _CHECKS))
+
+    def __call__(self, *modules: str, texts: bool = False) -> Belongs:
+        inputs = self._sources.of_modules(*modules)
+        inputs.code |= self._own
+        inputs.texts |= texts
+        return lambda place: not place.startswith("grader/tests/") and inputs.belongs(place)
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """How much is tested."""
     parser.add_argument("--full", action="store_true", help="also what needs more: sanitizers, clang, fuzzing")
+    parser.add_argument(
+        "--fresh", action="store_true", help="also what passed before and depends on nothing that changed"
+    )
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
-    """All checks, or all that need no more than the basic tools."""
-    full: bool = arguments.full
-    tree = BuildTree(project, "dev", project.build / "dev", project.steps)
+    """All checks, or all that need no more than the basic tools; `--fresh`: also those that would pass as before."""
+    full, fresh = bool(arguments.full), bool(arguments.fresh)
+    tree = BuildTree(project, "dev", project.build / "dev", project.steps, (LINES,))
+    stamps = Stamps(project, fresh=fresh)
+    if fresh:
+        forget_answers(project)
+    inputs = _Inputs(Sources(project, stamps.files()))
     checks = [Check("a browser and a window system for the tests", lambda: _packages(project))]
-    checks += [Check("build everything, warnings are errors", lambda: build(tree, [])), *program_checks(tree)]
-    checks.append(Check("all structures give the same picture", lambda: same_pictures(project, tree)))
-    checks += grade_checks(project, console, full=full)
-    checks += python_checks(project)
+    checks.append(build_check("build everything, warnings are errors", tree, [], inputs))
+    checks += [
+        *python_checks(project, inputs),
+        *program_checks(tree, inputs),
+        same_pictures_check(project, tree, inputs),
+    ]
+    checks += [*grade_checks(project, console, inputs, full=full), pytest_check(project, _PYTEST, stamps, "not slow")]
     if full:
-        checks.append(Check(_SLOW, lambda: run_pytest(project, "slow")))
-        checks += asan_checks(project) + clang_checks(project) + lint_checks(project, (TIDY,))
-        checks += windows_checks(project, tree)
+        checks.append(pytest_check(project, _SLOW, stamps, "slow"))
+        more = [*clang_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
+        more += lint_checks(project, (TIDY,))
+        checks += sorted(more, key=lambda check: check.beside)  # builds first, each on the whole machine
     else:
-        more = Report("skipped", "run: ./raysteps test --full")
+        later = Report("skipped", "run: ./raysteps test --full")
         names = (_SLOW, "sanitizers", "build everything with clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
-        checks += [Check(name, lambda: more) for name in names]
-    return run_checks(checks, console)
+        checks += [Check(name, lambda: later) for name in names]
+    return run_checks(checks, console, stamps)

@@ -148,6 +148,6 @@ def test_what_is_the_same_code(one: str, other: str, same: bool) -> None:
 
 @pytest.mark.parametrize("piece", ['R"a(', "/*", '"', "'", "\\\n", "\\", "1'", "/\\\n", "a\\\n", "#\n", "((((", '"\\'])
 def test_no_source_takes_long_to_read(piece: str) -> None:
-    start = time.monotonic()
+    start = time.thread_time()
     assert not same_code(piece * (1_000_000 // len(piece)), "int a;")
-    assert time.monotonic() - start < 5
+    assert time.thread_time() - start < 5

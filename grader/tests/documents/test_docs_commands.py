@@ -6,7 +6,7 @@ import pytest
 from doc_commands import all_commands, complaint
 
 from raysteps.course.project import Project
-from tools.site.links import typed
+from tools.website.links import typed
 
 pytestmark = pytest.mark.portable
 

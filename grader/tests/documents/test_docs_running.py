@@ -13,9 +13,9 @@ from doc_workshop import make_workshop
 
 from raysteps.course.project import Project
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.site.links import Typed, typed
+from tools.website.links import Typed, typed
 
-# Each family has a workshop, in which its documents are read from the first to the last.
+# In this order, in one workshop: each family's documents are read from the first to the last.
 _FAMILIES = {
     "instructors": ("README", "docs/instructors", "docs/class", "docs/exports"),
     "handouts": ("steps/",),
@@ -78,10 +78,15 @@ def test_a_program_that_does_not_end_is_stopped(tmp_path: Path) -> None:
     assert time.monotonic() - start < 15
 
 
+@pytest.fixture(scope="module")
+def typist(kit: BuiltKit, tmp_path_factory: pytest.TempPathFactory) -> Typist:
+    return Typist(make_workshop(kit, tmp_path_factory.mktemp("workshop")), kit)
+
+
 @pytest.mark.slow
+@pytest.mark.xdist_group("documents")  # one after the other: they share the workshop
 @pytest.mark.parametrize("family", [*_FAMILIES, _OTHERS])
-def test_the_commands_do_what_the_documents_say(project: Project, kit: BuiltKit, tmp_path: Path, family: str) -> None:
-    typist = Typist(make_workshop(kit, tmp_path), kit)
+def test_the_commands_do_what_the_documents_say(project: Project, typist: Typist, family: str) -> None:
     count = 0
     shown = {output.command: output for output in outputs_of(project)}
     for block in blocks_of(project):

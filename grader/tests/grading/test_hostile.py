@@ -1,4 +1,4 @@
-"""Grades every attack of the corpus: none of them pays, none of them hurts. Once more as an ordinary user."""
+"""Grades each attack of the corpus as an ordinary user, a sample as root: none of them pays, none of them hurts."""
 
 import json
 import os
@@ -33,12 +33,23 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 
 CORPUS = read_corpus()
 _IS_ORDINARY = os.geteuid() != 0
+_ALL = "RAYSTEPS_ALL_ATTACKS"  # set it to grade all of them as root, too
+# Kinds that may end otherwise for root: processes, devices, what is shared, limits of a user, users and namespaces.
+_DEPENDS_ON_THE_USER = {2, 4, 19, 21, 22, 24, 25, 26, 27, 28, 29, 31}
 _AT_ONCE = 3
 _SLACK = 6.0  # seconds, for what the grader and the kernel do around a program on a machine that is busy with others
 _NUMBERS_WITHOUT_ENTRY = {33}  # docs/hostile.md says why
 _USUAL = ["failed", "crashed", "timeout", "partial"]
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
+
+def _sample() -> list[Attack]:
+    """The first of each kind, and all whose end may depend on who grades."""
+    first = {number: attack for attack in reversed(CORPUS) for number in attack.numbers}
+    return [one for one in CORPUS if one in first.values() or _DEPENDS_ON_THE_USER.intersection(one.numbers)]
+
+
+ATTACKS = CORPUS if _IS_ORDINARY or _ALL in os.environ else _sample()
 pytestmark = pytest.mark.xdist_group("hostile")  # the corpus is graded once
 
 
@@ -82,7 +93,7 @@ def own_kit(request: pytest.FixtureRequest, project: Project, steps: list[Step],
 def ordinary_user(
     request: pytest.FixtureRequest, own_kit: BuiltKit, sandbox: Sandbox
 ) -> Iterator[subprocess.Popen[str] | None]:
-    """The same tests as another user, started first because it takes as long as everything else together."""
+    """The same tests as another user, who grades all attacks; started first because it takes longest."""
     if _IS_ORDINARY or not _chosen(request, test_the_same_as_an_ordinary_user.__name__):
         yield None
         return
@@ -183,17 +194,21 @@ def _check_secret(graded: Graded, secret: str) -> None:
     assert not [run.command for run in graded.runs if run.leaked]
 
 
-def _check_time(graded: Graded) -> None:
+def _slow(graded: Graded) -> list[str]:
+    """What took longer than it may."""
     slow = [f"{run.command} ran {run.seconds:.1f} s" for run in graded.runs if run.seconds > run.limit + _SLACK]
-    assert not slow
-    assert graded.seconds < sum(run.limit for run in graded.runs) + _SLACK or graded.refused
+    if graded.seconds >= sum(run.limit for run in graded.runs) + _SLACK and not graded.refused:
+        slow.append(f"it was graded in {graded.seconds:.1f} s")
+    return slow
 
 
-@pytest.mark.parametrize("attack", CORPUS, ids=lambda attack: attack.name)
-def test_attack(attack: Attack, batch: Batch, place: Range) -> None:
+@pytest.mark.parametrize("attack", ATTACKS, ids=lambda attack: attack.name)
+def test_attack(attack: Attack, batch: Batch, place: Range, sandbox: Sandbox) -> None:
     seen = batch.graded(attack)
     assert not seen.trace.exists()
-    _check_time(seen)
+    if _slow(seen):  # what the attack did, it does again; other programs on the machine may have been in the way
+        batch.wait()
+        assert not _slow(place.grade(attack, sandbox, f"{attack.name}-again"))
     _check_secret(seen, place.planted.text)
     if attack.refused:
         assert attack.refused in seen.refused
@@ -228,7 +243,7 @@ def test_nothing_is_left_behind(batch: Batch, traces: Traces, before: set[str]) 
 # What must be true of the corpus
 
 
-@pytest.mark.parametrize("attack", [attack for attack in CORPUS if attack.outside], ids=lambda attack: attack.name)
+@pytest.mark.parametrize("attack", [attack for attack in ATTACKS if attack.outside], ids=lambda attack: attack.name)
 def test_an_attack_is_real(attack: Attack, place: Range, temporary: Path) -> None:
     """Without a sandbox it reaches its aim; else its failure in one would prove nothing."""
     folder = temporary / f"{attack.name}-socket"
@@ -242,8 +257,9 @@ def test_an_attack_is_real(attack: Attack, place: Range, temporary: Path) -> Non
 
 
 def test_every_kind_of_attack_has_an_entry() -> None:
-    numbers = {number for attack in CORPUS for number in attack.numbers}
-    assert numbers | _NUMBERS_WITHOUT_ENTRY == set(range(1, 38))
+    for attacks in (CORPUS, _sample()):
+        numbers = {number for attack in attacks for number in attack.numbers}
+        assert numbers | _NUMBERS_WITHOUT_ENTRY == set(range(1, 38))
     for attack in CORPUS:
         assert int(attack.name[:2]) in attack.numbers, attack.name
 

@@ -15,7 +15,8 @@ from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.site.links import Typed
+from tools.website.links import Typed
+from tools.xvfb import hidden_screen
 
 _AT = "https://github.com/course/checkout"
 _CLASSROOM = {
@@ -45,7 +46,7 @@ def _can_view(project: Project) -> bool:
         check_glfw(release_tree(project))
     except UsageError:
         return False
-    return shutil.which("xvfb-run") is not None
+    return shutil.which("Xvfb") is not None
 
 
 @dataclass
@@ -114,8 +115,10 @@ class Typist:
         if name == "view":
             if not _can_view(self.workshop.original):
                 return ""
-            start = ["xvfb-run", "-a", *start]
             words = words if "--screenshot" in words else [*words, "--screenshot", "view.ppm"]  # so that it ends
+            with hidden_screen() as environment:
+                on_screen = [f"{name}={environment[name]}" for name in ("DISPLAY", "LIBGL_ALWAYS_SOFTWARE")]
+                return self._run(["env", *on_screen, *start, *words], here, package)
         ending = Ending() if words == ["watch"] else _ENDINGS.get(name)  # where all steps are done it says so and ends
         return self._run([*start, *words], here, package, ending)
 

@@ -235,7 +235,7 @@ def test_the_first_difference_is_named(
     divergence = find_divergence(mine, record)
     assert divergence is not None
     assert (divergence.place, divergence.function) == (place, function)
-    assert words in parting.words
+    assert words in divergence.words
     for width in (60, 160):
         console = Console(width=width, record=True, file=io.StringIO())
         assert compare(project, InspectResult(record=mine), InspectResult(record=record), console) == 1

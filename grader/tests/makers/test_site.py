@@ -15,12 +15,12 @@ from raysteps.common.errors import UsageError
 from raysteps.common.markdown import anchors, formulas
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
-from tools.site.api_pages import api_pages
-from tools.site.build import check_place, put
-from tools.site.command_page import command_page
-from tools.site.documents import CONTRACTS_PAGE, CORE_PAGE, documents
-from tools.site.formulas import BadFormula, bad_formulas, mathml
-from tools.site.links import dead_links
+from tools.website.api_pages import api_pages
+from tools.website.build import check_place, put
+from tools.website.command_page import command_page
+from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, documents
+from tools.website.formulas import BadFormula, bad_formulas, mathml
+from tools.website.links import dead_links
 
 _TOGETHER = pytest.mark.xdist_group("site")
 
@@ -118,7 +118,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path, capsys: pytest
 def test_what_is_missing_is_named(
     project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tools.site.build.find_spec", lambda name: None)
+    monkeypatch.setattr("tools.website.build.find_spec", lambda name: None)
     assert main(["docs", "--out", str(tmp_path / "new")]) == 2
     line = capsys.readouterr().err.splitlines()[-1]
     assert line.strip() == f'"{sys.executable}" -m pip install -e "{project.root / "grader"}[docs]"'

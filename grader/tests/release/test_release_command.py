@@ -16,7 +16,7 @@ from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.release.build_release import usable
-from tools.site.links import typed
+from tools.website.links import typed
 
 
 def test_the_folders_that_documents_name_can_be_written(project: Project) -> None:

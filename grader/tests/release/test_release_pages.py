@@ -16,7 +16,7 @@ from raysteps.grading.scoring import max_points
 from raysteps.release.build_release import first_steps, write_release
 from raysteps.release.kit_pages import as_printed, for_students, readme
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.site.links import Typed, mentioned, typed
+from tools.website.links import Typed, mentioned, typed
 
 _NEEDS_REFERENCE = re.compile(r"--impl[ =]reference|--against\b|--accel[ =](?:boxes|wide)\S*|--spd\b")
 _OF_A_STEP = ("check", "hint", "reset", "watch")

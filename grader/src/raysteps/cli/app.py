@@ -55,7 +55,7 @@ COMMANDS = (
     Command("demo", "one picture per step, and two sample submissions graded", "raysteps.cli.demo"),
     Command("gallery", "a page that walks through the steps in pictures", "raysteps.cli.gallery"),
     Command("bench", "measure the reference", "tools.bench.command"),
-    Command("docs", "the documents as a site that needs no network", "tools.site.command"),
+    Command("docs", "the documents as a site that needs no network", "tools.website.command"),
     Command("figures", "make the figures of the handouts", "tools.figures.command"),
     Command("test", "test the kit itself", "tools.selftest.run"),
     Command("dev", "for those who maintain the kit", "tools.dev"),

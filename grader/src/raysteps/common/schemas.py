@@ -19,13 +19,19 @@ def read_schema(package: str, place: str, part: str = "") -> Any:
     return {"$schema": schema["$schema"], "$ref": f"#/$defs/{part}", "$defs": schema["$defs"]} if part else schema
 
 
+@cache
+def _validator(text: str) -> Any:
+    """Of a schema that is one itself: to see that costs more than to check a document."""
+    schema = json.loads(text)
+    kind = jsonschema.validators.validator_for(schema)
+    kind.check_schema(schema)
+    return kind(schema)
+
+
 def complaint(document: Any, schema: Any) -> str:
     """Where and how a document breaks a schema; nothing when it does not."""
-    try:
-        jsonschema.validate(document, schema)
-    except jsonschema.ValidationError as error:
-        return f"{error.json_path}: {error.message[:300]}"
-    return ""
+    error = jsonschema.exceptions.best_match(_validator(json.dumps(schema)).iter_errors(document))
+    return "" if error is None else f"{error.json_path}: {error.message[:300]}"
 
 
 # Tables of the kit in TOML, each with a schema. A bad one is the kit's fault.

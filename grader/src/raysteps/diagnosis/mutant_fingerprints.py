@@ -24,6 +24,7 @@ from raysteps.images.render import render
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker import ask_student
 from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import limits_of
@@ -89,12 +90,12 @@ _COMPILE_SECONDS = 300.0
 class _Learner:
     """Builds the mistakes with the kit's own tools; their code is the kit's, so no sandbox is needed."""
 
-    def __init__(self, kit: BuiltKit, step: Step, plan: Plan | None, folder: Path) -> None:
+    def __init__(self, kit: BuiltKit, step: Step, plan: Plan | None, folder: Path, sandbox: Sandbox) -> None:
         self._kit = kit
         self._step = step
         self._questions = {} if plan is None else questions_of(kit, step, plan, step.functions)
         self._folder = folder
-        self._air = LimitsOnly()
+        self._air = sandbox
         self._limits = replace(limits_of(step, {}), seconds=_SECONDS, compile_seconds=_COMPILE_SECONDS)
         self._reference = reference_source(kit.project, step)
 
@@ -142,7 +143,12 @@ def _found(path: Path) -> Known | None:
 
 
 def mutant_fingerprints(
-    kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], say: ProgressCallback
+    kit: BuiltKit,
+    step: Step,
+    plan: Plan | None,
+    mutants: Sequence[Mutant],
+    say: ProgressCallback,
+    sandbox: Sandbox | None = None,
 ) -> Known:
     """By the names of their forms. A mistake of the catalogue that does not build is the kit's fault."""
     path = kit.folder / "mistakes" / f"{step.number}.npz"
@@ -152,14 +158,14 @@ def mutant_fingerprints(
             known = _found(path)
             if known is None:
                 say(f"learning the known mistakes of {step.number} (once)")
-                known = _learn(kit, step, plan, mutants)
+                known = _learn(kit, step, plan, mutants, sandbox or LimitsOnly())
                 write_known(path, known)
     return known
 
 
-def _learn(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant]) -> Known:
+def _learn(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], sandbox: Sandbox) -> Known:
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder, ThreadPoolExecutor(_AT_A_TIME) as pool:
-        learner = _Learner(kit, step, plan, Path(folder))
+        learner = _Learner(kit, step, plan, Path(folder), sandbox)
         forms = {name: form for mutant in mutants for name, form in mutant.choices().items()}
         learned = list(pool.map(learner.learn, forms, forms.values()))
     return dict(zip(forms, learned, strict=True))

@@ -21,7 +21,7 @@ namespace {
 constexpr int k_max_depth = 12;
 constexpr std::size_t k_leaf_size = 8;
 constexpr std::size_t k_max_growth = 4;          // children may hold this many times the parent's surfaces
-constexpr std::uint64_t k_most_references = 24;  // of a surface on average, whatever the scene
+constexpr std::uint64_t k_max_references = 24;   // of a surface on average, whatever the scene
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
 
@@ -43,11 +43,11 @@ bool boxes_overlap(const Box& a, const Box& b) {
 /// The part of the cell that its surfaces reach, grown a little: rays miss a smaller box more often.
 Box tight_box(const Box& cell, const SurfaceList& surfaces, float padding) {
     const Box all = bounds_of(surfaces);
-    return {glm::max(cell.min, all.min) - padding, glm::min(cell.max, all.max) + padding};
+    return Box{glm::max(cell.min, all.min), glm::min(cell.max, all.max)}.padded(padding);
 }
 
 SurfaceList touching(const Box& cell, const SurfaceList& surfaces, float padding) {
-    const Box grown{cell.min - padding, cell.max + padding};
+    const Box grown = cell.padded(padding);
     SurfaceList list;
     std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(list),
                  [&](const Surface* surface) { return surface->overlaps(grown); });
@@ -81,7 +81,11 @@ std::vector<Part> split_part(Part& part, float padding) {
             for (std::size_t i = 0; i < cells.size(); ++i) {
                 if (!lists[i].empty()) {
                     const std::uint64_t share = part.most_references * lists[i].size() / references;
-                    parts.push_back({nullptr, cells[i], std::move(lists[i]), share, part.depth + 1});
+                    parts.push_back({.node = nullptr,
+                                     .cell = cells[i],
+                                     .surfaces = std::move(lists[i]),
+                                     .most_references = share,
+                                     .depth = part.depth + 1});
                 }
             }
             part.node->children.resize(parts.size());
@@ -193,15 +197,13 @@ void visit(const Node& node, const Ray& ray, Closest& closest) {
 Box bounds_of(const SurfaceList& surfaces) {
     Box box;
     for (const Surface* surface : surfaces) {
-        const Box bounds = surface->bounds();
-        box.min = glm::min(box.min, bounds.min);
-        box.max = glm::max(box.max, bounds.max);
+        box.extend(surface->bounds());
     }
     return box;
 }
 
 std::array<Box, 8> split(const Box& box) {
-    const glm::vec3 middle = 0.5F * box.min + 0.5F * box.max;
+    const glm::vec3 middle = box.center();
     std::array<Box, 8> parts;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const glm::bvec3 upper((i & 1U) != 0U, (i & 2U) != 0U, (i & 4U) != 0U);
@@ -239,7 +241,7 @@ bool Triangle::overlaps(const Box& box) const {
         return false;
     }
     // Separating axes (Akenine-Moller 2001): the triangle's normal, and each edge with each axis of the box.
-    const glm::vec3 center = 0.5F * (box.min + box.max);
+    const glm::vec3 center = box.center();
     const glm::vec3 half = 0.5F * (box.max - box.min);
     const glm::vec3 padded = half + 1e-6F * (glm::abs(center) + half);
     const std::array<glm::vec3, 3> corners{a_ - center, b_ - center, c_ - center};
@@ -270,11 +272,14 @@ Node build_octree(const SurfaceList& surfaces) {
     });
     const Box all = bounds_of(surfaces);
     const float padding = padding_within(all);
-    Node root{{all.min - padding, all.max + padding}, large, {}};
+    Node root{.box = all.padded(padding), .surfaces = large, .children = {}};
     if (!others.empty()) {
         const Box box = bounds_of(others);
-        const std::uint64_t most_references = k_most_references * others.size();
-        build_all({&root.children.emplace_back(), box, std::move(others), most_references, 0}, padding);
+        const std::uint64_t most_references = k_max_references * others.size();
+        Node* const below = &root.children.emplace_back();
+        build_all(
+            {.node = below, .cell = box, .surfaces = std::move(others), .most_references = most_references, .depth = 0},
+            padding);
     }
     return root;
 }

@@ -23,11 +23,6 @@ constexpr int k_levels_by_cost = 32;             // below them surfaces are halv
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
 constexpr std::size_t k_enough_ranges = 64;      // that wait to be built, for any number of threads
 
-void grow(Box& box, const Box& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
-}
-
 /// A surface on its way into the tree.
 struct Item {
     Box bounds;
@@ -59,7 +54,7 @@ struct Bin {
     std::size_t count = 0;
 
     void add(const Bin& other) {
-        grow(box, other.box);
+        box.extend(other.box);
         count += other.count;
     }
 };
@@ -83,7 +78,7 @@ public:
     }
 
     Bvh build() {
-        std::vector<Range> ranges{{0, items_.size()}};
+        std::vector<Range> ranges{{.begin = 0, .end = items_.size()}};
         while (!ranges.empty() && ranges.size() < k_enough_ranges && items_.size() >= k_enough_surfaces) {
             ranges = split_all(ranges);
         }
@@ -118,8 +113,8 @@ private:
         BvhNode& node = nodes_[range.node];
         Box middles;
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            grow(node.box, items_[i].bounds);
-            grow(middles, {items_[i].twice_middle(), items_[i].twice_middle()});
+            node.box.extend(items_[i].bounds);
+            middles.extend(items_[i].twice_middle());
         }
         const Cut cut = range.level < k_levels_by_cost ? best_cut(range, middles, node.box) : Cut{};
         const auto size = static_cast<float>(range.size());
@@ -132,8 +127,13 @@ private:
         const std::size_t middle = divide(range, cut);
         const std::size_t free = range.free + 2;
         const std::size_t free_of_right = free + 2 * (middle - range.begin) - 2;
-        return std::pair(Range{range.begin, middle, range.free, free, range.level + 1},
-                         Range{middle, range.end, range.free + 1, free_of_right, range.level + 1});
+        return std::pair(
+            Range{.begin = range.begin, .end = middle, .node = range.free, .free = free, .level = range.level + 1},
+            Range{.begin = middle,
+                  .end = range.end,
+                  .node = range.free + 1,
+                  .free = free_of_right,
+                  .level = range.level + 1});
     }
 
     /// The cheapest of the cuts between bins; of infinite cost where all surfaces have the same middle.
@@ -198,8 +198,9 @@ private:
         bvh.nodes.reserve(used);
         for (const BvhNode& node : nodes_) {
             if (is_used(node)) {
-                const Box box{node.box.min - padding, node.box.max + padding};
-                bvh.nodes.push_back({box, node.is_leaf() ? node.first : place[node.first], node.count});
+                bvh.nodes.push_back({.box = node.box.padded(padding),
+                                     .first = node.is_leaf() ? node.first : place[node.first],
+                                     .count = node.count});
             }
         }
         bvh.surfaces.reserve(items_.size());

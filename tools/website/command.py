@@ -12,11 +12,11 @@ from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.report.terminal import short_path
-from tools.site.api_pages import api_pages
-from tools.site.build import GALLERY, build_site, check_place, check_tools, put, stage
-from tools.site.command_page import command_page
-from tools.site.documents import COMMANDS_PAGE, documents
-from tools.site.links import dead_links
+from tools.website.api_pages import api_pages
+from tools.website.build import GALLERY, build_site, check_place, check_tools, put, stage
+from tools.website.command_page import command_page
+from tools.website.documents import COMMANDS_PAGE, documents
+from tools.website.links import dead_links
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -35,7 +35,7 @@ def _check(out: Path, gallery: Path | None) -> None:
 
 def _troubles(project: Project) -> list[str]:
     """What is wrong in the documents themselves."""
-    from tools.site.formulas import bad_formulas  # brings docutils, which the other commands do not need
+    from tools.website.formulas import bad_formulas  # brings docutils, which the other commands do not need
 
     written = documents(project)
     return [*dead_links(project.root, written), *bad_formulas(project.root, written)]

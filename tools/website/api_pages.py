@@ -6,7 +6,7 @@ from pathlib import Path
 
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
-from tools.site.documents import CONTRACTS_PAGE, CORE_PAGE
+from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE
 
 _CORE = """# The framework's core
 

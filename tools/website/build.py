@@ -14,8 +14,8 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
 from raysteps.common.markdown import Block, with_tags, with_targets
 from raysteps.course.project import Project, here
-from tools.site.documents import below, documents, front_page, sections
-from tools.site.links import is_elsewhere, is_shell, split
+from tools.website.documents import below, documents, front_page, sections
+from tools.website.links import is_elsewhere, is_shell, split
 
 # What the theme leaves out for people who use a keyboard or a screen reader.
 
@@ -41,7 +41,7 @@ def make_accessible(site: Path) -> None:
 _LIGHT = dict.fromkeys(("color-brand-primary", "color-brand-content", "color-brand-visited"), "#9a4408")
 _DARK = dict.fromkeys(_LIGHT, "#f5a65b")
 SETTINGS: dict[str, Any] = {
-    "extensions": ["myst_parser", "tools.site.formulas"],
+    "extensions": ["myst_parser", "tools.website.formulas"],
     "project": "Raysteps",
     "html_title": "Raysteps",
     "html_theme": "furo",
@@ -70,7 +70,7 @@ SETTINGS: dict[str, Any] = {
     "language": "en",
 }
 # The theme's own settings are known only to settings that come from a file.
-_CONF = "from tools.site.build import SETTINGS\n\nglobals().update(SETTINGS)\n"
+_CONF = "from tools.website.build import SETTINGS\n\nglobals().update(SETTINGS)\n"
 
 
 def check_tools() -> None:

@@ -1,0 +1,189 @@
+"""Limits and nothing else, for programs of which every line is the kit's: no keeper stands between, so a run costs what
+the program costs. On Linux.
+"""
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import zlib
+from contextlib import ExitStack, suppress
+from dataclasses import asdict, replace
+from pathlib import Path
+
+from raysteps.common.files import write_bytes
+from raysteps.common.process import Outcome
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.monitor import Usage, descendants, monitor, usage_of
+from raysteps.sandbox.rlimits import limit_words
+from raysteps.sandbox.task import Input, Isolation, Output, Sandbox, Task, TaskResult
+from raysteps.sandbox.task_dir import PathMap, TaskDir, nameless_file
+
+_PATIENCE = 6  # times as long on the clock, where other programs keep the processors busy
+
+
+class _Group:
+    """A program and what it started."""
+
+    def __init__(self, process: "subprocess.Popen[bytes]") -> None:
+        self._process = process
+
+    def usage(self) -> Usage:
+        return usage_of({self._process.pid} | descendants(self._process.pid))
+
+    def kill(self) -> None:
+        with suppress(OSError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+
+
+class Direct:
+    """Limits and nothing else: for programs of which every line is the kit's. The time that one may take is counted
+    where it computes, so that a busy machine makes no right file wrong."""
+
+    isolation: Isolation = LimitsOnly.isolation
+
+    def run(self, task: Task) -> TaskResult:
+        seconds = task.limits.wall_seconds
+        limits = replace(task.limits, wall_seconds=_PATIENCE * seconds, cpu_seconds=seconds)
+        with ExitStack() as stack:
+            folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-run-")))
+            place = TaskDir(folder, None)
+            inside = PathMap(task, lambda _, given: str(place.linked(given.path, given.inner_name)))
+            if task.tools:
+                inside.write_to_folder(place.writable("out"), str(folder / "out"))
+            else:
+                inside.write_to_memory(stack)
+            command = inside.command()
+            environment = {"LC_ALL": "C", "HOME": str(folder), "TMPDIR": str(folder)}
+            if task.tools:
+                environment["PATH"] = os.pathsep.join(dict.fromkeys((str(Path(command[0]).parent), "/usr/bin", "/bin")))
+            start = time.monotonic()
+            process = stack.enter_context(
+                subprocess.Popen(
+                    [*limit_words(limits, memory=True), *command],
+                    stdin=nameless_file(task.stdin, stack),
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                    pass_fds=inside.fds,
+                    cwd=folder,
+                    env=environment,
+                    start_new_session=True,
+                )
+            )
+            stack.callback(process.kill)
+            seen = monitor(process, start, limits, _Group(process))
+            out, err = (data.decode("utf-8", "replace") for data in (seen.stdout, seen.stderr))
+            code = -signal.SIGKILL if seen.stopped else seen.status
+            outcome = Outcome(code, seen.stopped == "wall", out, err, seen.seconds)
+            return TaskResult(outcome, inside.outputs(), max(seen.cpu_seconds, seen.watched_cpu_seconds), seen.stopped)
+
+
+# Runs the kit's own programs, each once: what was run before on the same bytes gives the same answer. `dev check`
+# hands in a thousand files, and most of what it runs it would run again: a right file beside many wrong ones, a
+# mistake that the diagnosis learned already. Nobody's code is strange here, so no keeper stands between; limits stay.
+
+
+class Remembered:
+    """Hands on what was not run yet. Answers lie in `folder`, by what went in; `always` goes into every one of them:
+    what is not among a task's words and files, such as the compiler's version. A task that was stopped is run again,
+    since a clock stopped it."""
+
+    def __init__(self, sandbox: Sandbox, folder: Path, always: str) -> None:
+        self._sandbox = sandbox
+        self._folder = folder
+        self._always = always
+        self._marks: dict[tuple[str, int, int], bytes] = {}
+        self._turns: dict[str, threading.Lock] = {}
+        self._start = time.time()
+        self.asked = self.ran = 0
+
+    @property
+    def isolation(self) -> Isolation:
+        return self._sandbox.isolation
+
+    def run(self, task: Task) -> TaskResult:
+        """Two that ask the same at a time get the answer of one run."""
+        key = self._key(task)
+        with self._turns.setdefault(key, threading.Lock()):
+            self.asked += 1
+            path = self._folder / key[:2] / key[2:]
+            kept = _read(path)
+            if kept is not None and kept.outcome.seconds <= task.limits.wall_seconds:
+                os.utime(path)
+                return kept
+            self.ran += 1
+            ran = self._sandbox.run(task)
+            if not ran.stopped and not ran.outcome.timed_out:
+                write_bytes(path, _packed(ran))
+            return ran
+
+    def forget_unused(self) -> None:
+        """What nobody asked for since this began."""
+        for path in self._folder.glob("??/*"):
+            if path.stat().st_mtime < self._start - 1:
+                path.unlink(missing_ok=True)
+
+    def _key(self, task: Task) -> str:
+        limits = task.limits
+        bounds = (limits.memory_mb, limits.processes, limits.file_mb, limits.tmp_mb, limits.output_kb)
+        digest = hashlib.sha256(f"{self._always}\0{bounds}\0{task.tools}\0".encode())
+        for word in (*task.command, "\0", *task.inputs):
+            match word:
+                case Input():
+                    digest.update(f"in {word.inner_name}\0".encode() + self._mark(word.path))
+                case Output():
+                    digest.update(f"out {word.name}\0".encode())
+                case _:
+                    digest.update(f"word {word}\0".encode())
+        digest.update(task.stdin)
+        return digest.hexdigest()
+
+    def _mark(self, path: Path) -> bytes:
+        """Of the bytes of a file, or of all files in a folder."""
+        if path.is_dir():
+            return self._mark_of_folder(path)
+        status = path.stat()
+        known = (str(path), status.st_mtime_ns, status.st_size)
+        if known not in self._marks:
+            self._marks[known] = hashlib.sha256(path.read_bytes()).digest()
+        return self._marks[known]
+
+    def _mark_of_folder(self, folder: Path) -> bytes:
+        """A precompiled header is the header once more, and never the same bytes."""
+        files = sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix != ".gch")
+        digest = hashlib.sha256()
+        for path in files:
+            digest.update(f"{path.relative_to(folder).as_posix()}\0".encode() + self._mark(path))
+        return digest.digest()
+
+
+def _packed(ran: TaskResult) -> bytes:
+    sizes = {name: len(data) for name, data in ran.outputs.items()}
+    head = {"outcome": asdict(ran.outcome), "cpu_seconds": ran.cpu_seconds, "sizes": sizes}
+    return zlib.compress(json.dumps(head).encode() + b"\n" + b"".join(ran.outputs.values()), 1)
+
+
+def _read(path: Path) -> TaskResult | None:
+    """None where there is nothing, or not all of it."""
+    try:
+        head, _, data = zlib.decompress(path.read_bytes()).partition(b"\n")
+        told = json.loads(head)
+        outputs = {}
+        for name, size in told["sizes"].items():
+            outputs[name], data = data[:size], data[size:]
+        return TaskResult(Outcome(**told["outcome"]), outputs, told["cpu_seconds"], "")
+    except (OSError, zlib.error, ValueError, KeyError, TypeError):
+        return None
+
+
+def sandbox_of_the_kit(folder: Path, always: str) -> Remembered:
+    """For what nobody else wrote."""
+    if sys.platform != "linux":
+        return Remembered(LimitsOnly(), folder, always)
+
+    return Remembered(Direct(), folder, always)
