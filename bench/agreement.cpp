@@ -15,7 +15,7 @@ bool same(const Fill& a, const Fill& b) {
 
 bool same(const HitRecord& a, const HitRecord& b) {
     return a.distance == b.distance && a.position == b.position && a.normal == b.normal && same(a.fill, b.fill) &&
-           a.ray_direction == b.ray_direction && a.from_outside == b.from_outside;
+           a.ray_direction == b.ray_direction && a.front_face == b.front_face;
 }
 
 bool near(const HitRecord& a, const HitRecord& b) {
@@ -24,7 +24,7 @@ bool near(const HitRecord& a, const HitRecord& b) {
 
 bool agree(const Accelerator& expected, const Accelerator& actual, const RecordedRay& asked, Measure measure) {
     if (asked.question == Question::any) {
-        return expected.any_hit(asked.ray, asked.distance) == actual.any_hit(asked.ray, asked.distance);
+        return expected.occluded(asked.ray, asked.distance) == actual.occluded(asked.ray, asked.distance);
     }
     const std::optional<HitRecord> a = expected.closest_hit(asked.ray);
     const std::optional<HitRecord> b = actual.closest_hit(asked.ray);
@@ -39,7 +39,7 @@ std::string answer(const Accelerator& accelerator, const RecordedRay& asked) {
     out.imbue(std::locale::classic());
     out.precision(9);
     if (asked.question == Question::any) {
-        out << (accelerator.any_hit(asked.ray, asked.distance) ? "a hit" : "no hit");
+        out << (accelerator.occluded(asked.ray, asked.distance) ? "a hit" : "no hit");
     } else if (const std::optional<HitRecord> hit = accelerator.closest_hit(asked.ray)) {
         out << "a hit at " << hit->distance;
     } else {

@@ -43,8 +43,8 @@ public:
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return octree_->closest_hit(ray);
     }
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
-        return octree_->any_hit(ray, distance);
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return octree_->occluded(ray, distance);
     }
     [[nodiscard]] AcceleratorStats size() const override { return octree_->size(); }
 

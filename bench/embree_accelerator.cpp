@@ -132,7 +132,7 @@ public:
         return answer.hit.geomID == k_other ? context.hit : record(ray, answer);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
         Context context = context_of(ray);
         RTCRay asked = embree_ray(ray, distance);
         rtcOccluded1(scene_.get(), &context.embree, &asked);
@@ -165,8 +165,8 @@ private:
     [[nodiscard]] HitRecord record(const Ray& ray, const RTCRayHit& answer) const {
         const Surface& surface = *lists_[answer.hit.geomID][answer.hit.primID];
         const glm::vec3 own_normal = glm::normalize(glm::vec3(answer.hit.Ng_x, answer.hit.Ng_y, answer.hit.Ng_z));
-        const bool from_outside = glm::dot(own_normal, ray.direction) < 0.0F;
-        glm::vec3 normal = from_outside ? own_normal : -own_normal;
+        const bool front_face = glm::dot(own_normal, ray.direction) < 0.0F;
+        glm::vec3 normal = front_face ? own_normal : -own_normal;
         if (answer.hit.geomID == k_smooth) {
             const auto& triangle = static_cast<const SmoothTriangle&>(surface);
             const glm::vec3 blended = (1.0F - answer.hit.u - answer.hit.v) * triangle.normal_a() +
@@ -180,7 +180,7 @@ private:
                 .normal = normal,
                 .ray_direction = ray.direction,
                 .distance = distance,
-                .from_outside = from_outside};
+                .front_face = front_face};
     }
 
     void attach(const Geometry& geometry, Kind kind) {

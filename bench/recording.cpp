@@ -21,10 +21,10 @@ std::optional<HitRecord> Recorder::closest_hit(const Ray& ray) const {
     return inner_.closest_hit(ray);
 }
 
-bool Recorder::any_hit(const Ray& ray, float distance) const {
+bool Recorder::occluded(const Ray& ray, float distance) const {
     name_last();
     rays_.push_back({.ray = ray, .distance = distance, .question = Question::any, .kind = RayKind::eye});
-    return inner_.any_hit(ray, distance);
+    return inner_.occluded(ray, distance);
 }
 
 std::vector<RecordedRay> every(std::size_t n, const std::vector<RecordedRay>& rays) {

@@ -26,7 +26,7 @@ public:
         : inner_(inner), rays_(rays), known_(known) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
 
     /// To be called after the last ray.
     void finish() const { name_last(); }

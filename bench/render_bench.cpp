@@ -146,7 +146,7 @@ void write_rays(JsonWriter& json, const std::vector<RecordedRay>& rays) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
         json.key(k_names[i]).whole(counts[i]);
     }
-    json.key("any_hit").whole(any).end_object();
+    json.key("occluded").whole(any).end_object();
 }
 
 void write_side(JsonWriter& json, const Side& side) {

@@ -9,7 +9,7 @@ Replay replay(const Accelerator& accelerator, std::span<const RecordedRay> rays)
     Replay result;
     const ProcessorClock clock;
     for (const RecordedRay& recorded : rays) {
-        const bool hit = recorded.question == Question::any ? accelerator.any_hit(recorded.ray, recorded.distance)
+        const bool hit = recorded.question == Question::any ? accelerator.occluded(recorded.ray, recorded.distance)
                                                             : accelerator.closest_hit(recorded.ray).has_value();
         result.hits += hit ? 1U : 0U;
     }

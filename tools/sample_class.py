@@ -66,7 +66,7 @@ MISTAKES = (
     ("03", "return direction - 2.0F * glm::dot(direction, normal) * normal;", "return -direction;"),
     ("03", "fill.kd * cosine * fill.color * light.color", "fill.kd * cosine * light.color"),
     ("04", "hit.position + k_shadow_threshold * hit.normal", "hit.position"),
-    ("04", "!scene.any_hit(ray, glm::distance(ray.origin, light.position))", "!scene.closest_hit(ray)"),
+    ("04", "!scene.occluded(ray, glm::distance(ray.origin, light.position))", "!scene.closest_hit(ray)"),
     ("05", "depth == 1 ? tracer.background() : k_black", "tracer.background()"),
     ("05", "color += hit->fill.ks * trace(", "color += trace("),
 )

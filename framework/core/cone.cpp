@@ -81,7 +81,7 @@ std::optional<HitRecord> Cone::wall_hit(const Ray& ray, double distance) const {
     hit.normal = glm::vec3(meets_outside ? outward : -outward);
     hit.ray_direction = ray.direction;
     hit.distance = static_cast<float>(distance);
-    hit.from_outside = meets_outside || sidedness_ == Sidedness::inside;
+    hit.front_face = meets_outside || sidedness_ == Sidedness::inside;
     return hit;
 }
 

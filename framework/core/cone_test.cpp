@@ -30,7 +30,7 @@ TEST_CASE("a cylinder is hit from outside", "[cone]") {
     CHECK(hit->distance == about(4));
     CHECK_THAT(hit->position, IsNear({1, 0, 1}));
     CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
-    CHECK(hit->from_outside);
+    CHECK(hit->front_face);
     CHECK(hit->ray_direction == glm::vec3(-1, 0, 0));
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("a cylinder is hit from inside, through its open end too", "[cone]") {
     REQUIRE(hit);
     CHECK(hit->distance == about(1));
     CHECK_THAT(hit->normal, IsNear({-1, 0, 0}));
-    CHECK_FALSE(hit->from_outside);
+    CHECK_FALSE(hit->front_face);
     const auto through_end = cone(k_base, k_apex).hit({{0, 0, 3}, glm::normalize(glm::vec3(0.5F, 0, -1))});
     REQUIRE(through_end);
     CHECK_THAT(through_end->position, IsNear({1, 0, 1}));
@@ -77,7 +77,7 @@ TEST_CASE("with negative radii only the inside is there", "[cone]") {
     REQUIRE(hit);
     CHECK(hit->distance == about(6));
     CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
-    CHECK(hit->from_outside);
+    CHECK(hit->front_face);
 }
 
 TEST_CASE("a thin cone far away is hit where it is", "[cone]") {
@@ -143,7 +143,7 @@ TEST_CASE("a hollow sphere is seen from inside only", "[inward_sphere]") {
         CHECK(hit->distance == about(start + 1));
         CHECK_THAT(hit->position, IsNear({-1, 2, 3}));
         CHECK_THAT(hit->normal, IsNear({1, 0, 0}));
-        CHECK(hit->from_outside);
+        CHECK(hit->front_face);
     }
     CHECK_FALSE(sphere.hit({{6, 2, 3}, {1, 0, 0}}));
     CHECK_FALSE(sphere.hit({{6, 4.1F, 3}, {-1, 0, 0}}));

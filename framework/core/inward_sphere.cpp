@@ -32,7 +32,7 @@ std::optional<HitRecord> InwardSphere::intersect(const Ray& ray) const {
     hit.normal = glm::vec3(-glm::normalize(on_wall));
     hit.ray_direction = ray.direction;
     hit.distance = static_cast<float>(distance);
-    hit.from_outside = true;
+    hit.front_face = true;
     return hit;
 }
 

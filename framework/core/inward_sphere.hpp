@@ -4,7 +4,7 @@
 
 namespace raysteps {
 
-/// Its own normal points to the centre, so every hit is one from_outside. A ray from outside passes the near wall
+/// Its own normal points to the centre, so every hit is one front_face. A ray from outside passes the near wall
 /// and meets the far one.
 class InwardSphere final : public Surface {
 public:

@@ -19,7 +19,7 @@ public:
 
     /// Whether any surface is hit nearer than `distance`: all that a shadow ray wants to know. Costs no more than
     /// closest_hit, and less where the first hit that is found ends the search.
-    [[nodiscard]] virtual bool any_hit(const Ray& ray, float distance) const {
+    [[nodiscard]] virtual bool occluded(const Ray& ray, float distance) const {
         const std::optional<HitRecord> hit = closest_hit(ray);
         return hit && hit->distance < distance;
     }
@@ -40,9 +40,9 @@ public:
         return inner_.closest_hit(ray);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
         ++rays_;
-        return inner_.any_hit(ray, distance);
+        return inner_.occluded(ray, distance);
     }
 
 private:

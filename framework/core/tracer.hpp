@@ -10,7 +10,7 @@ class Tracer : public SceneQuery {
 public:
     /// Light that the surface itself sends along the ray: the sum over the lights that reach the hit and,
     /// from step 08 on, what shines through it.
-    [[nodiscard]] virtual Color local_light(const HitRecord& hit, int depth) = 0;
+    [[nodiscard]] virtual Color direct_lighting(const HitRecord& hit, int depth) = 0;
 
     /// The colour that arrives along a ray that goes on from the hit. The renderer notes which ray that is, and asks
     /// step 05 again.

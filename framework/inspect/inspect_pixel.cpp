@@ -10,7 +10,7 @@
 namespace raysteps {
 namespace {
 
-constexpr std::size_t k_most_near = 2000;  // surfaces that are described
+constexpr std::size_t k_max_near = 2000;  // surfaces that are described
 
 /// Surfaces in the order in which somebody who draws the pixel needs them, each once.
 class NearList {
@@ -19,7 +19,7 @@ public:
         : surfaces_(surfaces), list_(list), taken_(surfaces.size(), false) {}
 
     void add(std::size_t order) {
-        if (order < taken_.size() && !taken_[order] && list_.size() < k_most_near) {
+        if (order < taken_.size() && !taken_[order] && list_.size() < k_max_near) {
             taken_[order] = true;
             list_.push_back(describe(*surfaces_[order]));
         }
@@ -63,7 +63,7 @@ void list_near(const Scene& scene, PixelRecord& record) {
     NearList near(scene.surfaces(), record.near);
     for_each_ray(record.eye, [&](const RayNode& node) { near.add_hits(node); });
     for_each_ray(record.eye, [&](const RayNode& node) { near.add_tests(node); });
-    for (std::size_t i = 0; i < scene.surfaces().size() && record.near.size() < k_most_near; ++i) {
+    for (std::size_t i = 0; i < scene.surfaces().size() && record.near.size() < k_max_near; ++i) {
         near.add(i);
     }
 }

@@ -44,7 +44,7 @@ void write_hit(JsonWriter& json, const HitTrace& trace) {
     trace.surface ? json.whole(*trace.surface) : json.null();
     json.key("kind").text(trace.kind).key("distance").number(hit.distance);
     json.key("position").vector(hit.position).key("point_at").vector(trace.point).key("normal").vector(hit.normal);
-    json.key("ray_direction").vector(hit.ray_direction).key("from_outside").flag(hit.from_outside);
+    json.key("ray_direction").vector(hit.ray_direction).key("from_outside").flag(hit.front_face);
     json.key("mirrored");
     write_color(json, trace.mirrored);
     json.key("refracted");

@@ -8,7 +8,7 @@
 namespace raysteps {
 namespace {
 
-constexpr std::uint64_t k_most_checks = 30'000'000;  // surfaces asked a second time, in a pixel
+constexpr std::uint64_t k_max_checks = 30'000'000;  // surfaces asked a second time, in a pixel
 
 }  // namespace
 
@@ -20,7 +20,7 @@ RayRecorder::RayRecorder(const Scene& scene, const Accelerator& accelerator, Pix
       search_(accelerator, scene.surfaces().size()),
       tree_(record),
       shadow_query_(*this),
-      checks_left_(k_most_checks) {}
+      checks_left_(k_max_checks) {}
 
 std::optional<HitRecord> RayRecorder::closest_hit(const RayOrigin& origin, const Ray& ray) {
     std::optional<HitRecord> hit = search(tree_.open(origin, ray), accelerator_, ray);
@@ -29,7 +29,7 @@ std::optional<HitRecord> RayRecorder::closest_hit(const RayOrigin& origin, const
 }
 
 /// Not kept: of any ray but a shadow ray a step should want to know what it meets.
-bool RayRecorder::any_hit(const RayOrigin& origin, const Ray& ray, float distance) {
+bool RayRecorder::occluded(const RayOrigin& origin, const Ray& ray, float distance) {
     tree_.leave_out();
     const bool hit = search_any(nullptr, accelerator_, ray, distance);
     count(origin, hit);
@@ -54,7 +54,7 @@ std::optional<HitRecord> RayRecorder::ShadowQuery::closest_hit(const Ray& ray) c
     return recorder_.search(recorder_.tree_.open_shadow_ray(of_, ray), *scene_, ray);
 }
 
-bool RayRecorder::ShadowQuery::any_hit(const Ray& ray, float distance) const {
+bool RayRecorder::ShadowQuery::occluded(const Ray& ray, float distance) const {
     return recorder_.search_any(recorder_.tree_.open_shadow_ray(of_, ray), *scene_, ray, distance);
 }
 
@@ -74,7 +74,7 @@ std::optional<HitRecord> RayRecorder::search(RayNode* node, const SceneQuery& sc
 
 bool RayRecorder::search_any(RayNode* node, const SceneQuery& scene, const Ray& ray, float distance) {
     search_.begin(node);
-    const bool blocked = scene.any_hit(ray, distance);
+    const bool blocked = scene.occluded(ray, distance);
     const SearchCounts counts = search_.end();
     if (node == nullptr) {
         return blocked;

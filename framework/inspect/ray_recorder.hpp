@@ -12,7 +12,7 @@ public:
     RayRecorder(const Scene& scene, const Accelerator& accelerator, PixelRecord& record);
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const RayOrigin& origin, const Ray& ray) override;
-    [[nodiscard]] bool any_hit(const RayOrigin& origin, const Ray& ray, float distance) override;
+    [[nodiscard]] bool occluded(const RayOrigin& origin, const Ray& ray, float distance) override;
     [[nodiscard]] const SceneQuery& shadow_query(RayNumber ray, std::size_t light) override;
     void light_answered(RayNumber ray, bool lit) override;
     [[nodiscard]] RayNumber ray_of_hit(const HitRecord& hit, RayNumber first, RayNumber last) const override {
@@ -37,7 +37,7 @@ private:
         }
 
         [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
-        [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
+        [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
 
     private:
         RayRecorder& recorder_;

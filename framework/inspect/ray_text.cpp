@@ -41,7 +41,7 @@ void write_hit(TextLines& out, const HitTrace& trace, int level) {
     const HitRecord& hit = trace.hit;
     out.line(level, "hit",
              name_of_surface(trace) + " at distance " + brief(hit.distance) + ", from " +
-                 (hit.from_outside ? "outside" : "inside"));
+                 (hit.front_face ? "outside" : "inside"));
     out.line(level + 1, "position " + brief(hit.position) + "  normal " + brief(hit.normal));
     out.line(level + 1, fill_words(hit.fill));
 }

@@ -48,7 +48,7 @@ RayNode* RayTree::place(const RayOrigin& origin, const Ray& ray, int level) {
         return &record_.eye;
     }
     RayNode* const parent = node(origin.from);
-    if (parent == nullptr || kept_ >= k_most_rays || level >= k_most_levels) {
+    if (parent == nullptr || kept_ >= k_max_rays || level >= k_max_levels) {
         return nullptr;
     }
     RayNode& made = parent->bounces.emplace_back();
@@ -59,7 +59,7 @@ RayNode* RayTree::place(const RayOrigin& origin, const Ray& ray, int level) {
 
 RayNode* RayTree::open_shadow_ray(RayNumber of, const Ray& ray) {
     RayNode* const parent = node(of);
-    if (parent == nullptr || kept_ >= k_most_rays) {
+    if (parent == nullptr || kept_ >= k_max_rays) {
         return kept(nullptr, ray);
     }
     RayNode& made = parent->lights.back().rays.emplace_back();

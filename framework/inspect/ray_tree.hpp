@@ -8,8 +8,8 @@
 namespace raysteps {
 
 /// How many rays of a pixel are kept. What goes beyond is counted all the same.
-inline constexpr std::uint64_t k_most_rays = 1024;
-inline constexpr int k_most_levels = 32;  ///< rays that follow from one another
+inline constexpr std::uint64_t k_max_rays = 1024;
+inline constexpr int k_max_levels = 32;  ///< rays that follow from one another
 
 /// Thrown through a step that follows rays far beyond the greatest depth, before it runs out of stack.
 class EndlessRays : public std::exception {

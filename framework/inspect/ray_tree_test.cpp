@@ -64,7 +64,7 @@ TEST_CASE("Glass sends a ray through itself, and mirrors within", "[inspect]") {
     CHECK(inside.role == RayRole::refract);
     CHECK(inside.depth == 2);
     REQUIRE(inside.hit.has_value());
-    CHECK_FALSE(inside.hit->hit.from_outside);
+    CHECK_FALSE(inside.hit->hit.front_face);
     REQUIRE(inside.color.has_value());
     REQUIRE(through.eye.transmitted.has_value());
     CHECK_THAT(*through.eye.transmitted, IsNear(0.8F * *inside.color, 1e-5F));

@@ -10,7 +10,7 @@ thread_local SearchRecorder* t_listening = nullptr;
 
 bool same(const HitRecord& a, const HitRecord& b) {
     return a.position == b.position && a.normal == b.normal && a.fill.color == b.fill.color && a.fill.ks == b.fill.ks &&
-           a.from_outside == b.from_outside;
+           a.front_face == b.front_face;
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void SearchRecorder::box(const Box& box, const std::optional<Interval>& part) {
         ++counts_.boxes_entered;
         counts_.candidates += known != nullptr ? known->listed : 0;
     }
-    if (node_ == nullptr || node_->boxes.size() >= k_most_events_per_ray || kept_boxes_ >= k_most_events) {
+    if (node_ == nullptr || node_->boxes.size() >= k_max_events_per_ray || kept_boxes_ >= k_max_events) {
         ++left_out_.boxes;
         return;
     }
@@ -99,7 +99,7 @@ void SearchRecorder::surface(const Surface& surface, const std::optional<HitReco
     }
     std::uint64_t& of_ray = hit ? hits_of_ray_ : misses_of_ray_;
     std::uint64_t& of_pixel = hit ? kept_hits_ : kept_misses_;
-    if (node_ == nullptr || of_ray >= k_most_events_per_ray || of_pixel >= k_most_events) {
+    if (node_ == nullptr || of_ray >= k_max_events_per_ray || of_pixel >= k_max_events) {
         ++left_out_.tests;
         return;
     }

@@ -10,8 +10,8 @@
 namespace raysteps {
 
 /// How many events are kept. What goes beyond is counted all the same.
-inline constexpr std::uint64_t k_most_events_per_ray = 5000;  ///< of boxes, of surfaces missed and of surfaces hit
-inline constexpr std::uint64_t k_most_events = 20000;         ///< of the whole pixel, of each of the three
+inline constexpr std::uint64_t k_max_events_per_ray = 5000;  ///< of boxes, of surfaces missed and of surfaces hit
+inline constexpr std::uint64_t k_max_events = 20000;         ///< of the whole pixel, of each of the three
 
 class SearchRecorder {
 public:

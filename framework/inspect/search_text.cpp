@@ -5,9 +5,9 @@
 namespace raysteps {
 namespace {
 
-constexpr std::size_t k_most_box_lines = 80;  // the paper has 73 boxes
-constexpr std::size_t k_most_hit_lines = 40;
-constexpr std::size_t k_most_ranges = 60;
+constexpr std::size_t k_max_box_lines = 80;  // the paper has 73 boxes
+constexpr std::size_t k_max_hit_lines = 40;
+constexpr std::size_t k_max_ranges = 60;
 
 std::string box_words(const BoxEvent& event) {
     std::string text = event.level ? "level " + std::to_string(*event.level) + "  " : "";
@@ -27,7 +27,7 @@ std::string ranges(std::vector<std::size_t> numbers) {
         while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) {
             ++last;
         }
-        if (++count > k_most_ranges) {
+        if (++count > k_max_ranges) {
             return text + ", and " + std::to_string(numbers.size() - i) + " more";
         }
         text += (text.empty() ? "" : ", ") + std::to_string(numbers[i]);
@@ -81,7 +81,7 @@ void write_boxes(TextLines& out, const RayNode& node, int level) {
                  (counts.boxes_entered > 0 ? ", in this order:" : ""));
     std::uint64_t shown = 0;
     for (const BoxEvent& event : node.boxes) {
-        if (event.part && shown < k_most_box_lines) {
+        if (event.part && shown < k_max_box_lines) {
             out.line(level + 1, box_words(event));
             ++shown;
         }
@@ -112,7 +112,7 @@ void write_tests(TextLines& out, const PixelRecord& record, const RayNode& node,
         const bool complete = tested.size() == counts.surface_tests;
         out.line(level + 1, (complete ? "surfaces " : "the first of them: ") + ranges(std::move(tested)));
     }
-    const std::size_t shown = std::min(hits.size(), k_most_hit_lines);
+    const std::size_t shown = std::min(hits.size(), k_max_hit_lines);
     for (std::size_t i = 0; i < shown; ++i) {
         out.line(level + 1,
                  "surface " + std::to_string(hits[i]->surface) + " is hit at distance " + brief(*hits[i]->distance));

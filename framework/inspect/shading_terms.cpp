@@ -18,7 +18,7 @@ void ask_light(const HitRecord& hit, const Light& light, LightRecord& record) {
 
 std::optional<glm::vec3> ask_refracted(const HitRecord& hit) {
     const float index = hit.fill.index_of_refraction > 0.0F ? hit.fill.index_of_refraction : 1.0F;
-    return refract(hit.ray_direction, hit.normal, hit.from_outside ? 1.0F / index : index);
+    return refract(hit.ray_direction, hit.normal, hit.front_face ? 1.0F / index : index);
 }
 
 }  // namespace raysteps

@@ -100,15 +100,15 @@ TEST_CASE("Whether anything is nearer than a distance, all structures say as the
         const Ray ray = i % 5 == 4 && surfaces > 0 ? ray_in_a_face(random, scene, i) : any_ray(random, i);
         const std::optional<HitRecord> closest = brute->closest_hit(ray);
         INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
-        CHECK(other->any_hit(ray, k_infinity) == closest.has_value());
-        CHECK_FALSE(other->any_hit(ray, 0.0F));
+        CHECK(other->occluded(ray, k_infinity) == closest.has_value());
+        CHECK_FALSE(other->occluded(ray, 0.0F));
         const float between = random.uniform(0.0F, 30.0F);
-        CHECK(other->any_hit(ray, between) == (closest && closest->distance < between));
+        CHECK(other->occluded(ray, between) == (closest && closest->distance < between));
         if (closest) {
             INFO("closest hit at " << closest->distance);
-            CHECK_FALSE(other->any_hit(ray, std::nextafter(closest->distance, 0.0F)));
-            CHECK_FALSE(other->any_hit(ray, closest->distance));
-            CHECK(other->any_hit(ray, std::nextafter(closest->distance, k_infinity)));
+            CHECK_FALSE(other->occluded(ray, std::nextafter(closest->distance, 0.0F)));
+            CHECK_FALSE(other->occluded(ray, closest->distance));
+            CHECK(other->occluded(ray, std::nextafter(closest->distance, k_infinity)));
         }
     }
 }
@@ -125,7 +125,7 @@ TEST_CASE("A search for any hit ends sooner than one for the closest", "[render]
         const std::uint64_t start = thread_stats().surface_tests;
         static_cast<void>(structure->closest_hit(ray));
         const std::uint64_t middle = thread_stats().surface_tests;
-        static_cast<void>(structure->any_hit(ray, 100.0F));
+        static_cast<void>(structure->occluded(ray, 100.0F));
         closest_tests += middle - start;
         any_tests += thread_stats().surface_tests - middle;
     }

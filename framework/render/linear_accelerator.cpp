@@ -22,7 +22,7 @@ public:
         return raysteps::closest_hit(surfaces_, ray);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
         return any_of_list(surfaces_, ray, distance);
     }
 

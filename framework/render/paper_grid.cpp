@@ -62,7 +62,7 @@ public:
     explicit PaperGrid(const SurfaceList& surfaces);
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
     [[nodiscard]] AcceleratorStats size() const override;
     void visit_nodes(const Surface* wanted, const NodeVisitor& visit) const override;
 
@@ -124,7 +124,7 @@ std::optional<HitRecord> PaperGrid::closest_hit(const Ray& ray) const {
     return raysteps::closest_hit(list, ray);
 }
 
-bool PaperGrid::any_hit(const Ray& ray, float distance) const {
+bool PaperGrid::occluded(const Ray& ray, float distance) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return false;
     }

@@ -10,8 +10,8 @@ std::optional<HitRecord> RayCounter::closest_hit(const RayOrigin& origin, const 
     return hit;
 }
 
-bool RayCounter::any_hit(const RayOrigin& origin, const Ray& ray, float distance) {
-    const bool hit = scene_.any_hit(ray, distance);
+bool RayCounter::occluded(const RayOrigin& origin, const Ray& ray, float distance) {
+    const bool hit = scene_.occluded(ray, distance);
     count(origin, hit);
     return hit;
 }

@@ -33,7 +33,7 @@ public:
     RayCounter& operator=(const RayCounter&) = delete;
 
     [[nodiscard]] virtual std::optional<HitRecord> closest_hit(const RayOrigin& origin, const Ray& ray);
-    [[nodiscard]] virtual bool any_hit(const RayOrigin& origin, const Ray& ray, float distance);
+    [[nodiscard]] virtual bool occluded(const RayOrigin& origin, const Ray& ray, float distance);
 
     /// The scene for step 04, which is asked whether this light reaches that ray's hit; then what it answered.
     [[nodiscard]] virtual const SceneQuery& shadow_query(RayNumber /*ray*/, std::size_t /*light*/) {

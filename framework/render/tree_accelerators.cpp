@@ -20,11 +20,11 @@ public:
     explicit OctreeAccelerator(const SurfaceList& surfaces) : root_(build_octree(surfaces)) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
-        return closest_hit_in(root_, ray);
+        return closest_hit_in_octree(root_, ray);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
-        return any_hit_in(root_, ray, distance);
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return occluded_in_octree(root_, ray, distance);
     }
     [[nodiscard]] AcceleratorStats size() const override { return size_below(root_); }
 
@@ -67,8 +67,8 @@ public:
         return closest_hit_in_bvh(bvh_, ray);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
-        return any_hit_in_bvh(bvh_, ray, distance);
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return occluded_in_bvh(bvh_, ray, distance);
     }
 
     [[nodiscard]] AcceleratorStats size() const override {

@@ -35,16 +35,16 @@ public:
         return hit;
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
-        const bool hit = rays().any_hit(chain_.next, ray, distance);
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        const bool hit = rays().occluded(chain_.next, ray, distance);
         chain_.go_on(chain_.next.from);  // there is no hit that a ray could start from
         return hit;
     }
 
-    [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override {
+    [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth) override {
         const bool asked = chain_.first != k_no_ray;
         const RayNumber ray = asked ? rays().ray_of_hit(hit, chain_.first, chain_.next.from) : k_no_ray;
-        return integrator_.local_light(hit, depth, ray);
+        return integrator_.direct_lighting(hit, depth, ray);
     }
 
     [[nodiscard]] Color trace(const Ray& ray, int depth) override {
@@ -91,7 +91,7 @@ Color WhittedIntegrator::follow(const RayOrigin& origin, const Ray& ray) {
     return color;
 }
 
-Color WhittedIntegrator::local_light(const HitRecord& hit, int depth, RayNumber ray) {
+Color WhittedIntegrator::direct_lighting(const HitRecord& hit, int depth, RayNumber ray) {
     Color color = direct_.at(hit, ray);
     std::optional<Color> transmitted;
     if (options_.step >= 8) {

@@ -16,7 +16,7 @@ private:
 
     [[nodiscard]] Color color_of(const Ray& ray) override;
     [[nodiscard]] Color follow(const RayOrigin& origin, const Ray& ray);
-    [[nodiscard]] Color local_light(const HitRecord& hit, int depth, RayNumber ray);
+    [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth, RayNumber ray);
 
     DirectLight direct_;
     StepOptions options_;

@@ -1,5 +1,5 @@
 #pragma once
-// Stand-ins for the renderer: they answer from a function or a list. Their any_hit is SceneQuery's own, by way of
+// Stand-ins for the renderer: they answer from a function or a list. Their occluded is SceneQuery's own, by way of
 // closest_hit: it gives the same answer, and whoever remembers rays hears of it as of any other.
 #include <cstddef>
 #include <functional>
@@ -50,7 +50,7 @@ public:
         return on_closest_hit ? on_closest_hit(ray) : std::nullopt;
     }
 
-    [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override {
+    [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth) override {
         shaded.push_back({hit, depth});
         return on_local_light ? on_local_light(hit, depth) : k_black;
     }
@@ -69,9 +69,9 @@ public:
     int max_depth = 5;
     Color background_color = k_black;
 
-    mutable std::vector<Ray> cast;  ///< rays given to closest_hit or any_hit
+    mutable std::vector<Ray> cast;  ///< rays given to closest_hit or occluded
     std::vector<Asked> traced;      ///< rays given to trace
-    std::vector<Shaded> shaded;     ///< hits given to local_light
+    std::vector<Shaded> shaded;     ///< hits given to direct_lighting
 };
 
 }  // namespace raysteps::testing

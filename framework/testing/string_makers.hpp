@@ -33,7 +33,7 @@ inline std::string text(const HitRecord& hit) {
     std::ostringstream out;
     out.precision(9);
     out << "hit at distance " << hit.distance << ", position " << text(hit.position) << ", normal " << text(hit.normal)
-        << (hit.from_outside ? ", from outside" : ", from inside");
+        << (hit.front_face ? ", from outside" : ", from inside");
     return out.str();
 }
 

@@ -39,8 +39,8 @@ TEST_CASE("FakeScene answers both questions from one function, and CountingQuery
     const FakeScene fake([&hit](const Ray&) { return hit; });
     std::uint64_t rays = 0;
     const CountingQuery scene(fake, rays);
-    CHECK(scene.any_hit({}, 3.5F));
-    CHECK_FALSE(scene.any_hit({}, 3.0F));
+    CHECK(scene.occluded({}, 3.5F));
+    CHECK_FALSE(scene.occluded({}, 3.0F));
     CHECK(scene.closest_hit({}).has_value());
     CHECK(rays == 3);
 }
@@ -54,7 +54,7 @@ TEST_CASE("FakeTracer answers from a list and remembers", "[testing]") {
     REQUIRE(tracer.closest_hit(ray).has_value());
     CHECK_FALSE(tracer.closest_hit(ray).has_value());
     CHECK(tracer.cast.size() == 2);
-    CHECK_FALSE(tracer.any_hit(ray, 9.0F));
+    CHECK_FALSE(tracer.occluded(ray, 9.0F));
     INFO("a question for any hit is a ray that was cast, too");
     CHECK(tracer.cast.size() == 3);
     CHECK(tracer.trace(ray, 4) == k_black);

@@ -18,8 +18,8 @@ public:
         return wide::closest_hit(tree_, ray);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
-        return wide::any_hit(tree_, ray, distance);
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return wide::occluded(tree_, ray, distance);
     }
 
     [[nodiscard]] AcceleratorStats size() const override {

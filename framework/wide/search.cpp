@@ -198,7 +198,7 @@ std::optional<HitRecord> closest_hit(const Tree& tree, const Ray& ray) {
     return HWY_DYNAMIC_DISPATCH(closest)(tree, ray);
 }
 
-bool any_hit(const Tree& tree, const Ray& ray, float distance) {
+bool occluded(const Tree& tree, const Ray& ray, float distance) {
     return HWY_DYNAMIC_DISPATCH(any)(tree, ray, distance);
 }
 

@@ -16,7 +16,7 @@ namespace raysteps::wide {
 [[nodiscard]] std::optional<HitRecord> closest_hit(const Tree& tree, const Ray& ray);
 
 /// Whether any surface is hit nearer than `distance`. A surface that is surely hit is not asked itself any more.
-[[nodiscard]] bool any_hit(const Tree& tree, const Ray& ray, float distance);
+[[nodiscard]] bool occluded(const Tree& tree, const Ray& ray, float distance);
 
 /// The instructions in use, like "AVX2".
 [[nodiscard]] const char* instructions();

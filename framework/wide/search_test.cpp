@@ -91,7 +91,7 @@ TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the pl
             const std::optional<HitRecord> actual = tree->closest_hit(ray);
             check_identical(expected, actual);
             const float distance = expected && i % 2 == 0 ? expected->distance : scale * random.uniform(0.0F, 60.0F);
-            REQUIRE(tree->any_hit(ray, distance) == (expected && expected->distance < distance));
+            REQUIRE(tree->occluded(ray, distance) == (expected && expected->distance < distance));
         }
     }
 }
@@ -125,8 +125,8 @@ TEST_CASE("A wide tree finds tiles that lie on a board, also from far away", "[w
             check_identical(expected, actual);
             if (expected) {
                 const float behind = std::nextafter(expected->distance, 2.0F * expected->distance);
-                REQUIRE(tree->any_hit(ray, behind));
-                REQUIRE_FALSE(tree->any_hit(ray, expected->distance));
+                REQUIRE(tree->occluded(ray, behind));
+                REQUIRE_FALSE(tree->occluded(ray, expected->distance));
             }
         }
     }
@@ -155,7 +155,7 @@ TEST_CASE("A scene without surfaces, and one with a single surface", "[wide]") {
     for (const Acceleration kind : wide_trees()) {
         const auto tree = make_accelerator(kind, scene.surfaces());
         CHECK_FALSE(tree->closest_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}));
-        CHECK_FALSE(tree->any_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 100.0F));
+        CHECK_FALSE(tree->occluded({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 100.0F));
     }
     scene.add(std::make_unique<Sphere>(glm::vec3(0.0F, 0.0F, 5.0F), 1.0F, Fill{}));
     for (const Acceleration kind : wide_trees()) {
@@ -163,7 +163,7 @@ TEST_CASE("A scene without surfaces, and one with a single surface", "[wide]") {
         const auto hit = tree->closest_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}});
         REQUIRE(hit);
         CHECK(hit->distance == Approx(4.0F));
-        CHECK(tree->any_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 4.5F));
-        CHECK_FALSE(tree->any_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 3.5F));
+        CHECK(tree->occluded({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 4.5F));
+        CHECK_FALSE(tree->occluded({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 3.5F));
     }
 }

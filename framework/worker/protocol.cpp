@@ -124,7 +124,7 @@ HitRecord read_hit(TokenReader& words) {
     hit.normal = words.vector();
     hit.ray_direction = words.vector();
     hit.distance = words.number();
-    hit.from_outside = words.flag();
+    hit.front_face = words.flag();
     return hit;
 }
 
@@ -159,7 +159,7 @@ void write_hit(TokenWriter& answer, const std::optional<HitRecord>& hit) {
     const Fill& fill = hit->fill;
     answer.vector(fill.color).number(fill.kd).number(fill.ks).number(fill.shine);
     answer.number(fill.transmittance).number(fill.index_of_refraction);
-    answer.vector(hit->normal).vector(hit->ray_direction).number(hit->distance).whole(hit->from_outside ? 1 : 0);
+    answer.vector(hit->normal).vector(hit->ray_direction).number(hit->distance).whole(hit->front_face ? 1 : 0);
 }
 
 void write_box(TokenWriter& answer, const Box& box) { answer.vector(box.min).vector(box.max); }

@@ -28,7 +28,7 @@ std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {
 }
 
 // The distances of a script differ, so that they tell which hit it is.
-Color ScriptedTracer::local_light(const HitRecord& hit, int depth) {
+Color ScriptedTracer::direct_lighting(const HitRecord& hit, int depth) {
     calls_.shaded.push_back({hit.distance, depth});
     for (const ScriptedHit& scripted : script_.hits) {
         if (scripted.distance == hit.distance) {

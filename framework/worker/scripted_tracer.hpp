@@ -1,6 +1,6 @@
 #pragma once
-// Stand-ins whose answers the case chooses. Their any_hit is SceneQuery's own, by way of closest_hit: a ray is the same
-// whichever of the two questions it brings.
+// Stand-ins whose answers the case chooses. Their occluded is SceneQuery's own, by way of closest_hit: a ray is the
+// same whichever of the two questions it brings.
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -48,8 +48,8 @@ struct ShadedHit {
 
 /// What a tracer was asked, in order.
 struct TracerCalls {
-    std::vector<Ray> cast;          ///< rays given to closest_hit or any_hit
-    std::vector<ShadedHit> shaded;  ///< hits given to local_light
+    std::vector<Ray> cast;          ///< rays given to closest_hit or occluded
+    std::vector<ShadedHit> shaded;  ///< hits given to direct_lighting
     std::vector<CastRay> traced;    ///< rays given to trace
 };
 
@@ -58,7 +58,7 @@ public:
     ScriptedTracer(Script script, TracerCalls& calls) : script_(std::move(script)), calls_(calls) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
-    [[nodiscard]] Color local_light(const HitRecord& hit, int depth) override;
+    [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth) override;
     [[nodiscard]] Color trace(const Ray& ray, int depth) override;
     [[nodiscard]] int max_ray_depth() const override { return script_.max_depth; }
     [[nodiscard]] Color background() const override { return script_.background; }

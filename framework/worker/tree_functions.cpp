@@ -92,18 +92,18 @@ void ask_closest_hit_in(TokenReader& words, TokenWriter& answer) {
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Ray> rays = read_rays(words);
     const Node root = make_octree(own, scene.surfaces());
-    search_for_each(rays, asked, answer, [&](const Ray& ray) { return closest_hit_in(root, ray); });
+    search_for_each(rays, asked, answer, [&](const Ray& ray) { return closest_hit_in_octree(root, ray); });
 }
 
 // A distance at the end counts for all rays.
-void ask_any_hit_in(TokenReader& words, TokenWriter& answer) {
+void ask_occluded_in_octree(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Ray> rays = read_rays(words);
     const float distance = words.number();
     const Node root = make_octree(own, scene.surfaces());
-    search_for_each(rays, asked, answer, [&](const Ray& ray) { return any_hit_in(root, ray, distance); });
+    search_for_each(rays, asked, answer, [&](const Ray& ray) { return occluded_in_octree(root, ray, distance); });
 }
 
 void ask_closest_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
@@ -116,14 +116,14 @@ void ask_closest_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
 }
 
 // Each ray has its own distance.
-void ask_any_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
+void ask_occluded_in_bvh(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Reach> reaches = read_reaches(words);
     const Bvh bvh = make_bvh(own, scene.surfaces());
     search_for_each(reaches, asked, answer,
-                    [&](const Reach& reach) { return any_hit_in_bvh(bvh, reach.ray, reach.distance); });
+                    [&](const Reach& reach) { return occluded_in_bvh(bvh, reach.ray, reach.distance); });
 }
 
 }  // namespace
@@ -132,13 +132,13 @@ void add_trees(FunctionTable& functions) {
     functions["bounds_of"] = ask_bounds_of;
     functions["split"] = ask_split;
     functions["build_octree"] = ask_build_octree;
-    functions["closest_hit_in"] = ask_closest_hit_in;
-    functions["any_hit_in"] = ask_any_hit_in;
+    functions["closest_hit_in_octree"] = ask_closest_hit_in;
+    functions["occluded_in_octree"] = ask_occluded_in_octree;
     functions["surface_area"] = ask_surface_area;
     functions["split_cost"] = ask_split_cost;
     functions["build_bvh"] = ask_build_bvh;
     functions["closest_hit_in_bvh"] = ask_closest_hit_in_bvh;
-    functions["any_hit_in_bvh"] = ask_any_hit_in_bvh;
+    functions["occluded_in_bvh"] = ask_occluded_in_bvh;
 }
 
 }  // namespace raysteps

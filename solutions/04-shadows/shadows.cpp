@@ -20,7 +20,7 @@ bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     // TODO: Cast the shadow ray and ask whether it meets anything before it reaches the light.
     // RETURN false
     const Ray ray = shadow_ray(hit, light);
-    return !scene.any_hit(ray, glm::distance(ray.origin, light.position));
+    return !scene.occluded(ray, glm::distance(ray.origin, light.position));
     // END SOLUTION
 }
 

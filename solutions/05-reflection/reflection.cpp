@@ -26,7 +26,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
     if (!hit) {
         return depth == 1 ? tracer.background() : k_black;
     }
-    Color color = tracer.local_light(*hit, depth);
+    Color color = tracer.direct_lighting(*hit, depth);
     if (hit->fill.ks > 0.0F) {
         color += hit->fill.ks * tracer.trace(reflected_ray(*hit), depth + 1);
     }

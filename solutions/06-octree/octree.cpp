@@ -312,8 +312,8 @@ Node build_octree(const SurfaceList& surfaces) {
     // END SOLUTION
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
-    // BEGIN SOLUTION closest_hit_in
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
+    // BEGIN SOLUTION closest_hit_in_octree
     // TODO: Visit the boxes that the ray enters, near ones first, and stop when no later box can hold a nearer hit.
     // RETURN std::nullopt
     Closest closest;
@@ -324,8 +324,8 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     // END SOLUTION
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
-    // BEGIN SOLUTION any_hit_in
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
+    // BEGIN SOLUTION occluded_in_octree
     // TODO: Visit the boxes that the ray enters before the distance, and stop at the first hit that is nearer.
     // RETURN false
     const std::optional<Interval> part = root.box.hit(ray);
@@ -336,7 +336,7 @@ bool any_hit_in(const Node& root, const Ray& ray, float distance) {
         const std::optional<HitRecord> hit = surface->hit(ray);
         return hit && hit->distance < distance;
     };
-    const auto has_near = [&](const Node& child) { return any_hit_in(child, ray, distance); };
+    const auto has_near = [&](const Node& child) { return occluded_in_octree(child, ray, distance); };
     return std::any_of(root.surfaces.begin(), root.surfaces.end(), is_near) ||
            std::any_of(root.children.begin(), root.children.end(), has_near);
     // END SOLUTION

@@ -260,7 +260,7 @@ public:
     [[nodiscard]] bool empty() const { return size_ == 0; }
 
 private:
-    std::array<T, k_most_bvh_levels + 1> entries_;
+    std::array<T, k_max_bvh_levels + 1> entries_;
     std::size_t size_ = 0;
 };
 
@@ -338,8 +338,8 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     // END SOLUTION
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
-    // BEGIN SOLUTION any_hit_in_bvh
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+    // BEGIN SOLUTION occluded_in_bvh
     // TODO: Visit the boxes that begin before the distance, in any order, until a surface is hit before it.
     // RETURN false
     Stack<std::uint32_t> open;

@@ -37,7 +37,7 @@ TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection
     CHECK_THAT(hit->normal, IsNear({0.0F, 0.0F, 1.0F}));
     CHECK_THAT(hit->ray_direction, IsNear(ray.direction));
     CHECK_THAT(hit->fill.color, IsNear({0.1F, 0.2F, 0.3F}));
-    CHECK(hit->from_outside);
+    CHECK(hit->front_face);
 }
 
 TEST_CASE("Triangle: the handout's worked example", "[02-intersection][Triangle::intersect][part]") {
@@ -60,7 +60,7 @@ TEST_CASE("Triangle: seen from behind the normal turns towards the ray",
     REQUIRE(hit.has_value());
     CHECK(hit->distance == about(3.0));
     CHECK_THAT(hit->normal, IsNear({0.0F, 0.0F, -1.0F}));
-    CHECK_FALSE(hit->from_outside);
+    CHECK_FALSE(hit->front_face);
 }
 
 TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection][Triangle::intersect][part]") {
@@ -141,7 +141,7 @@ TEST_CASE("Triangle: any triangle from any side", "[02-intersection][Triangle::i
         REQUIRE_THAT(hit->normal, IsUnitLength());
         REQUIRE(std::abs(glm::dot(hit->normal, plane_normal)) == about(glm::length(plane_normal), 1e-3));
         REQUIRE(glm::dot(hit->normal, ray.direction) <= 0.0F);
-        REQUIRE(hit->from_outside == (slant < 0.0F));
+        REQUIRE(hit->front_face == (slant < 0.0F));
         INFO("a point outside, mirrored at the middle of edge bc, is no hit");
         const glm::vec3 outside = b + c - target;
         const Ray past{outside - 6.0F * ray.direction, ray.direction};
@@ -160,7 +160,7 @@ TEST_CASE("Sphere: head-on the nearer of the two points", "[02-intersection][Sph
     CHECK_THAT(hit->normal, IsNear({0.0F, 0.0F, 1.0F}));
     CHECK_THAT(hit->ray_direction, IsNear(ray.direction));
     CHECK_THAT(hit->fill.color, IsNear({0.9F, 0.8F, 0.7F}));
-    CHECK(hit->from_outside);
+    CHECK(hit->front_face);
 }
 
 TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-intersection][Sphere::intersect][part]") {
@@ -181,7 +181,7 @@ TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection][Sphere::
     CHECK(hit->distance == about(1.0));
     INFO("inside, the normal points to the centre, towards the ray's origin");
     CHECK_THAT(hit->normal, IsNear({0.0F, 0.0F, -1.0F}));
-    CHECK_FALSE(hit->from_outside);
+    CHECK_FALSE(hit->front_face);
 }
 
 TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::intersect][part]") {
@@ -217,7 +217,7 @@ TEST_CASE("Sphere: position on the surface and unit normal for any sphere",
         REQUIRE_THAT(hit->position, IsNear(ray.origin + hit->distance * ray.direction, 1e-3F));
         REQUIRE_THAT(hit->normal, IsUnitLength());
         REQUIRE(glm::dot(hit->normal, ray.direction) <= 0.0F);
-        REQUIRE(hit->from_outside == !inside);
+        REQUIRE(hit->front_face == !inside);
         const float side = inside ? -1.0F : 1.0F;
         REQUIRE_THAT(hit->normal, IsNear(side * (hit->position - center) / radius, 1e-3F));
     }

@@ -15,8 +15,8 @@ inline constexpr float k_shadow_threshold = 1e-3F;
 
 /// Whether nothing stands between the hit and the light. What is behind the light does not block it;
 /// a surface does not shade itself by rounding. Glass blocks like everything else.
-/// The scene offers two questions: scene.any_hit(ray, distance), whether anything is hit nearer than that, and
-/// scene.closest_hit(ray), what is hit first and where. Both lead to the answer; any_hit may cost less.
+/// The scene offers two questions: scene.occluded(ray, distance), whether anything is hit nearer than that, and
+/// scene.closest_hit(ray), what is hit first and where. Both lead to the answer; occluded may cost less.
 [[nodiscard]] bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light);
 
 }  // namespace raysteps

@@ -15,7 +15,7 @@ inline constexpr float k_bounce_threshold = 1e-3F;
 /// The colour that arrives along the ray. Depth 1 is a primary ray, each bounce adds 1.
 /// - depth above tracer.max_ray_depth(): black, and nothing is tested
 /// - no hit: tracer.background() for a primary ray, black for a bounced one
-/// - a hit: tracer.local_light(hit, depth), plus, where ks > 0, ks times what the reflected ray brings, which
+/// - a hit: tracer.direct_lighting(hit, depth), plus, where ks > 0, ks times what the reflected ray brings, which
 ///   tracer.trace tells at depth + 1
 [[nodiscard]] Color trace(Tracer& tracer, const Ray& ray, int depth);
 

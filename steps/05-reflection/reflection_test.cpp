@@ -125,7 +125,7 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     INFO("the second ray leaves the mirror upwards");
     CHECK_THAT(tracer.cast[1].direction, IsNear({0.0F, 0.0F, 1.0F}));
     REQUIRE(tracer.shaded.size() == 2);
-    INFO("local_light is told at which depth the hit was found: 1, then 2");
+    INFO("direct_lighting is told at which depth the hit was found: 1, then 2");
     CHECK(tracer.shaded[0].depth + tracer.shaded[1].depth == 3);
 }
 

@@ -34,10 +34,10 @@ namespace raysteps {
 
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Ask a box with
 /// box.hit(ray) and a surface with surface->hit(ray): they count.
-[[nodiscard]] std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray);
+[[nodiscard]] std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray);
 
 /// Whether any surface of the tree is hit nearer than `distance`: shadow rays ask no more than that. The search may
-/// end at the first such hit, whichever that is. Boxes and surfaces are asked as in closest_hit_in.
-[[nodiscard]] bool any_hit_in(const Node& root, const Ray& ray, float distance);
+/// end at the first such hit, whichever that is. Boxes and surfaces are asked as in closest_hit_in_octree.
+[[nodiscard]] bool occluded_in_octree(const Node& root, const Ray& ray, float distance);
 
 }  // namespace raysteps

@@ -17,22 +17,22 @@ namespace {
 const glm::vec3 k_down{0.0F, 0.0F, -1.0F};
 
 void check_same_hit(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
-    testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in(root, ray));
+    testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_octree(root, ray));
 }
 
 /// Asks for any hit well before the closest hit of the whole list and well behind it, and without an end.
-void check_same_any_hit(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
+void check_same_occlusion(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
     const std::optional<HitRecord> closest = closest_hit(surfaces, ray);
     CAPTURE(ray);
     INFO("the closest hit: " << (closest ? text(*closest) : "a miss"));
     if (closest) {
         INFO("a distance a little behind the closest hit: it is nearer");
-        REQUIRE(any_hit_in(root, ray, 1.01F * closest->distance));
+        REQUIRE(occluded_in_octree(root, ray, 1.01F * closest->distance));
         INFO("a distance a little before the closest hit: nothing is nearer");
-        REQUIRE_FALSE(any_hit_in(root, ray, 0.99F * closest->distance));
+        REQUIRE_FALSE(occluded_in_octree(root, ray, 0.99F * closest->distance));
     }
     INFO("a distance of 1000, behind everything");
-    REQUIRE(any_hit_in(root, ray, 1000.0F) == closest.has_value());
+    REQUIRE(occluded_in_octree(root, ray, 1000.0F) == closest.has_value());
 }
 
 struct Sight {
@@ -80,7 +80,8 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
     }
 }
 
-TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree][build_octree][closest_hit_in]") {
+TEST_CASE("closest_hit_in_octree: the same hits as without the tree",
+          "[06-octree][build_octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
@@ -105,8 +106,8 @@ TEST_CASE("closest_hit_in: the same hits as without the tree", "[06-octree][buil
     }
 }
 
-TEST_CASE("closest_hit_in: a nearer hit in a later box is not lost",
-          "[06-octree][build_octree][closest_hit_in][part]") {
+TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
+          "[06-octree][build_octree][closest_hit_in_octree][part]") {
     // A large triangle, slanted, runs through boxes near and far; small balls stand before it.
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, -8.0F}, glm::vec3{24.0F, -8.0F, 8.0F},
@@ -123,8 +124,8 @@ TEST_CASE("closest_hit_in: a nearer hit in a later box is not lost",
     }
 }
 
-TEST_CASE("closest_hit_in: a ground and a dome are not lost among small things",
-          "[06-octree][build_octree][closest_hit_in][part]") {
+TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small things",
+          "[06-octree][build_octree][closest_hit_in_octree][part]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);
@@ -135,12 +136,13 @@ TEST_CASE("closest_hit_in: a ground and a dome are not lost among small things",
     for (int i = 0; i < 500; ++i) {
         const Ray ray = random.ray(5.0F);
         INFO("wherever a ray from inside the dome goes, it meets something");
-        REQUIRE(closest_hit_in(root, ray).has_value());
+        REQUIRE(closest_hit_in_octree(root, ray).has_value());
         check_same_hit(root, scene.surfaces(), ray);
     }
 }
 
-TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree][build_octree][closest_hit_in][part]") {
+TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
+          "[06-octree][build_octree][closest_hit_in_octree][part]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
@@ -149,7 +151,7 @@ TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree][
     int hits = 0;
     const std::uint64_t before = thread_stats().surface_tests;
     for (int i = 0; i < rays; ++i) {
-        hits += closest_hit_in(root, random.ray_towards(random.point(5.0F), 20.0F)).has_value() ? 1 : 0;
+        hits += closest_hit_in_octree(root, random.ray_towards(random.point(5.0F), 20.0F)).has_value() ? 1 : 0;
     }
     const double tested = static_cast<double>(thread_stats().surface_tests - before);
     INFO("many of the rays hit something");
@@ -160,36 +162,38 @@ TEST_CASE("closest_hit_in: far fewer tests than without the tree", "[06-octree][
     CHECK(tested > 0.0);
 }
 
-TEST_CASE("any_hit_in: whether something is hit nearer than a distance", "[06-octree][build_octree][any_hit_in]") {
+TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
+          "[06-octree][build_octree][occluded_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
     const Node root = build_octree(scene.surfaces());
     for (int i = 0; i < 1000; ++i) {
-        check_same_any_hit(root, scene.surfaces(), random.ray(5.0F));
-        check_same_any_hit(root, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
+        check_same_occlusion(root, scene.surfaces(), random.ray(5.0F));
+        check_same_occlusion(root, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
     }
 }
 
-TEST_CASE("any_hit_in: a lamp in a room, with small things in it", "[06-octree][build_octree][any_hit_in][part]") {
+TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it",
+          "[06-octree][build_octree][occluded_in_octree][part]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);
     scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
     const Node root = build_octree(scene.surfaces());
     for (int i = 0; i < 500; ++i) {
-        check_same_any_hit(root, scene.surfaces(), random.ray(5.0F));
+        check_same_occlusion(root, scene.surfaces(), random.ray(5.0F));
     }
     INFO("the only ball is met at 4; a distance of 4 ends there, so nothing is nearer");
     Scene one;
     one.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
     const Node small = build_octree(one.surfaces());
-    CHECK_FALSE(any_hit_in(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.0F));
-    CHECK(any_hit_in(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.5F));
-    CHECK_FALSE(any_hit_in(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
+    CHECK_FALSE(occluded_in_octree(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.0F));
+    CHECK(occluded_in_octree(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.5F));
+    CHECK_FALSE(occluded_in_octree(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
 }
 
-TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in][part]") {
+TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in_octree][part]") {
     SECTION("100 spheres in the same place: dividing must come to an end") {
         Scene scene;
         for (int i = 0; i < 100; ++i) {
@@ -218,6 +222,6 @@ TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octr
         }
     }
     SECTION("no surfaces: no hit") {
-        CHECK_FALSE(closest_hit_in(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
+        CHECK_FALSE(closest_hit_in_octree(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
     }
 }

@@ -15,7 +15,7 @@ inline constexpr float k_refraction_threshold = 1e-3F;
 [[nodiscard]] std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& normal, float eta);
 
 /// The ray that goes on from a hit on glass. Outside is a vacuum (index 1): eta is 1 / index where
-/// hit.from_outside, else index / 1. Where refraction is impossible, the mirrored ray on the same side.
+/// hit.front_face, else index / 1. Where refraction is impossible, the mirrored ray on the same side.
 /// An index of 0, which some scenes have, counts as 1.
 [[nodiscard]] Ray transmitted_ray(const HitRecord& hit);
 

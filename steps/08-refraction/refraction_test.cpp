@@ -22,7 +22,7 @@ glm::vec3 downwards(float degrees) {
 }
 
 /// On a glass surface at the origin; the ray comes from the side of +z.
-HitRecord glass_hit(const glm::vec3& direction, float index, bool from_outside) {
+HitRecord glass_hit(const glm::vec3& direction, float index, bool front_face) {
     HitRecord hit;
     hit.position = {0.0F, 0.0F, 0.0F};
     hit.fill.transmittance = 0.5F;
@@ -30,7 +30,7 @@ HitRecord glass_hit(const glm::vec3& direction, float index, bool from_outside) 
     hit.normal = k_up;
     hit.ray_direction = direction;
     hit.distance = 1.0F;
-    hit.from_outside = from_outside;
+    hit.front_face = front_face;
     return hit;
 }
 
@@ -144,10 +144,10 @@ TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refrac
 }
 
 TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][transmitted_ray][part]") {
-    for (const bool from_outside : {true, false}) {
+    for (const bool front_face : {true, false}) {
         for (const float index : {1.0F, 0.0F}) {
-            CAPTURE(index, from_outside);
-            const HitRecord hit = glass_hit(downwards(50.0F), index, from_outside);
+            CAPTURE(index, front_face);
+            const HitRecord hit = glass_hit(downwards(50.0F), index, front_face);
             const Ray ray = transmitted_ray(hit);
             CHECK_THAT(ray.direction, IsNear(downwards(50.0F)));
             CHECK(glm::dot(ray.origin - hit.position, hit.normal) < 0.0F);

@@ -36,9 +36,9 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return std::nullopt;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     // TODO: Visit the boxes that begin before the distance, in any order, until a surface is hit before it.
-    RAYSTEPS_TODO("09-bvh", "any_hit_in_bvh");
+    RAYSTEPS_TODO("09-bvh", "occluded_in_bvh");
     return false;
 }
 

@@ -16,7 +16,7 @@ namespace raysteps {
 inline constexpr float k_two_box_tests = 1.0F;
 
 /// No tree has more levels, the root's among them: so a search may keep what it still has to visit in an array.
-inline constexpr int k_most_bvh_levels = 64;
+inline constexpr int k_max_bvh_levels = 64;
 
 /// The area of the six faces. An empty box, min above max along any axis, has the area 0.
 [[nodiscard]] float surface_area(const Box& box);
@@ -38,6 +38,6 @@ inline constexpr int k_most_bvh_levels = 64;
 [[nodiscard]] std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray);
 
 /// Whether any surface of the tree is hit nearer than `distance`. Ends with the first such hit.
-[[nodiscard]] bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance);
+[[nodiscard]] bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance);
 
 }  // namespace raysteps

@@ -44,7 +44,7 @@ private:
         INFO("node " << place << ": each node is below one other node, at most 64 levels deep");
         REQUIRE(place < bvh_.nodes.size());
         REQUIRE_FALSE(visited_[place]);
-        REQUIRE(level <= k_most_bvh_levels);
+        REQUIRE(level <= k_max_bvh_levels);
         visited_[place] = true;
         const BvhNode& node = bvh_.nodes[place];
         if (node.is_leaf()) {
@@ -145,6 +145,6 @@ TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh][close
         const Bvh bvh = build_bvh({});
         CHECK(bvh.nodes.empty());
         CHECK_FALSE(closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
-        CHECK_FALSE(any_hit_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}, 10.0F));
+        CHECK_FALSE(occluded_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}, 10.0F));
     }
 }

@@ -29,11 +29,11 @@ void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray)
     testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_bvh(bvh, ray));
 }
 
-void check_any_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray, float distance) {
+void check_occlusion(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray, float distance) {
     const std::optional<HitRecord> nearest = closest_hit(surfaces, ray);
     CAPTURE(ray, distance);
     INFO("the nearest hit: " << (nearest ? text(*nearest) : "none"));
-    REQUIRE(any_hit_in_bvh(bvh, ray, distance) == (nearest && nearest->distance < distance));
+    REQUIRE(occluded_in_bvh(bvh, ray, distance) == (nearest && nearest->distance < distance));
 }
 
 }  // namespace
@@ -104,28 +104,29 @@ TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree",
     CHECK(tested > 0.0);
 }
 
-TEST_CASE("any_hit_in_bvh: whether there is a hit before the distance", "[09-bvh][build_bvh][any_hit_in_bvh]") {
+TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bvh][build_bvh][occluded_in_bvh]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 150, 20);
     const Bvh bvh = build_bvh(scene.surfaces());
     for (int i = 0; i < 1500; ++i) {
-        check_any_hit(bvh, scene.surfaces(), random.ray(5.0F), random.uniform(0.0F, 12.0F));
-        check_any_hit(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F),
-                      random.uniform(10.0F, 30.0F));
+        check_occlusion(bvh, scene.surfaces(), random.ray(5.0F), random.uniform(0.0F, 12.0F));
+        check_occlusion(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F),
+                        random.uniform(10.0F, 30.0F));
     }
 }
 
-TEST_CASE("any_hit_in_bvh: a hit at the distance itself does not count", "[09-bvh][build_bvh][any_hit_in_bvh][part]") {
+TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count",
+          "[09-bvh][build_bvh][occluded_in_bvh][part]") {
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
                                          glm::vec3{0.0F, 1.0F, 0.0F}, Fill{}));
     const Bvh bvh = build_bvh(scene.surfaces());
     const Ray ray{{0.0F, 0.0F, 4.0F}, k_down};
-    CHECK_FALSE(any_hit_in_bvh(bvh, ray, 3.9F));
-    CHECK_FALSE(any_hit_in_bvh(bvh, ray, 4.0F));
-    CHECK(any_hit_in_bvh(bvh, ray, 4.1F));
-    CHECK(any_hit_in_bvh(bvh, ray, std::numeric_limits<float>::infinity()));
+    CHECK_FALSE(occluded_in_bvh(bvh, ray, 3.9F));
+    CHECK_FALSE(occluded_in_bvh(bvh, ray, 4.0F));
+    CHECK(occluded_in_bvh(bvh, ray, 4.1F));
+    CHECK(occluded_in_bvh(bvh, ray, std::numeric_limits<float>::infinity()));
 }
 
 TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
@@ -141,11 +142,11 @@ TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][
     CHECK(sheets_tested({{0.0F, 0.0F, -105.0F}, -k_down}) < 50);
 }
 
-TEST_CASE("any_hit_in_bvh: ends with the first hit", "[09-bvh][build_bvh][any_hit_in_bvh][part]") {
+TEST_CASE("occluded_in_bvh: ends with the first hit", "[09-bvh][build_bvh][occluded_in_bvh][part]") {
     const Scene scene = hundred_sheets();
     const Bvh bvh = build_bvh(scene.surfaces());
     const std::uint64_t before = thread_stats().surface_tests;
-    CHECK(any_hit_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down}, 200.0F));
+    CHECK(occluded_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down}, 200.0F));
     INFO("sheets that were tested, though one was enough");
     CHECK(thread_stats().surface_tests - before < 50);
 }

@@ -90,8 +90,8 @@ def normal() -> Drawing:
         640,
         200,
         "The normal faces the ray",
-        "Left: the ray comes from outside; the normal points away from the centre, from_outside is true. Right: the "
-        "ray comes from inside; the normal is turned round and points to the centre, from_outside is false.",
+        "Left: the ray comes from outside; the normal points away from the centre, front_face is true. Right: the "
+        "ray comes from inside; the normal is turned round and points to the centre, front_face is false.",
     )
     for x, inside in ((165.0, False), (475.0, True)):
         center: Point = (x, 190)

@@ -36,7 +36,7 @@ def _with(solved: Sources, statement: str, include: str) -> dict[str, str]:
 def test_a_function_of_a_later_step_is_out_of_reach(
     kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
 ) -> None:
-    sources = _with(solved, "return closest_hit_in(build_octree(surfaces), ray);", "steps/06-octree/octree.hpp")
+    sources = _with(solved, "return closest_hit_in_octree(build_octree(surfaces), ray);", "steps/06-octree/octree.hpp")
     result = _grade(kit, make_submission("later", sources), tmp_path / "out")
     assert (result.status, result.points) == ("does-not-build", 0)
     assert result.messages == ["It does not build: it calls a function of step 06-octree, which comes later."]

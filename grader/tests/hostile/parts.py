@@ -87,8 +87,8 @@ std::array<Box, 8> split(const Box& box) {
 
 Node build_octree(const SurfaceList& surfaces) { return Node{bounds_of(surfaces), surfaces, {}}; }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
-    const std::optional<HitRecord> closest = closest_hit_in(root, ray);
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
+    const std::optional<HitRecord> closest = closest_hit_in_octree(root, ray);
     return closest && closest->distance < distance;
 }
 

@@ -116,4 +116,4 @@ def test_a_tree_that_is_too_large_to_be_told(honest: _Honest, steps: list[Step],
     assert "more than 5000 boxes for " in tree.message
     assert tree.groups[0].undecided == tree.groups[0].cases
     assert tree.groups[-1].right == tree.groups[-1].cases
-    assert next(item for item in result.hidden if item.name == "closest_hit_in").share == 1
+    assert next(item for item in result.hidden if item.name == "closest_hit_in_octree").share == 1

@@ -61,8 +61,8 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
     record.ray_direction = ray.direction;
     record.distance = distance;
     const glm::vec3 outward = glm::normalize(record.position - center_);
-    record.from_outside = !(glm::dot(outward, ray.direction) >= 0.0F);
-    record.normal = record.from_outside ? outward : -outward;
+    record.front_face = !(glm::dot(outward, ray.direction) >= 0.0F);
+    record.normal = record.front_face ? outward : -outward;
     return record;
 }
 

@@ -82,13 +82,13 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
     }
     const glm::dvec3 on_sphere = m + static_cast<double>(distance) * direction;
     const glm::vec3 outward(glm::normalize(on_sphere));
-    const bool from_outside = glm::dot(on_sphere, direction) < 0.0;
+    const bool front_face = glm::dot(on_sphere, direction) < 0.0;
     return HitRecord{glm::vec3(on_sphere + glm::dvec3(center_)),
                      fill(),
-                     from_outside ? outward : -outward,
+                     front_face ? outward : -outward,
                      ray.direction,
                      distance,
-                     from_outside};
+                     front_face};
 }
 
 std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {

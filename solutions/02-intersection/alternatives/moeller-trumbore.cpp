@@ -15,8 +15,8 @@ HitRecord make_record(const Ray& ray, float distance, const Fill& fill, const gl
     record.position = ray.origin + distance * ray.direction;
     record.fill = fill;
     record.ray_direction = ray.direction;
-    record.from_outside = glm::dot(ray.direction, outward) < 0.0F;
-    record.normal = record.from_outside ? outward : -outward;
+    record.front_face = glm::dot(ray.direction, outward) < 0.0F;
+    record.normal = record.front_face ? outward : -outward;
     return record;
 }
 

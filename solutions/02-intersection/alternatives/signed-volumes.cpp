@@ -21,7 +21,7 @@ HitRecord record(const Surface& surface, const Ray& ray, double distance, const 
     hit.normal = glm::vec3(facing < 0.0 ? outward : -outward);
     hit.ray_direction = ray.direction;
     hit.distance = static_cast<float>(distance);
-    hit.from_outside = facing < 0.0;
+    hit.front_face = facing < 0.0;
     return hit;
 }
 

@@ -8,7 +8,7 @@ namespace raysteps {
 namespace {
 
 constexpr float k_lift = 0.1F * k_shadow_threshold;
-constexpr int k_most_steps = 8;
+constexpr int k_max_steps = 8;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     Ray ray = shadow_ray(hit, light);
     float walked = 0.0F;
     float left = glm::distance(ray.origin, light.position);
-    for (int step = 0; step < k_most_steps; ++step) {
+    for (int step = 0; step < k_max_steps; ++step) {
         const std::optional<HitRecord> blocker = scene.closest_hit(ray);
         if (!blocker || blocker->distance >= left) {
             return true;

@@ -25,7 +25,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
     if (!hit) {
         return k_black;
     }
-    const Color own = tracer.local_light(*hit, depth);
+    const Color own = tracer.direct_lighting(*hit, depth);
     if (hit->fill.ks <= 0.0F || depth == deepest) {
         return own;
     }

@@ -24,7 +24,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
             }
             break;
         }
-        sum += weight * tracer.local_light(*hit, bounce);
+        sum += weight * tracer.direct_lighting(*hit, bounce);
         if (!(hit->fill.ks > 0.0F)) {
             break;
         }

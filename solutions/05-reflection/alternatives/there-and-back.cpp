@@ -31,7 +31,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
     while (goes_on && depth <= tracer.max_ray_depth()) {
         const std::optional<HitRecord> hit = tracer.closest_hit(next);
         if (hit.has_value()) {
-            path.push_back({tracer.local_light(*hit, depth), hit->fill.ks});
+            path.push_back({tracer.direct_lighting(*hit, depth), hit->fill.ks});
             goes_on = hit->fill.ks > 0.0F;
             if (goes_on) {
                 next = reflected_ray(*hit);

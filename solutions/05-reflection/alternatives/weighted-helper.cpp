@@ -13,7 +13,7 @@ void gather(Tracer& tracer, const Ray& ray, int depth, float weight, Color& sum)
         sum += depth == 1 ? weight * tracer.background() : k_black;
         return;
     }
-    sum += weight * tracer.local_light(*hit, depth);
+    sum += weight * tracer.direct_lighting(*hit, depth);
     const bool may_go_on = depth + 1 <= tracer.max_ray_depth();
     if (hit->fill.ks > 0.0F && may_go_on) {
         gather(tracer, reflected_ray(*hit), depth + 1, weight * hit->fill.ks, sum);

@@ -137,7 +137,7 @@ Node build_octree(const SurfaceList& surfaces) {
     return grow(all, surfaces, 0, 4e-6F * (farthest.x + farthest.y + farthest.z));
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     std::priority_queue<Waiting, std::vector<Waiting>, LaterFirst> boxes;
     if (const std::optional<Interval> part = root.box.hit(ray)) {
         boxes.push({part->enter, &root});
@@ -164,7 +164,7 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return closest;
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     std::vector<const Node*> boxes{&root};
     while (!boxes.empty()) {
         const Node& next = *boxes.back();

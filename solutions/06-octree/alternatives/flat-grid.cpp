@@ -21,13 +21,13 @@ Polygon cut_off(const Polygon& polygon, int axis, double limit, double side) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const glm::dvec3& from = polygon[i];
         const glm::dvec3& to = polygon[(i + 1) % polygon.size()];
-        const double from_outside = side * (from[axis] - limit);
+        const double front_face = side * (from[axis] - limit);
         const double to_outside = side * (to[axis] - limit);
-        if (from_outside <= 0.0) {
+        if (front_face <= 0.0) {
             kept.push_back(from);
         }
-        if ((from_outside < 0.0 && to_outside > 0.0) || (from_outside > 0.0 && to_outside < 0.0)) {
-            kept.push_back(from + from_outside / (from_outside - to_outside) * (to - from));
+        if ((front_face < 0.0 && to_outside > 0.0) || (front_face > 0.0 && to_outside < 0.0)) {
+            kept.push_back(from + front_face / (front_face - to_outside) * (to - from));
         }
     }
     return kept;
@@ -146,7 +146,7 @@ Node build_octree(const SurfaceList& surfaces) {
     return root;
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     if (!root.box.hit(ray)) {
         return std::nullopt;
     }
@@ -173,7 +173,7 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return closest;
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     if (!root.box.hit(ray)) {
         return false;
     }

@@ -131,20 +131,20 @@ Node build_octree(const SurfaceList& surfaces) {
     return sort_in(all, surfaces, 0, k_share * size_of_numbers(all));
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     std::optional<HitRecord> closest;
     search(root, ray, closest);
     return closest;
 }
 
 // The children first: what is large stays up here, and is more often far away than in between.
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     const std::optional<Interval> part = root.box.hit(ray);
     if (!part || part->enter * (1.0F - 10.0F * k_share) > distance) {
         return false;
     }
     for (const Node& child : root.children) {
-        if (any_hit_in(child, ray, distance)) {
+        if (occluded_in_octree(child, ray, distance)) {
             return true;
         }
     }

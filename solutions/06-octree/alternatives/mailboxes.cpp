@@ -186,13 +186,13 @@ Node build_octree(const SurfaceList& surfaces) {
     return surfaces.empty() ? Node{} : divide(all, surfaces, 0, 1e-5F * largest_coordinate(all));
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     Search search{ray, {}, nullptr, std::nullopt};
     look_into(root, search);
     return search.hit;
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     Search search{ray, {}, nullptr, std::nullopt};
     return meets_before(root, distance, search);
 }

@@ -114,7 +114,7 @@ Node build_octree(const SurfaceList& surfaces) {
     return make_box(all, surfaces, 1, 1e-5F * reach);
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     SurfaceList candidates;
     collect(root, ray, candidates);
     std::sort(candidates.begin(), candidates.end(),
@@ -124,8 +124,8 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
 }
 
 // The paper knows one search only: the closest hit answers this question too.
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
-    const std::optional<HitRecord> closest = closest_hit_in(root, ray);
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
+    const std::optional<HitRecord> closest = closest_hit_in_octree(root, ray);
     return closest && closest->distance < distance;
 }
 

@@ -27,7 +27,7 @@ std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& no
 Ray transmitted_ray(const HitRecord& hit) {
     const float index = hit.fill.index_of_refraction != 0.0F ? hit.fill.index_of_refraction : 1.0F;
     const float outside = 1.0F;
-    const float eta = hit.from_outside ? outside / index : index / outside;
+    const float eta = hit.front_face ? outside / index : index / outside;
     const std::optional<glm::vec3> direction = refract(hit.ray_direction, hit.normal, eta);
     const float side = direction ? -1.0F : 1.0F;
     const glm::vec3 origin = hit.position + side * 2.0F * k_refraction_threshold * hit.normal;

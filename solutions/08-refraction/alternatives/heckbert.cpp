@@ -23,7 +23,7 @@ Ray transmitted_ray(const HitRecord& hit) {
         index = 1.0F;
     }
     float eta = index;
-    if (hit.from_outside) {
+    if (hit.front_face) {
         eta = 1.0F / index;
     }
     const std::optional<glm::vec3> refracted = refract(hit.ray_direction, hit.normal, eta);

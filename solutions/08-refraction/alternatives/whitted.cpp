@@ -36,8 +36,8 @@ std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& no
 Ray transmitted_ray(const HitRecord& hit) {
     const Fill& glass = hit.fill;
     const float index = glass.index_of_refraction == 0.0F ? 1.0F : glass.index_of_refraction;
-    const float n1 = hit.from_outside ? 1.0F : index;
-    const float n2 = hit.from_outside ? index : 1.0F;
+    const float n1 = hit.front_face ? 1.0F : index;
+    const float n2 = hit.front_face ? index : 1.0F;
     if (const auto refracted = refract(hit.ray_direction, hit.normal, n1 / n2)) {
         return Ray{hit.position - k_refraction_threshold * hit.normal, *refracted};
     }

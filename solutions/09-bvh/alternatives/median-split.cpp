@@ -143,7 +143,7 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return best.hit;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     return !bvh.nodes.empty() && any_below(bvh, 0, ray, distance);
 }
 

@@ -174,7 +174,7 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return closest;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     std::vector<std::uint32_t> open;
     for (std::uint32_t at = 0; !bvh.nodes.empty();) {
         const BvhNode& node = bvh.nodes[at];

@@ -159,7 +159,7 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return closest;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     std::vector<std::uint32_t> open;
     if (!bvh.nodes.empty() && bvh.nodes.front().box.hit(ray)) {
         open.push_back(0);

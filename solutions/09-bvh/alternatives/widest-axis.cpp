@@ -132,8 +132,8 @@ Bvh build_bvh(const SurfaceList& surfaces) {
 std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     std::optional<HitRecord> closest;
     std::size_t order = 0;
-    std::array<std::uint32_t, k_most_bvh_levels> open{};
-    std::array<float, k_most_bvh_levels> enters{};
+    std::array<std::uint32_t, k_max_bvh_levels> open{};
+    std::array<float, k_max_bvh_levels> enters{};
     std::size_t size = 0;
     bool searching = !bvh.nodes.empty() && bvh.nodes.front().box.hit(ray);
     for (std::uint32_t at = 0; searching;) {
@@ -169,8 +169,8 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return closest;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
-    std::array<std::uint32_t, k_most_bvh_levels + 1> open{};
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+    std::array<std::uint32_t, k_max_bvh_levels + 1> open{};
     std::size_t size = !bvh.nodes.empty() && bvh.nodes.front().box.hit(ray) ? 1 : 0;
     while (size > 0) {
         const BvhNode& node = bvh.nodes[open[--size]];

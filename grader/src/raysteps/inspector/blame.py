@@ -22,8 +22,8 @@ _OWN = {"sphere": "Sphere", "triangle": "Triangle", "smooth-triangle": "Triangle
 _SEARCH = {
     "none": ("closest_hit", "closest_hit"),
     "boxes": ("closest_hit", "closest_hit"),
-    "octree": ("closest_hit_in", "any_hit_in"),
-    "bvh": ("closest_hit_in_bvh", "any_hit_in_bvh"),
+    "octree": ("closest_hit_in_octree", "occluded_in_octree"),
+    "bvh": ("closest_hit_in_bvh", "occluded_in_bvh"),
 }
 _SPACE = {"no-bounds": "bounds_of", "no-part": "split"}
 _BUILD = {"none": "closest_hit", "boxes": "split", "octree": "build_octree", "bvh": "build_bvh"}

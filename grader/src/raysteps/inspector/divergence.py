@@ -52,7 +52,7 @@ def hit_differences(pair: Pair) -> Iterator[Difference]:
         yield pair.at("normal", words, own, not_unit(mine["normal"]))
     if mine["from_outside"] != reference["from_outside"]:
         told = "is true, the reference's false" if mine["from_outside"] else "is false, the reference's true"
-        yield pair.at("position", f"from_outside of the hit {told}", own)
+        yield pair.at("position", f"front_face of the hit {told}", own)
     if mine["fill"] != reference["fill"]:
         yield pair.at("hit", "the fill of the hit is not that of the surface", own)
     if not same_direction(mine["ray_direction"], reference["ray_direction"], 10 * pair.close):

@@ -60,7 +60,7 @@ def _fill(expected: Fill, actual: Fill) -> str:
 
 def record_problem(expected: Hit, actual: Hit) -> str:
     """All that a record holds."""
-    sides = "" if expected.from_outside == actual.from_outside else "from_outside is wrong"
+    sides = "" if expected.front_face == actual.front_face else "front_face is wrong"
     return first(
         real("the distance", expected.distance, actual.distance, LENGTHS),
         vector("the position", expected.position, actual.position, LENGTHS),

@@ -166,7 +166,7 @@ class Hit:
     ray_direction: Vector
     distance: float = 1.0
     fill: Fill = Fill()
-    from_outside: bool = True
+    front_face: bool = True
 
     def numbers(self) -> list[Number]:
         return [
@@ -175,14 +175,14 @@ class Hit:
             *self.normal,
             *self.ray_direction,
             self.distance,
-            int(self.from_outside),
+            int(self.front_face),
         ]
 
     def words(self) -> str:
         return (
             f"position {vector_words(self.position)} normal {vector_words(self.normal)} "
             f"ray_direction {vector_words(self.ray_direction)} distance {text(self.distance)} "
-            f"from_outside {str(self.from_outside).lower()} fill: {self.fill.words()}"
+            f"front_face {str(self.front_face).lower()} fill: {self.fill.words()}"
         )
 
 

@@ -15,7 +15,7 @@ class ScriptedHit:
     distance: float  # no two of a script are alike
     normal: Vector
     ks: float
-    local: Vector  # what local_light gives for it
+    local: Vector  # what direct_lighting gives for it
 
     def numbers(self) -> list[Number]:
         return [self.distance, *self.normal, self.ks, *self.local]
@@ -62,4 +62,4 @@ def traced_words(answer: TracedCall) -> str:
     shaded = (
         ", ".join(f"of the hit at {text(distance)} at depth {depth}" for distance, depth in answer.shaded) or "none"
     )
-    return f"colour {vector_words(answer.color)}; rays cast: {cast}; local_light asked: {shaded}"
+    return f"colour {vector_words(answer.color)}; rays cast: {cast}; direct_lighting asked: {shaded}"

@@ -130,22 +130,22 @@ SEARCHES: Answer[tuple[Search, ...]] = Answer(
 
 
 @dataclass(frozen=True)
-class AnyHit:
+class Occlusion:
     """Whether one ray meets anything before the distance, and how many surfaces were asked for it."""
 
     asked: int
     found: bool
 
 
-def _read_any_hit(tokens: TokenReader) -> AnyHit:
-    return AnyHit(tokens.whole(), tokens.flag())
+def _read_occlusion(tokens: TokenReader) -> Occlusion:
+    return Occlusion(tokens.whole(), tokens.flag())
 
 
-def _one_in_words(answer: AnyHit) -> str:
+def _one_in_words(answer: Occlusion) -> str:
     return "true, something is hit nearer" if answer.found else "false, nothing is hit nearer"
 
 
-def one_any_problem(expected: AnyHit, actual: AnyHit) -> str:
+def one_occlusion_problem(expected: Occlusion, actual: Occlusion) -> str:
     if expected.found and not actual.found:
         return "a surface is hit nearer than the distance, and the answer is that none is"
     if actual.found and not expected.found:
@@ -153,14 +153,14 @@ def one_any_problem(expected: AnyHit, actual: AnyHit) -> str:
     return hit_without_asking(hit=actual.found, asked=actual.asked)
 
 
-def _any_hit_problem(inputs: Inputs, expected: tuple[AnyHit, ...], actual: tuple[AnyHit, ...]) -> str:
-    return problem_of(inputs, (expected, actual), one_any_problem, too_many_asked)
+def _occlusion_problem(inputs: Inputs, expected: tuple[Occlusion, ...], actual: tuple[Occlusion, ...]) -> str:
+    return problem_of(inputs, (expected, actual), one_occlusion_problem, too_many_asked)
 
 
-ANY_HITS: Answer[tuple[AnyHit, ...]] = Answer(
-    lambda tokens: read_all(tokens, _read_any_hit),
+ANY_HITS: Answer[tuple[Occlusion, ...]] = Answer(
+    lambda tokens: read_all(tokens, _read_occlusion),
     lambda answers: words_of(answers, _one_in_words),
-    _any_hit_problem,
+    _occlusion_problem,
 )
 
 
@@ -215,8 +215,8 @@ def _closest_problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple
     return problem_of(inputs, (expected, actual), one_problem, work_problem)
 
 
-def _any_problem(inputs: Inputs, expected: tuple[AnyHit, ...], actual: tuple[AnyHit, ...]) -> str:
-    return problem_of(inputs, (expected, actual), one_any_problem, work_problem)
+def _any_problem(inputs: Inputs, expected: tuple[Occlusion, ...], actual: tuple[Occlusion, ...]) -> str:
+    return problem_of(inputs, (expected, actual), one_occlusion_problem, work_problem)
 
 
 CLOSEST_IN_BVH = Answer(SEARCHES.read, SEARCHES.words, _closest_problem)

@@ -26,8 +26,8 @@ std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
     rec.distance = t;
     rec.position = ray.origin + t * ray.direction;
     rec.normal = glm::normalize(glm::cross(e1, e2));
-    rec.from_outside = glm::dot(rec.normal, ray.direction) < 0;
-    if (!rec.from_outside) rec.normal = -rec.normal;
+    rec.front_face = glm::dot(rec.normal, ray.direction) < 0;
+    if (!rec.front_face) rec.normal = -rec.normal;
     rec.ray_direction = ray.direction;
     rec.fill = fill();
     return rec;
@@ -48,8 +48,8 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
     rec.distance = float(t);
     rec.position = ray.origin + float(t) * ray.direction;
     rec.normal = glm::normalize(rec.position - center_);
-    rec.from_outside = c > 0;
-    if (!rec.from_outside) rec.normal *= -1.0f;
+    rec.front_face = c > 0;
+    if (!rec.front_face) rec.normal *= -1.0f;
     rec.ray_direction = ray.direction;
     rec.fill = fill();
     return rec;

@@ -27,7 +27,7 @@ Color trace(Tracer& tracer, const Ray& ray, int depth) {
             if (d == 1) sum += tracer.background();
             break;
         }
-        sum += weight * tracer.local_light(*hit, d);
+        sum += weight * tracer.direct_lighting(*hit, d);
         if (hit->fill.ks <= 0) break;
         weight *= hit->fill.ks;
         now = reflected_ray(*hit);

@@ -112,21 +112,21 @@ static void search(const Node& node, const Ray& ray, std::optional<HitRecord>& b
     for (const Node& child : node.children) search(child, ray, best, order);
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     std::optional<HitRecord> best;
     std::size_t order = 0;
     search(root, ray, best, order);
     return best;
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     if (!root.box.hit(ray)) return false;
     for (auto* s : root.surfaces) {
         auto hit = s->hit(ray);
         if (hit && hit->distance < distance) return true;
     }
     for (const Node& child : root.children) {
-        if (any_hit_in(child, ray, distance)) return true;
+        if (occluded_in_octree(child, ray, distance)) return true;
     }
     return false;
 }

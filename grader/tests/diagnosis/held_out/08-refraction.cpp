@@ -19,7 +19,7 @@ Ray transmitted_ray(const HitRecord& hit) {
     float n = hit.fill.index_of_refraction;
     if (n == 0) n = 1;
     float eta = n;
-    if (hit.from_outside) eta = 1 / n;
+    if (hit.front_face) eta = 1 / n;
     auto inside = refract(hit.ray_direction, hit.normal, eta);
     Ray out;
     if (inside) {

@@ -126,7 +126,7 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return best;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     std::vector<unsigned> todo;
     if (!bvh.nodes.empty()) todo.push_back(0);
     while (!todo.empty()) {

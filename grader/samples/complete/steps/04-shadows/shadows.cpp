@@ -13,7 +13,7 @@ Ray shadow_ray(const HitRecord& hit, const Light& light) {
 
 bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
     const Ray ray = shadow_ray(hit, light);
-    return !scene.any_hit(ray, glm::distance(ray.origin, light.position));
+    return !scene.occluded(ray, glm::distance(ray.origin, light.position));
 }
 
 }  // namespace raysteps

@@ -284,7 +284,7 @@ Node build_octree(const SurfaceList& surfaces) {
     return root;
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     Closest closest;
     if (root.box.hit(ray)) {
         visit(root, ray, closest);
@@ -292,7 +292,7 @@ std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
     return closest.hit;
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     const std::optional<Interval> part = root.box.hit(ray);
     if (!part || part->enter * (1.0F - k_distance_slack) > distance) {
         return false;
@@ -301,7 +301,7 @@ bool any_hit_in(const Node& root, const Ray& ray, float distance) {
         const std::optional<HitRecord> hit = surface->hit(ray);
         return hit && hit->distance < distance;
     };
-    const auto has_near = [&](const Node& child) { return any_hit_in(child, ray, distance); };
+    const auto has_near = [&](const Node& child) { return occluded_in_octree(child, ray, distance); };
     return std::any_of(root.surfaces.begin(), root.surfaces.end(), is_near) ||
            std::any_of(root.children.begin(), root.children.end(), has_near);
 }

@@ -19,7 +19,7 @@ std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& no
 
 Ray transmitted_ray(const HitRecord& hit) {
     const float index = hit.fill.index_of_refraction > 0.0F ? hit.fill.index_of_refraction : 1.0F;
-    const float eta = hit.from_outside ? 1.0F / index : index;
+    const float eta = hit.front_face ? 1.0F / index : index;
     const glm::vec3 offset = k_refraction_threshold * hit.normal;
     if (const std::optional<glm::vec3> direction = refract(hit.ray_direction, hit.normal, eta)) {
         return {hit.position - offset, *direction};

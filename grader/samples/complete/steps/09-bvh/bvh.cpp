@@ -257,7 +257,7 @@ public:
     [[nodiscard]] bool empty() const { return size_ == 0; }
 
 private:
-    std::array<T, k_most_bvh_levels + 1> entries_;
+    std::array<T, k_max_bvh_levels + 1> entries_;
     std::size_t size_ = 0;
 };
 
@@ -318,7 +318,7 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     return closest.hit;
 }
 
-bool any_hit_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     Stack<std::uint32_t> open;
     if (!bvh.nodes.empty()) {
         open.push(0);

@@ -17,8 +17,8 @@ bool on_inner_side(const glm::vec3& start, const glm::vec3& end, const glm::vec3
 
 HitRecord record_hit(const Surface& surface, const Ray& ray, float distance, const glm::vec3& position,
                      const glm::vec3& outward) {
-    const bool from_outside = glm::dot(outward, ray.direction) < 0.0F;
-    return {position, surface.fill(), from_outside ? outward : -outward, ray.direction, distance, from_outside};
+    const bool front_face = glm::dot(outward, ray.direction) < 0.0F;
+    return {position, surface.fill(), front_face ? outward : -outward, ray.direction, distance, front_face};
 }
 
 }  // namespace

@@ -47,15 +47,15 @@ Node build_octree(const SurfaceList& surfaces) {
     return Node{};
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     // TODO: Visit the boxes that the ray enters, near ones first, and stop when no later box can hold a nearer hit.
-    RAYSTEPS_TODO("06-octree", "closest_hit_in");
+    RAYSTEPS_TODO("06-octree", "closest_hit_in_octree");
     return std::nullopt;
 }
 
-bool any_hit_in(const Node& root, const Ray& ray, float distance) {
+bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     // TODO: Visit the boxes that the ray enters before the distance, and stop at the first hit that is nearer.
-    RAYSTEPS_TODO("06-octree", "any_hit_in");
+    RAYSTEPS_TODO("06-octree", "occluded_in_octree");
     return false;
 }
 

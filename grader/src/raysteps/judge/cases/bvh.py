@@ -102,8 +102,8 @@ def _many_rays(draw: RandomSource, surfaces: tuple[Surface, ...], *, own: bool) 
     return _search(surfaces, [Reach(aimed(draw, surfaces, 16), 40.0) for _ in range(24)], own=own)
 
 
-ANY_HIT_IN_BVH = Function(
-    "any_hit_in_bvh",
+OCCLUDED_IN_BVH = Function(
+    "occluded_in_bvh",
     ANY_IN_BVH,
     (
         Group("hit or not", lambda d: _one_ray(d, own=False), telling=False),
@@ -132,4 +132,4 @@ ANY_HIT_IN_BVH = Function(
 )
 
 
-FUNCTIONS = (SURFACE_AREA, SPLIT_COST, BUILD_BVH, CLOSEST_HIT_IN_BVH, ANY_HIT_IN_BVH)
+FUNCTIONS = (SURFACE_AREA, SPLIT_COST, BUILD_BVH, CLOSEST_HIT_IN_BVH, OCCLUDED_IN_BVH)

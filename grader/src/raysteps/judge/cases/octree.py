@@ -5,7 +5,7 @@ from raysteps.judge.cases.octree_overlaps import SPHERE_OVERLAPS, TRIANGLE_OVERL
 from raysteps.judge.cases.octree_searches import (
     BALLS,
     BUILD_OCTREE,
-    CLOSEST_HIT_IN,
+    CLOSEST_HIT_IN_OCTREE,
     aimed,
     large_and_small,
     point_within,
@@ -107,8 +107,8 @@ def _many_rays(draw: RandomSource) -> Inputs:
     return _asked(surfaces, [aimed(draw, surfaces, 16) for _ in range(24)], draw.real(13, 15), own=True)
 
 
-ANY_HIT_IN = Function(
-    "any_hit_in",
+OCCLUDED_IN_OCTREE = Function(
+    "occluded_in_octree",
     ANY_HITS,
     (
         Group("in three levels of boxes", lambda d: _one_ray(d, own=False), telling=False),
@@ -129,4 +129,13 @@ ANY_HIT_IN = Function(
 )
 
 
-FUNCTIONS = (CLIP, SPHERE_OVERLAPS, TRIANGLE_OVERLAPS, BOUNDS_OF, SPLIT, BUILD_OCTREE, CLOSEST_HIT_IN, ANY_HIT_IN)
+FUNCTIONS = (
+    CLIP,
+    SPHERE_OVERLAPS,
+    TRIANGLE_OVERLAPS,
+    BOUNDS_OF,
+    SPLIT,
+    BUILD_OCTREE,
+    CLOSEST_HIT_IN_OCTREE,
+    OCCLUDED_IN_OCTREE,
+)

@@ -203,8 +203,8 @@ def _many_rays(draw: RandomSource) -> Inputs:
     return search(surfaces, [aimed(draw, surfaces, 16) for _ in range(24)], own=True)
 
 
-CLOSEST_HIT_IN = Function(
-    "closest_hit_in",
+CLOSEST_HIT_IN_OCTREE = Function(
+    "closest_hit_in_octree",
     SEARCHES,
     (
         Group("in three levels of boxes", lambda d: _one_ray(d, own=False), telling=False),

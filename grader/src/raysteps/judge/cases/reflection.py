@@ -53,7 +53,7 @@ def _trace_problem(inputs: Inputs, expected: TracedCall, actual: TracedCall) -> 
         counts,
         "a ray that was cast is wrong" if astray else "",
         channels("the colour", expected.color, actual.color),
-        "" if shaded else "local_light was asked for other hits, or with another depth",
+        "" if shaded else "direct_lighting was asked for other hits, or with another depth",
     )
 
 

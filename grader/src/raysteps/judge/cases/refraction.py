@@ -51,7 +51,7 @@ def hit_on_glass(draw: RandomSource, index: float, *, outside: bool, total: bool
     return Hit(draw.point(3), normal, ray, draw.real(1, 9), fill, outside)
 
 
-def any_hit(draw: RandomSource) -> Hit:
+def random_hit(draw: RandomSource) -> Hit:
     if draw.chance(0.2):
         return hit_on_glass(draw, index_of_glass(draw), outside=False, total=True)
     return hit_on_glass(draw, index_of_glass(draw), outside=draw.chance(0.5))
@@ -208,13 +208,13 @@ def _light(draw: RandomSource, hit: Hit) -> Inputs:
 
 def _faint(draw: RandomSource) -> Inputs:
     """Any transmittance above 0 lets light through, and 1 all of it."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     share = draw.real(0.001, 0.01) if draw.chance(0.5) else 1.0
     return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=share)))
 
 
 def _not_glass(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     return _light(draw, replace(hit, fill=replace(hit.fill, transmittance=0.0)))
 
 
@@ -223,7 +223,7 @@ TRANSMITTED_LIGHT = Function(
     Answer(_read_brought, _brought_words, _brought_problem),
     (
         Group("glass of index 1", lambda d: _light(d, hit_on_glass(d, 1.0, outside=d.chance(0.5)))),
-        Group("any hit on glass", lambda d: _light(d, any_hit(d))),
+        Group("any hit on glass", lambda d: _light(d, random_hit(d))),
         Group("simple numbers", lambda d: _light(d, simple_hit(d))),
         Group(
             "total internal reflection",
@@ -243,7 +243,7 @@ _TRANSMITTED_RAY = Function(
     "transmitted_ray",
     TRANSMITTED_RAY,
     (
-        Group("any hit on glass", lambda d: {"hit": any_hit(d)}),
+        Group("any hit on glass", lambda d: {"hit": random_hit(d)}),
         Group("simple numbers", lambda d: {"hit": simple_hit(d)}),
         Group("into glass", lambda d: {"hit": hit_on_glass(d, index_of_glass(d), outside=True)}),
         Group("out of glass", lambda d: {"hit": hit_on_glass(d, index_of_glass(d), outside=False)}),

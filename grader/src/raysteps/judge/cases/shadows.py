@@ -17,7 +17,7 @@ def hit_at(position: Vector, normal: Vector) -> Hit:
     return Hit(rounded(position), rounded(normal), rounded(times(-1.0, normal)))
 
 
-def any_hit(draw: RandomSource, reach: float = 3.0) -> Hit:
+def random_hit(draw: RandomSource, reach: float = 3.0) -> Hit:
     return hit_at(draw.point(reach), draw.direction())
 
 
@@ -83,7 +83,7 @@ def several(draw: RandomSource, hit: Hit, light: Light, *, blocked: bool) -> lis
 
 def pebble(draw: RandomSource) -> Inputs:
     """Little, and close to the surface: a threshold of its height would lose it."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = Light(rounded(add(hit.position, draw.above(hit.normal, 0.97, 1.0), draw.real(5, 15))))
     way = unit(minus(light.position, hit.position))
     return scene([Sphere(rounded(add(hit.position, way, draw.real(0.05, 0.08))), 0.02)], hit, light)
@@ -91,7 +91,7 @@ def pebble(draw: RandomSource) -> Inputs:
 
 def other_side(draw: RandomSource) -> Inputs:
     """Behind the surface of the hit, opposite to the light."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 2, 10)
     way = unit(minus(light.position, hit.position))
     radius = draw.real(0.3, 2)
@@ -100,7 +100,7 @@ def other_side(draw: RandomSource) -> Inputs:
 
 def behind_light(draw: RandomSource) -> Inputs:
     """On the way, but beyond the light."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 2, 10)
     way = minus(light.position, hit.position)
     radius = draw.real(0.3, 2)
@@ -110,7 +110,7 @@ def behind_light(draw: RandomSource) -> Inputs:
 
 def before_light(draw: RandomSource) -> Inputs:
     """Ends close before the light, or begins close behind it."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 4, 12)
     way = unit(minus(light.position, hit.position))
     radius = draw.real(0.3, 1)
@@ -120,7 +120,7 @@ def before_light(draw: RandomSource) -> Inputs:
 
 def light_in_shell(draw: RandomSource) -> Inputs:
     """A ball around the light is in its way."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 4, 12)
     center = add(light.position, draw.direction(), draw.real(0.0, 0.3))
     return scene([Sphere(rounded(center), draw.real(0.5, 2))], hit, light)
@@ -152,7 +152,7 @@ def hollow_ball(draw: RandomSource) -> Inputs:
     """The hit is on the wall, seen from inside; the light is inside as well, or outside."""
     room = Sphere(draw.simple_point(3), draw.real(4, 8))
     outward = draw.direction()
-    hit = replace(hit_at(add(room.center, outward, room.radius), times(-1.0, outward)), from_outside=False)
+    hit = replace(hit_at(add(room.center, outward, room.radius), times(-1.0, outward)), front_face=False)
     inside = draw.chance(0.5)
     reach = draw.real(0.0, 0.5) if inside else draw.real(1.5, 3)
     way = draw.direction() if inside else draw.above(hit.normal, 0.5)
@@ -197,7 +197,7 @@ _LIT = Answer(_read_lit, _lit_words, _lit_problem)
 
 
 def _lit_or_not(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 4, 30)
     return scene(several(draw, hit, light, blocked=draw.chance(0.3)), hit, light)
 
@@ -212,27 +212,27 @@ def _simple_scene(draw: RandomSource) -> Inputs:
 
 
 def _blocked(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 4, 30)
     return scene(several(draw, hit, light, blocked=True), hit, light)
 
 
 def _glass(draw: RandomSource) -> Inputs:
     """A ball of glass in the way: it blocks as any other."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 4, 30)
     return scene([replace(ball(draw, hit, light, blocks=True), glass=True)], hit, light)
 
 
 def _nothing_between(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 4, 30)
     things = several(draw, hit, light, blocked=False) if draw.chance(0.7) else []
     return scene(things, hit, light)
 
 
 def _far_light(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     light = light_above(draw, hit, 1e3, 1e4)
     way = unit(minus(light.position, hit.position))
     radius, blocked = draw.real(0.5, 2), draw.chance(0.5)
@@ -278,7 +278,7 @@ def _simple_ray(draw: RandomSource) -> Inputs:
 
 def _light_behind(draw: RandomSource) -> Inputs:
     """The ray runs through the surface, and starts on the normal's side of it all the same."""
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     way = draw.above(hit.normal, -1.0, -0.25)
     return {"hit": hit, "light": Light(rounded(add(hit.position, way, draw.real(2, 30))))}
 
@@ -288,12 +288,12 @@ def _far_from_origin(draw: RandomSource) -> Inputs:
 
 
 def _near_or_far(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw, 1.0)
+    hit = random_hit(draw, 1.0)
     return _ray_case(draw, hit, 0.1, 0.3) if draw.chance(0.5) else _ray_case(draw, hit, 1e3, 1e4)
 
 
 def _low_light(draw: RandomSource) -> Inputs:
-    hit = any_hit(draw)
+    hit = random_hit(draw)
     return {"hit": hit, "light": Light(rounded(add(hit.position, draw.above(hit.normal, 0.03, 0.1), draw.real(2, 30))))}
 
 
@@ -301,9 +301,9 @@ _SHADOW_RAY = Function(
     "shadow_ray",
     SHADOW_RAY,
     (
-        Group("any hit and light", lambda d: _ray_case(d, any_hit(d))),
+        Group("any hit and light", lambda d: _ray_case(d, random_hit(d))),
         Group("simple numbers", _simple_ray),
-        Group("a light close by", lambda d: _ray_case(d, any_hit(d), 0.5, 1.0)),
+        Group("a light close by", lambda d: _ray_case(d, random_hit(d), 0.5, 1.0)),
         Group("far from the centre of the world", _far_from_origin),
         Group("a light very near or very far", _near_or_far),
         Group("a light near the horizon", _low_light),

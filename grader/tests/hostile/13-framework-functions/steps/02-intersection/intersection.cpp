@@ -5,7 +5,7 @@
 namespace raysteps {
 
 Node build_octree(const SurfaceList& surfaces) { return Node{{}, surfaces, {}}; }
-std::optional<HitRecord> closest_hit_in(const Node&, const Ray&) { return std::nullopt; }
+std::optional<HitRecord> closest_hit_in_octree(const Node&, const Ray&) { return std::nullopt; }
 Color tone_map(const Color& color) { return color; }
 std::optional<HitRecord> Surface::hit(const Ray& ray) const { return intersect(ray); }
 bool Sphere::overlaps(const Box&) const { return true; }

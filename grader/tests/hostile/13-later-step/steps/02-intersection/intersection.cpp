@@ -7,7 +7,7 @@ std::optional<HitRecord> Sphere::intersect(const Ray&) const { return std::nullo
 std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {
     static thread_local Node tree;
     tree = build_octree(surfaces);
-    return closest_hit_in(tree, ray);
+    return closest_hit_in_octree(tree, ray);
 }
 
 }  // namespace raysteps

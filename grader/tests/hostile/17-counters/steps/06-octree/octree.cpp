@@ -22,7 +22,7 @@ static void find(const Surface& surface, const Ray& ray) {
     }
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     if (tests == nullptr && !root.surfaces.empty()) {
         find(*root.surfaces.front(), ray);
     }

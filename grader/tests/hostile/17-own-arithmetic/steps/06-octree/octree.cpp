@@ -29,7 +29,7 @@ static float distance_of(const Triangle& triangle, const Ray& ray) {
     return inside && distance > 0.0F ? distance : -1.0F;
 }
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     const Surface* winner = nullptr;
     float nearest = std::numeric_limits<float>::infinity();
     for (const Surface* surface : root.surfaces) {

@@ -8,7 +8,7 @@
 @OCTREE_OF_ONE_LEAF@
 namespace raysteps {
 
-std::optional<HitRecord> closest_hit_in(const Node& root, const Ray& ray) {
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     std::optional<HitRecord> closest;
     for (const Surface* surface : root.surfaces) {
         const auto hit = surface->intersect(ray);

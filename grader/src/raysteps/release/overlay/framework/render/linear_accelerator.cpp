@@ -14,7 +14,7 @@ public:
         return raysteps::closest_hit(surfaces_, ray);
     }
 
-    [[nodiscard]] bool any_hit(const Ray& ray, float distance) const override {
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
         const std::optional<HitRecord> closest = closest_hit(ray);
         return closest.has_value() && closest->distance < distance;
     }
