@@ -8,7 +8,8 @@ from functools import partial
 from pathlib import Path
 
 from raysteps.common.platform import executable
-from raysteps.course.project import Project, places
+from raysteps.course.project import Project
+from raysteps.course.tracked_files import places
 from raysteps.toolchain.cmake import BuildTree
 from tools.selftest.checks import Check, Report
 from tools.selftest.programs import command

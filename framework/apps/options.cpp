@@ -24,7 +24,7 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
                           instead of the picture what each pixel cost, as a colour over a legend:
                           surface tests, box tests, how deep its rays went, or nanoseconds
   --map-scale N           the cost of the last colour, so that two maps can be compared
-                          (a round number above all but the dearest pixels)
+                          (a round number above all but the most expensive pixels)
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
   --spd                   count rays by the rules of the Standard Procedural Databases and

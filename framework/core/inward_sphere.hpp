@@ -24,7 +24,7 @@ private:
     float radius_;
 };
 
-/// A students' kit has none: they are met much as the spheres of steps 02 and 06.
+/// A students' kit has none: rays meet them much as they meet the spheres of steps 02 and 06.
 [[nodiscard]] bool has_inward_spheres();
 
 }  // namespace raysteps

@@ -12,7 +12,8 @@ struct HeatmapScale {
     bool anything_above = false;
 };
 
-/// The scale on which all but the dearest 0.5 % of the pixels lie, up to a round number; or the one that is given.
+/// The scale on which all but the most expensive 0.5 % of the pixels lie, up to a round number; or the one that is
+/// given.
 [[nodiscard]] HeatmapScale heatmap_scale(const CostGrid& costs, CostKind kind, std::optional<std::uint64_t> most);
 
 /// Pixels per dot of the legend's letters: larger ones under larger pictures.

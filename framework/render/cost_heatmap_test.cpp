@@ -113,7 +113,7 @@ TEST_CASE("A uniform cost gives one colour over a legend", "[render]") {
     CHECK_FALSE(legend == heatmap_legend(120, CostKind::tests, {6, true}));
 }
 
-TEST_CASE("The scale is a round number above all but the dearest pixels", "[render]") {
+TEST_CASE("The scale is a round number above all but the most expensive pixels", "[render]") {
     CostGrid costs = uniform(40, 25, 41);
     CHECK(heatmap_scale(costs, CostKind::tests, std::nullopt).most == 50);
     CHECK_FALSE(heatmap_scale(costs, CostKind::tests, std::nullopt).anything_above);

@@ -52,7 +52,7 @@ public:
 
     [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth) override {
         shaded.push_back({hit, depth});
-        return on_local_light ? on_local_light(hit, depth) : k_black;
+        return on_direct_lighting ? on_direct_lighting(hit, depth) : k_black;
     }
 
     [[nodiscard]] Color trace(const Ray& ray, int depth) override {
@@ -64,7 +64,7 @@ public:
     [[nodiscard]] Color background() const override { return background_color; }
 
     std::function<std::optional<HitRecord>(const Ray&)> on_closest_hit;
-    std::function<Color(const HitRecord&, int)> on_local_light;
+    std::function<Color(const HitRecord&, int)> on_direct_lighting;
     std::function<Color(const Ray&, int)> on_trace;
     int max_depth = 5;
     Color background_color = k_black;

@@ -1,6 +1,6 @@
 #pragma once
 // The text that the worker reads and writes: words and numbers between blanks, and the kit's values as such numbers.
-// The judge's values.py writes and reads the same order.
+// The judge's protocol.py writes and reads the same order.
 #include <glm/vec3.hpp>
 #include <optional>
 #include <stdexcept>

@@ -10,7 +10,7 @@ namespace raysteps {
 namespace {
 
 constexpr int k_levels = 3;
-// Larger trees are not told; judge/trees.py knows the same numbers.
+// Larger trees are not told; judge/octrees.py knows the same numbers.
 constexpr std::size_t k_max_nodes = 5000;
 constexpr std::size_t k_max_entries = 50000;
 constexpr int k_deepest = 500;

@@ -86,7 +86,7 @@ Node make_octree(bool own, const SurfaceList& surfaces) { return own ? build_oct
 Bvh make_bvh(bool own, const SurfaceList& surfaces) { return own ? build_bvh(surfaces) : simple_bvh(surfaces); }
 
 // All four: whose tree (1: of the step's own build function), surfaces, rays.
-void ask_closest_hit_in(TokenReader& words, TokenWriter& answer) {
+void ask_closest_hit_in_octree(TokenReader& words, TokenWriter& answer) {
     Asked asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
@@ -132,7 +132,7 @@ void add_trees(FunctionTable& functions) {
     functions["bounds_of"] = ask_bounds_of;
     functions["split"] = ask_split;
     functions["build_octree"] = ask_build_octree;
-    functions["closest_hit_in_octree"] = ask_closest_hit_in;
+    functions["closest_hit_in_octree"] = ask_closest_hit_in_octree;
     functions["occluded_in_octree"] = ask_occluded_in_octree;
     functions["surface_area"] = ask_surface_area;
     functions["split_cost"] = ask_split_cost;

@@ -39,7 +39,7 @@ void between_mirrors(FakeTracer& tracer, float ks, const Color& own_light) {
         hit.position = ray.origin + 5.0F * ray.direction;
         return std::optional<HitRecord>(hit);
     };
-    tracer.on_local_light = [own_light](const HitRecord&, int) { return own_light; };
+    tracer.on_direct_lighting = [own_light](const HitRecord&, int) { return own_light; };
     follow_bounces(tracer);
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection][trac
     FakeTracer tracer;
     tracer.background_color = k_sky;
     tracer.answer_in_order({floor_hit(1.0F)});
-    tracer.on_local_light = [](const HitRecord&, int) { return Color(0.1F, 0.1F, 0.1F); };
+    tracer.on_direct_lighting = [](const HitRecord&, int) { return Color(0.1F, 0.1F, 0.1F); };
     follow_bounces(tracer);
     INFO("a perfect mirror under an empty sky: only its own light 0.1, the background is for primary rays");
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear(Color(0.1F)));
@@ -100,7 +100,7 @@ TEST_CASE("trace: a dull surface shows its own light and casts no second ray", "
     FakeTracer tracer;
     tracer.background_color = k_sky;
     tracer.answer_in_order({floor_hit(0.0F), floor_hit(0.0F)});
-    tracer.on_local_light = [](const HitRecord&, int) { return Color(0.3F, 0.2F, 0.1F); };
+    tracer.on_direct_lighting = [](const HitRecord&, int) { return Color(0.3F, 0.2F, 0.1F); };
     follow_bounces(tracer);
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear({0.3F, 0.2F, 0.1F}));
     INFO("ks = 0: one ray, one hit");
@@ -117,7 +117,7 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     red_hit.fill.color = {1.0F, 0.0F, 0.0F};
     mirror_hit.fill.color = {0.0F, 0.25F, 0.0F};
     tracer.answer_in_order({mirror_hit, red_hit});
-    tracer.on_local_light = [](const HitRecord& hit, int) { return hit.fill.color; };
+    tracer.on_direct_lighting = [](const HitRecord& hit, int) { return hit.fill.color; };
     follow_bounces(tracer);
     INFO("own light (0, 0.25, 0) + 0.5 * red (1, 0, 0)");
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear({0.5F, 0.25F, 0.0F}));

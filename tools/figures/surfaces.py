@@ -103,5 +103,5 @@ def normal() -> Drawing:
         figure.text((x + 10, 136 if inside else 42), "normal", "t-red")
         figure.text((start[0] + 4, start[1] + (18 if inside else -6)), "ray", "small")
         figure.dot(hit, "blue", 4)
-        figure.text((x + 24, 78), "from_outside: " + ("false" if inside else "true"), "small")
+        figure.text((x + 24, 78), "front_face: " + ("false" if inside else "true"), "small")
     return figure

@@ -18,7 +18,8 @@ from functools import cache
 from pathlib import Path, PurePosixPath
 
 from raysteps.common.files import write_json
-from raysteps.course.project import Project, places
+from raysteps.course.project import Project
+from raysteps.course.tracked_files import places
 
 Belongs = Callable[[str], bool]  # whether a file counts, by its place in the repository
 

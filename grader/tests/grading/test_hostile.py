@@ -205,10 +205,16 @@ def _slow(graded: Graded) -> list[str]:
 @pytest.mark.parametrize("attack", ATTACKS, ids=lambda attack: attack.name)
 def test_attack(attack: Attack, batch: Batch, place: Range, sandbox: Sandbox) -> None:
     seen = batch.graded(attack)
-    assert not seen.trace.exists()
+    _check_attack(attack, seen, place)
     if _slow(seen):  # what the attack did, it does again; other programs on the machine may have been in the way
         batch.wait()
-        assert not _slow(place.grade(attack, sandbox, f"{attack.name}-again"))
+        again = place.grade(attack, sandbox, f"{attack.name}-again")
+        assert not _slow(again), _slow(seen)
+        _check_attack(attack, again, place)
+
+
+def _check_attack(attack: Attack, seen: Graded, place: Range) -> None:
+    assert not seen.trace.exists()
     _check_secret(seen, place.planted.text)
     if attack.refused:
         assert attack.refused in seen.refused
@@ -275,4 +281,6 @@ def test_the_same_as_an_ordinary_user(ordinary_user: subprocess.Popen[str] | Non
     assert ordinary_user is not None
     output, _ = ordinary_user.communicate(timeout=1800)
     assert ordinary_user.returncode == 0, output[-8000:]
-    assert re.search(r"\d+ passed", output), output[-2000:]
+    passed = re.search(r"(\d+) passed", output)
+    assert passed is not None, output[-2000:]
+    assert int(passed[1]) >= len(CORPUS), output[-2000:]  # each attack is a test

@@ -215,3 +215,19 @@ def test_only_files_of_tests_that_may_end_otherwise_are_run(small: Project, monk
     (small.root / "grader" / "src" / "raysteps" / "deep" / "keeper.py").write_text("x = 1\n", encoding="utf-8")
     report, ran = _pytest(small, monkeypatch)
     assert (report.verdict, ran) == ("passed", {"test_a"}), report.detail
+
+
+def test_not_everything_depends_on_everything(project: Project) -> None:
+    """Else no stamp would ever help."""
+    sources = _sources(project)
+    narrow = [place for place in sources.tests() if not sources.of_test(place).whole]
+    assert len(narrow) > 30, "nearly every test file counts the whole package"
+
+
+def test_who_builds_a_kit_depends_on_what_builds_it(project: Project) -> None:
+    """conftest.py builds one for whoever asks for it, so every test file counts that."""
+    sources = _sources(project)
+    for place in sources.tests():
+        inputs = sources.of_test(place)
+        for module in ("build_kit", "link", "cmake", "symbols", "description"):
+            assert inputs.belongs(f"grader/src/raysteps/toolchain/{module}.py"), (place, module)

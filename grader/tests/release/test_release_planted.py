@@ -11,7 +11,8 @@ from rich.console import Console
 from raysteps.cli import release as command
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import read_steps
-from raysteps.course.project import Project, places
+from raysteps.course.project import Project
+from raysteps.course.tracked_files import places
 from raysteps.release import build_release as making
 from raysteps.release.contents import kit_contents
 from raysteps.release.leaks import find_leaks

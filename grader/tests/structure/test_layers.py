@@ -84,25 +84,3 @@ def test_steps_know_core_and_earlier_contracts(project: Project, room: str) -> N
                 assert found in (None, "core", "testing"), f"{path}: {include}"
             else:
                 assert found in (None, "core"), f"{path}: {include}"
-
-
-_PACKAGES = (
-    "setting_up", "common", "pages", "kit", "sandbox", "submission", "results", "programs", "judge", "mistakes",
-    "diagnosis", "grading", "reports", "classroom", "exports", "students", "release", "commands", "upkeep",
-)  # fmt: skip
-_IMPORT = re.compile(r"^\s*(?:from|import) raysteps\.(\w+)", re.MULTILINE)
-
-
-@pytest.mark.parametrize("package", _PACKAGES)
-def test_packages_of_the_grader_know_only_those_before_them(project: Project, package: str) -> None:
-    earlier = set(_PACKAGES[: _PACKAGES.index(package) + 1])
-    for path in (project.root / "grader" / "src" / "raysteps" / package).rglob("*.py"):
-        known = set(_IMPORT.findall(path.read_text(encoding="utf-8")))
-        # before anything is installed, and thus needed by nothing that comes after
-        earlier_ones = earlier if package == "setting_up" else earlier - {"setting_up"}
-        assert known <= earlier_ones, f"{path}: {known - earlier_ones}"
-
-
-def test_every_package_of_the_grader_has_its_place(project: Project) -> None:
-    folders = (project.root / "grader" / "src" / "raysteps").glob("*/__init__.py")
-    assert {path.parent.name for path in folders} == set(_PACKAGES)

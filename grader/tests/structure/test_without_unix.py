@@ -86,9 +86,9 @@ with one_at_a_time(pathlib.Path({str(tmp_path / "lock")!r})), open({str(tmp_path
 
 def test_programs_have_their_ending_and_commands_their_python() -> None:
     told = as_on_windows("""
-from raysteps.common.platform import executable, own_command, typed
+from raysteps.common.platform import executable, own_command, quote_command
 from raysteps.toolchain.cmake import release_tree
 from raysteps.course.project import here
-print(release_tree(here()).program("raytrace-mine").name, own_command(), typed(["replay", "a b.json"]))
+print(release_tree(here()).program("raytrace-mine").name, own_command(), quote_command(["replay", "a b.json"]))
 """)
     assert told == 'raytrace-mine.exe python raysteps replay "a b.json"'

@@ -18,7 +18,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 # Which object of the scene a pixel shows, and the scene with its materials changed.
 
 _KINDS = {"s": "sphere", "c": "cone", "p": "polygon", "pp": "polygon"}
-_MAX_OBJECTS = 1 << 24  # as many as there are colours
+_MAX_COLORS = 1 << 24  # as many as there are colours
 _PLAIN = "1 0 1 0 1"  # kd, ks, shine, transmittance, index
 
 
@@ -70,7 +70,7 @@ def numbered(nff: str) -> tuple[str, list[Object]]:
     for at, line in enumerate(nff.splitlines(), start=1):
         words = line.split()
         word = words[0] if words else ""
-        if word in _KINDS and len(objects) < _MAX_OBJECTS - 1:
+        if word in _KINDS and len(objects) < _MAX_COLORS - 1:
             objects.append(Object(_KINDS[word], at))
             out.append(f"f {_colour(len(objects))} {_PLAIN}")
         out.append("b 0 0 0" if word == "b" else line)
@@ -95,7 +95,7 @@ def object_map(kit: BuiltKit, scene: Path, args: Sequence[str]) -> ObjectMap:
 
 _ALL_BUT_FEW = 0.95  # of the wrong pixels count for all
 _NEARLY_ALL = 0.9  # of the picture
-_MAX_OBJECTS = 3
+_MAX_NAMED = 3
 _EDGES = 0.9
 _SMALL = 0.5  # of the picture: a part that is worth its numbers
 
@@ -126,7 +126,7 @@ def _on_objects(wrong: Mask, objects: ObjectMap, scene: str) -> str:
     reached = np.cumsum(counts[order]) >= _ALL_BUT_FEW * counts.sum()
     chosen = sorted(int(number) for number in numbers[order][: int(np.argmax(reached)) + 1])
     seen = np.unique(objects.numbers)
-    if len(chosen) > _MAX_OBJECTS or len(chosen) >= max(2, len(seen) - 1):
+    if len(chosen) > _MAX_NAMED or len(chosen) >= max(2, len(seen) - 1):
         return ""
     words = [_name(number, objects) for number in chosen]
     return f"on {join_and(words)}" + (f" of {scene}" if any(chosen) else "")

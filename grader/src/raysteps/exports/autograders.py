@@ -13,7 +13,8 @@ from pathlib import Path, PurePosixPath
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder, write_bytes
-from raysteps.course.project import Project, places
+from raysteps.course.project import Project
+from raysteps.course.tracked_files import places
 
 # Archives and folders whose bytes depend on their content only.
 

@@ -13,7 +13,7 @@ from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.judge.cases import functions_of
 from raysteps.judge.choice_sequence import Choice, Recorder
-from raysteps.judge.functions import Group, seed_of
+from raysteps.judge.functions import FORMER_NAMES, Group, seed_of
 from raysteps.judge.shrink import CpuBudget, Shrinker
 from raysteps.judge.worker import Ask, JudgedCase
 from raysteps.results.store import FOLDER, place_of
@@ -66,6 +66,9 @@ def read_case(path: Path) -> CaseFile:
         raise _refuse(path, problem)
     del document["schema"]
     texts = {key: printable(value) for key, value in document.items() if key != "seed"}
+    for name, former in FORMER_NAMES.items():
+        if texts["function"] == former:
+            texts["function"], texts["line"] = name, texts["line"].replace(former, name, 1)
     return CaseFile(seed=document["seed"], **texts)
 
 

@@ -119,7 +119,7 @@ _WITHOUT_FILL: dict[type, Callable[[_Numbers], Any]] = {
 
 
 def decode_inputs(function: Function, line: str) -> Inputs:
-    """All cases of a function take the same kinds of values. Garbled, with what is wrong, where the line does not."""
+    """All cases of a function take the same kinds of values. Raises ProtocolError where the line does not fit them."""
     tokens = TokenReader(line)
     tokens.word()  # the number of the case
     name = tokens.word()

@@ -8,8 +8,9 @@ from pathlib import Path, PurePosixPath
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
-from raysteps.course.project import Project, places, untracked
+from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
+from raysteps.course.tracked_files import places, untracked
 from raysteps.updater.generated_files import is_made_anew
 
 # The Python modules that a students' kit needs: all that its commands import, and nothing that knows answers.

@@ -161,7 +161,7 @@ class NgramIndex:
 
 # What files of a students' kit have in common with something secret, and may: each is named in shared.toml.
 
-FILE = "grader/src/raysteps/release/leaks/shared.toml"
+FILE = "grader/src/raysteps/release/shared.toml"
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,11 @@ _PR_SET_CHILD_SUBREAPER = 36
 _PR_SET_NO_NEW_PRIVS = 38
 _CANNOT_START = b"cannot start"
 
-sys.path.append(os.path.dirname(__file__))  # noqa: PTH120  (pathlib takes long to load)
-_lockdown = importlib.import_module("lockdown")
+if TYPE_CHECKING:
+    from raysteps.sandbox import lockdown as _lockdown
+else:
+    sys.path.append(os.path.dirname(__file__))  # noqa: PTH120  (pathlib takes long to load)
+    _lockdown = importlib.import_module("lockdown")
 
 
 def _prctl(option: int, value: int) -> None:
@@ -48,9 +51,9 @@ def _limit(limits: dict[str, int]) -> None:
 
 def _fence(fences: Settings) -> None:
     if fences["files"] is not None:
-        _lockdown.close_files(fences["files"]["readable"], fences["files"]["writable"])
+        _lockdown.restrict_files(fences["files"]["readable"], fences["files"]["writable"])
     if fences["system_calls"] is not None:
-        _lockdown.close_system_calls(bytes.fromhex(fences["system_calls"]))
+        _lockdown.restrict_system_calls(bytes.fromhex(fences["system_calls"]))
 
 
 def _become(user: int) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from raysteps.common.errors import RaystepsError
 from raysteps.course.manifest import Step
@@ -64,9 +64,6 @@ def run_inspect(project: Project, words: Sequence[str]) -> None:
 
 
 # What the keys do.
-
-if TYPE_CHECKING:
-    pass
 
 
 class Actions:
