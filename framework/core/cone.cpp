@@ -106,9 +106,9 @@ Box Cone::bounds() const {
 // Three planes that may part the two: the sides of the bounds, the ends of the axis, and one that touches the
 // wall on the side of the box's centre.
 bool Cone::overlaps(const Box& box) const {
-    const Box own = bounds();
+    const Box around = bounds();
     for (int i = 0; i < 3; ++i) {
-        if (own.min[i] > box.max[i] || own.max[i] < box.min[i]) {
+        if (around.min[i] > box.max[i] || around.max[i] < box.min[i]) {
             return false;
         }
     }

@@ -1,5 +1,6 @@
 """Files that take another's place in a students' kit: the one that they replace is there, and its header stays."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -28,5 +29,7 @@ def test_it_replaces_a_file_of_the_framework(project: Project, contents: dict[st
     whole = project.root / name
     assert whole.is_file(), f"{name}: expected the whole kit's file of that name"
     assert contents[name] == (_OVERLAY / name).read_bytes() != whole.read_bytes()
-    header = str(Path(name).with_suffix(".hpp"))
-    assert contents[header] == (project.root / header).read_bytes()
+    headers = re.findall(r'#include "(\w+/\w+\.hpp)"', whole.read_text(encoding="utf-8"))
+    assert headers, "it defines what no header declares"
+    for declared in (f"framework/{header}" for header in headers):
+        assert contents[declared] == (project.root / declared).read_bytes()

@@ -58,7 +58,7 @@ def test_in_every_kind_of_file_that_goes_out(
     cases = "\n".join((room / "cases.toml").read_text(encoding="utf-8").splitlines()[4:12])
     mutants = (room / "mutants.toml").read_text(encoding="utf-8")
     package = "grader/src/raysteps"
-    judge = (copy.root / package / "judge/generators/sphere_cases.py").read_text(encoding="utf-8")
+    judge = (copy.root / package / "judge/cases/intersection.py").read_text(encoding="utf-8")
     planted = {
         "steps/02-intersection/intersection.hpp": solution,
         "steps/04-shadows/README.md": f"\n```cpp\n{solution}```\n",

@@ -122,7 +122,9 @@ def package_files(source: Path) -> list[Path]:
         for path in (path for room in rooms if room.is_dir() for path in room.iterdir()):
             if path.is_file() and path.suffix in _DATA:
                 found.add(path)
-    return sorted(found)
+    kept = {path.with_suffix("") for path in modules}  # a schema goes the way of its module
+    schemas = {path: path.with_name(path.name.removesuffix(".schema.json")) for path in found}
+    return sorted(path for path, module in schemas.items() if module in kept or not module.with_suffix(".py").is_file())
 
 
 # Stand-ins for steps that a kit does not have: the framework calls their functions.
