@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from raysteps.judge.cases.octree_searches import small_scene
+from raysteps.judge.cases.tree_scenes import small_scene
 from raysteps.judge.compare import LENGTHS, SMALL, Answer, first, real, vector
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import Vector, add, rounded, unit
