@@ -1,8 +1,8 @@
 """Cases of step 06 with whole scenes: building a tree."""
 
+from raysteps.common.vectors import add
 from raysteps.judge.cases.tree_scenes import built, large_and_small, small_scene, small_sphere
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import add
 from raysteps.judge.octrees import TREE
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource

@@ -2,6 +2,7 @@
 
 from functools import partial
 
+from raysteps.common.vectors import Vector, add, minus, unit
 from raysteps.judge.cases.search_cases import (
     Distance,
     MakeRays,
@@ -23,7 +24,7 @@ from raysteps.judge.cases.search_cases import (
 )
 from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene
 from raysteps.judge.functions import Function, Group, Make
-from raysteps.judge.numbers import Vector, add, f32, minus, rounded, unit
+from raysteps.judge.numbers import f32, rounded
 from raysteps.judge.protocol import Ray
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import ANY_HITS, SEARCHES, WhoseTree

@@ -4,9 +4,10 @@ tree. Scene and rays are drawn first, then a distance, then whose tree it is."""
 from collections.abc import Callable
 from typing import TypeAlias
 
+from raysteps.common.vectors import Vector, add, minus, times, unit
 from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene, any_scene, large_and_small, small_scene
 from raysteps.judge.functions import Make
-from raysteps.judge.numbers import Vector, add, f32, minus, rounded, times, unit
+from raysteps.judge.numbers import f32, rounded
 from raysteps.judge.protocol import Inputs, Ray, Real
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import Rays, Reach, Reaches, WhoseTree

@@ -2,7 +2,7 @@
 
 from typing import TypeAlias
 
-from raysteps.judge.numbers import Vector, add
+from raysteps.common.vectors import Vector, add
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
