@@ -13,6 +13,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.build_kit import build_kit
 from tools.bench.records import keep
+from tools.bench.tables import terminal_table
 from tools.selftest.programs import ACCELERATIONS, render_with
 
 _DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("gears", 2), ("mountain", 6))
@@ -72,9 +73,8 @@ def measure_scene(program: Path, scene: Path, size: str) -> list[Measurement]:
 
 
 def _table(rows: list[Measurement], size: str) -> Table:
-    table = Table(title=f"{size}, step 6, one ray per pixel and its shadow and mirror rays", title_justify="left")
-    for heading in ("scene", "objects", "accel", "objects tested", "tests per ray", "time", "saved", "speed-up"):
-        table.add_column(heading, justify="left" if heading in ("scene", "accel") else "right")
+    headings = ("scene", "objects", "accel", "objects tested", "tests per ray", "time", "saved", "speed-up")
+    table = terminal_table(f"{size}, step 6, one ray per pixel and its shadow and mirror rays", headings)
     for row in rows:
         table.add_row(
             escape(row.scene) if row.accel == "none" else "",

@@ -21,6 +21,7 @@ from raysteps.course.project import Project
 from raysteps.toolchain.build_kit import build_kit
 from tools.bench.programs import children_seconds
 from tools.bench.records import keep
+from tools.bench.tables import terminal_table
 
 _SECONDS = 3600
 _CLASS_SIZE = 8
@@ -86,9 +87,8 @@ def _class_way(project: Project, submissions: Path, out: Path) -> None:
 
 
 def _table(costs: list[Cost]) -> Table:
-    table = Table(title="one complete submission, all nine steps", title_justify="left")
-    for heading in ("way", "runs", "seconds", "CPU seconds", "CPU against plain"):
-        table.add_column(heading, justify="left" if heading == "way" else "right")
+    headings = ("way", "runs", "seconds", "CPU seconds", "CPU against plain")
+    table = terminal_table("one complete submission, all nine steps", headings)
     plain = _mean([cost.cpu_seconds for cost in costs if cost.way == "plain"])
     for way in ("plain", "class"):
         rows = [cost for cost in costs if cost.way == way]

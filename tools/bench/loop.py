@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome, run
@@ -19,6 +18,7 @@ from raysteps.exports.autograders import kit_files
 from raysteps.toolchain.cmake import release_tree
 from tools.bench.programs import machine
 from tools.bench.records import keep, spread_of
+from tools.bench.tables import terminal_table
 
 _SECONDS = 1800
 _START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from raysteps.cli.app import main; sys.exit(main())"
@@ -69,9 +69,7 @@ def bench_loop(project: Project, steps: list[str], rounds: int, console: Console
             with console.status(f"changing and checking step {step.id}"):
                 rows.append(_measured(copy, step, rounds))
         found = machine(release_tree(copy))
-    table = Table(title="from a saved file to the result of check", title_justify="left")
-    for heading in ("step", "median", "least", "most"):
-        table.add_column(heading, justify="left" if heading == "step" else "right")
+    table = terminal_table("from a saved file to the result of check", ("step", "median", "least", "most"))
     for row in rows:
         spread = row["seconds"]
         table.add_row(row["step"], f"{spread['median']:.2f} s", f"{spread['min']:.2f} s", f"{spread['max']:.2f} s")

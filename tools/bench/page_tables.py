@@ -1,23 +1,11 @@
 """The tables of docs/benchmarks.md, as Markdown."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from textwrap import fill
 from typing import Any
 
-from tools.bench.render import COMPARED, against_embree, against_povray, faster, median_of, names_of
-
-_PEER = "embree"
-
-
-_WORDS = ("scene", "structure", "program", "step", "way")  # columns that stand left; numbers stand right
-
-
-def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """One table."""
-    marks = ["|---" if heading.split(" ")[0] in _WORDS else "|---:" for heading in headings]
-    lines = ["| " + " | ".join(headings) + " |", "".join(marks) + "|"]
-    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
-    return "\n".join(lines)
+from tools.bench.render import COMPARED, PEER, against_povray, all_against_embree, faster, median_of
+from tools.bench.tables import counted, markdown, median, megabytes, milliseconds, ratio, spread
 
 
 def machine_line(machine: dict[str, Any]) -> str:
@@ -27,26 +15,19 @@ def machine_line(machine: dict[str, Any]) -> str:
     return f"{machine['processor']}, {cores}, {machine['system']}; {machine['compiler']} {machine['flags']}; {pinned}."
 
 
-def _spread(spread: dict[str, Any] | None, digits: int) -> str:
-    if not spread:
-        return ""
-    return f"{spread['median']:.{digits}f} ({spread['q1']:.{digits}f} to {spread['q3']:.{digits}f})"
-
-
 def _sides(scene: dict[str, Any]) -> Iterable[list[str]]:
-    peer = median_of(scene, _PEER)
+    peer = median_of(scene, PEER)
     for side in scene["structures"]:
-        time = side["ns_per_ray"]["median"]
         yield [
             f"{scene['scene']} ({scene['surfaces']})",
             side["name"],
-            _spread(side["ns_per_ray"], 0),
-            f"{time / peer:.2f}" if peer else "",
-            _spread(side["picture_seconds"], 3),
-            f"{side['build_seconds']['median'] * 1e3:.1f}",
-            f"{side['bytes'] / 1e6:.2f}" if side["bytes"] else "",
-            f"{side['surface_tests_per_ray']:.1f}" if side["surface_tests_per_ray"] else "",
-            f"{side['box_tests_per_ray']:.1f}" if side["box_tests_per_ray"] else "",
+            spread(side["ns_per_ray"], 0),
+            ratio(side["ns_per_ray"]["median"], peer),
+            spread(side["picture_seconds"], 3),
+            milliseconds(side["build_seconds"], 1),
+            megabytes(side["bytes"]),
+            counted(side["surface_tests_per_ray"], 1),
+            counted(side["box_tests_per_ray"], 1),
         ]
 
 
@@ -55,8 +36,7 @@ def _one_build(build: dict[str, Any]) -> str:
     headings = ("scene (surfaces)", "structure", "ns/ray (quartiles)", "to Embree", "picture, s", "build, ms",
                 "memory, MB", "surfaces/ray", "boxes/ray")  # fmt: skip
     table = markdown(headings, [row for scene in scenes for row in _sides(scene)])
-    means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
-    mean_rows = [(name, f"{mean:.2f}") for name, mean in means if mean and name != _PEER]
+    mean_rows = [(name, f"{mean:.2f}") for name, mean in all_against_embree(scenes)]
     means_table = markdown(("structure", "time of a ray against Embree's, geometric mean"), mean_rows)
     machine = fill(f"**The {build['build']} build.** {machine_line(build['machine'])}", 120, break_on_hyphens=False)
     lines = [machine, table]
@@ -71,8 +51,8 @@ def _povray(rows: list[dict[str, Any]]) -> Iterable[list[str]]:
         theirs = row["programs"][0]
         for number, side in enumerate(row["programs"]):
             ratios = [f"{faster(theirs, side, what):.2f}" if number else "" for what in COMPARED]
-            tracing = [_spread(side[what], 3) for what in COMPARED]
-            process = f"{side['process_seconds']['median']:.2f}"
+            tracing = [spread(side[what], 3) for what in COMPARED]
+            process = median(side["process_seconds"], 2)
             yield [row["scene"], side["program"], *tracing, process, *ratios]
 
 
@@ -99,12 +79,12 @@ def scale_tables(document: dict[str, Any]) -> str:
             row["scene"],
             row["structure"],
             str(row["surfaces"]),
-            f"{row['build_seconds']['median'] * 1e3:.1f}",
-            f"{row['bytes'] / 1e6:.2f}" if row["bytes"] else "",
-            f"{row['peak_bytes'] / 1e6:.0f}" if row["peak_bytes"] else "",
+            milliseconds(row["build_seconds"], 1),
+            megabytes(row["bytes"]),
+            megabytes(row["peak_bytes"], 0),
             f"{row['surface_tests_per_ray']:.1f}",
             f"{row['box_tests_per_ray']:.1f}",
-            f"{row['ns_per_ray']['median']:.0f}",
+            median(row["ns_per_ray"], 0),
         )
         for row in document["rows"]
     ]
@@ -126,7 +106,7 @@ def scale_tables(document: dict[str, Any]) -> str:
 def threads_tables(document: dict[str, Any]) -> str:
     """One line for each scene, structure and number of threads."""
     rows = [
-        (row["scene"], row["accel"], str(row["threads"]), _spread(row["render_seconds"], 3), f"{row['speed_up']:.2f}")
+        (row["scene"], row["accel"], str(row["threads"]), spread(row["render_seconds"], 3), f"{row['speed_up']:.2f}")
         for row in document["rows"]
     ]
     table = markdown(("scene", "structure", "threads", "picture, s", "speed-up"), rows)
@@ -136,7 +116,7 @@ def threads_tables(document: dict[str, Any]) -> str:
 def parse_tables(document: dict[str, Any]) -> str:
     """One line for each scene."""
     rows = [
-        (row["scene"], f"{row['bytes'] / 1e6:.1f}", str(row["surfaces"]), _spread(row["megabytes_per_second"], 1))
+        (row["scene"], f"{row['bytes'] / 1e6:.1f}", str(row["surfaces"]), spread(row["megabytes_per_second"], 1))
         for row in document["rows"]
     ]
     return f"{machine_line(document['machine'])}\n\n{markdown(('scene', 'MB', 'surfaces', 'MB/s'), rows)}"
@@ -144,7 +124,7 @@ def parse_tables(document: dict[str, Any]) -> str:
 
 def loop_tables(document: dict[str, Any]) -> str:
     """One line for each step."""
-    rows = [(row["step"], _spread(row["seconds"], 2)) for row in document["rows"]]
+    rows = [(row["step"], spread(row["seconds"], 2)) for row in document["rows"]]
     return f"{machine_line(document['machine'])}\n\n{markdown(('step', 'seconds'), rows)}"
 
 

@@ -6,11 +6,11 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table
 
 from raysteps.course.project import Project, generated
 from tools.bench.programs import ask_pinned, checked, portable
 from tools.bench.records import keep
+from tools.bench.tables import median, quartiles, terminal_table
 
 _LARGE = (("tetrahedra", 9), ("rings", 30), ("mountain", 9))
 
@@ -28,17 +28,16 @@ def bench_parse(project: Project, scenes: list[Path], rounds: int, console: Cons
             row = ask_pinned(programs.bench, "parse", scene, "--rounds", str(rounds))
         del row["schema"]
         rows.append({"scene": scene.stem, **row})
-    table = Table(title="reading scenes, one thread, the text already in memory", title_justify="left")
-    for heading in ("scene", "size", "surfaces", "speed", "quartiles"):
-        table.add_column(heading, justify="left" if heading == "scene" else "right")
+    headings = ("scene", "size", "surfaces", "speed", "quartiles")
+    table = terminal_table("reading scenes, one thread, the text already in memory", headings)
     for row in rows:
         speed = row["megabytes_per_second"]
         table.add_row(
             escape(row["scene"]),
             f"{row['bytes'] / 1e6:.1f} MB",
             str(row["surfaces"]),
-            f"{speed['median']:.1f} MB/s",
-            f"{speed['q1']:.1f} to {speed['q3']:.1f}",
+            median(speed, 1, " MB/s"),
+            quartiles(speed, 1),
         )
     console.print(table)
     document = {"schema": "raysteps/bench-parse/v1", "machine": asdict(programs.machine), "rows": rows}

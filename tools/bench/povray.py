@@ -16,6 +16,7 @@ from PIL import Image
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import shorten
+from raysteps.common.vectors import Vector, cross, length, minus, times, unit
 from tools.bench.programs import Programs, children_seconds, flat_nff, pinned
 from tools.bench.records import spread_of
 
@@ -82,20 +83,13 @@ def read_flat(text: str) -> FlatScene:
 
 # A flat scene in POV-Ray's language, so that both programs follow the same rays through the same shapes.
 
-Vector = tuple[float, float, float]
+
+def _three(numbers: Numbers) -> Vector:
+    return numbers[0], numbers[1], numbers[2]
 
 
-def _minus(a: Numbers, b: Numbers) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _cross(a: Numbers, b: Numbers) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def _scaled(a: Numbers, length: float) -> Vector:
-    factor = length / math.hypot(*a[:3])
-    return (a[0] * factor, a[1] * factor, a[2] * factor)
+def _scaled(v: Vector, to: float) -> Vector:
+    return times(to / length(v), v)
 
 
 def _vector(numbers: Numbers) -> str:
@@ -104,10 +98,10 @@ def _vector(numbers: Numbers) -> str:
 
 def _camera(view: dict[str, Numbers]) -> str:
     """`angle` spans a square picture from edge to edge in both programs; right and up are its sides at distance 1."""
-    forward = _scaled(_minus(view["at"], view["from"]), 1.0)
+    forward = unit(minus(_three(view["at"]), _three(view["from"])))
     side = 2.0 * math.tan(math.radians(view["angle"][0]) / 2.0)
-    right = _scaled(_cross(forward, view["up"]), side)
-    up = _scaled(_cross(right, forward), side)
+    right = _scaled(cross(forward, _three(view["up"])), side)
+    up = _scaled(cross(right, forward), side)
     vectors = (f"location {_vector(view['from'])}", f"direction {_vector(forward)}")
     return f"camera {{ perspective {' '.join(vectors)} right {_vector(right)} up {_vector(up)} }}"
 

@@ -7,7 +7,6 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table
 
 from raysteps.course.project import Project
 from tools.bench.povray import Race, race_povray
@@ -23,10 +22,11 @@ from tools.bench.programs import (
     what_is_missing,
 )
 from tools.bench.records import geometric_mean, keep
+from tools.bench.tables import counted, median, megabytes, milliseconds, quartiles, ratio, terminal_table
 
 # Tables of `bench render`.
 
-_PEER = "embree"
+PEER = "embree"
 _TIMES = ("trace_seconds", "trace_processor_seconds", "process_seconds", "processor_seconds")
 COMPARED = ("trace_seconds", "trace_processor_seconds")
 
@@ -44,9 +44,15 @@ def names_of(scenes: list[dict[str, Any]]) -> list[str]:
 
 def against_embree(scenes: list[dict[str, Any]], name: str, what: str = "ns_per_ray") -> float | None:
     """The geometric mean over the scenes of a structure's time as a multiple of Embree's."""
-    pairs = [(median_of(scene, name, what), median_of(scene, _PEER, what)) for scene in scenes]
+    pairs = [(median_of(scene, name, what), median_of(scene, PEER, what)) for scene in scenes]
     ratios = [ours / theirs for ours, theirs in pairs if ours and theirs]
     return geometric_mean(ratios) if ratios and len(ratios) == len(scenes) else None
+
+
+def all_against_embree(scenes: list[dict[str, Any]]) -> list[tuple[str, float]]:
+    """Of each other structure, where all scenes have both."""
+    means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
+    return [(name, mean) for name, mean in means if mean and name != PEER]
 
 
 def faster(theirs: dict[str, Any], ours: dict[str, Any], what: str) -> float:
@@ -64,61 +70,41 @@ def against_povray(rows: list[dict[str, Any]], what: str) -> list[tuple[str, flo
     return [(name, geometric_mean(ratios)) for name, ratios in found.items() if min(ratios) > 0.0]
 
 
-def _times(value: float | None, other: float | None) -> str:
-    return f"{value / other:.2f} x" if value and other else ""
-
-
-def _megabytes(value: int) -> str:
-    return f"{value / 1e6:.2f} MB" if value else ""
-
-
 def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> None:
     """One line for each structure on each scene, and their means."""
-    table = Table(title=f"{build} build, one thread: every ray of the picture again", title_justify="left")
-    for heading in (
-        "scene", "structure", "rays", "ns/ray", "quartiles", "to Embree", "picture", "build", "memory", "surfaces/ray",
-        "boxes/ray", "seen differently",
-    ):  # fmt: skip
-        table.add_column(heading, justify="left" if heading in ("scene", "structure") else "right")
+    headings = ("scene", "structure", "rays", "ns/ray", "quartiles", "to Embree", "picture", "build", "memory",
+                "surfaces/ray", "boxes/ray", "seen differently")  # fmt: skip
+    table = terminal_table(f"{build} build, one thread: every ray of the picture again", headings)
     for scene in scenes:
         for number, side in enumerate(scene["structures"]):
-            spread, picture = side["ns_per_ray"], side["picture_seconds"]
+            spread = side["ns_per_ray"]
             table.add_row(
                 f"{escape(scene['scene'])} ({scene['surfaces']})" if number == 0 else "",
                 side["name"],
                 str(side["rays"]),
-                f"{spread['median']:.1f}",
-                f"{spread['q1']:.1f} to {spread['q3']:.1f}",
-                _times(spread["median"], median_of(scene, _PEER)),
-                f"{picture['median']:.3f} s" if picture else "",
-                f"{side['build_seconds']['median'] * 1e3:.2f} ms",
-                _megabytes(side["bytes"]),
-                _counted(side["surface_tests_per_ray"]),
-                _counted(side["box_tests_per_ray"]),
+                median(spread, 1),
+                quartiles(spread, 1),
+                ratio(spread["median"], median_of(scene, PEER), " x"),
+                median(side["picture_seconds"], 3, " s"),
+                milliseconds(side["build_seconds"], 2, " ms"),
+                megabytes(side["bytes"], unit=" MB"),
+                counted(side["surface_tests_per_ray"], 2),
+                counted(side["box_tests_per_ray"], 2),
                 str(side["differing"]),
                 end_section=side is scene["structures"][-1],
             )
     console.print(table)
-    means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
-    told = [f"{name} {ratio:.2f} x" for name, ratio in means if ratio and name != _PEER]
+    told = [f"{name} {mean:.2f} x" for name, mean in all_against_embree(scenes)]
     if told:
         mean = f"geometric mean of {len(scenes)} scene(s), below 1 is faster"
         console.print(f"Time of a ray against Embree's, {mean}: {', '.join(told)}")
 
 
-def _counted(tests: float) -> str:
-    """Nobody can count what Embree tests by itself."""
-    return f"{tests:.2f}" if tests else ""
-
-
 def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
     """Whole pictures beside POV-Ray's."""
-    table = Table(title="whole pictures beside POV-Ray, one thread each", title_justify="left")
-    for heading in (
-        "scene", "program", "tracing", "tracing, processor", "process", "process, processor",
-        "POV-Ray / ours: tracing", "and of the processor", "difference of brightness",
-    ):  # fmt: skip
-        table.add_column(heading, justify="left" if heading in ("scene", "program") else "right")
+    headings = ("scene", "program", "tracing", "tracing, processor", "process", "process, processor",
+                "POV-Ray / ours: tracing", "and of the processor", "difference of brightness")  # fmt: skip
+    table = terminal_table("whole pictures beside POV-Ray, one thread each", headings)
     for row in rows:
         if row["skipped"]:
             table.add_row(escape(row["scene"]), escape(row["skipped"]), end_section=True)
@@ -128,7 +114,7 @@ def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
             table.add_row(
                 escape(row["scene"]) if number == 0 else "",
                 side["program"],
-                *[f"{side[what]['median']:.3f} s" for what in _TIMES],
+                *[median(side[what], 3, " s") for what in _TIMES],
                 *["" if number == 0 else f"{faster(theirs, side, what):.2f} x" for what in COMPARED],
                 f"{row['brightness_difference']:.4f}" if number == 0 else "",
                 end_section=side is row["programs"][-1],

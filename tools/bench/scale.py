@@ -5,12 +5,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
 
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from tools.bench.programs import Programs, ask, ask_pinned, portable
 from tools.bench.records import growth, keep
+from tools.bench.tables import median, megabytes, milliseconds, terminal_table
 
 KINDS = ("cloud", "clusters", "terrain", "dust")
 _FIT_FROM = 1000  # surfaces; below, all is in a few boxes
@@ -69,21 +69,20 @@ def growth_of(rows: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 def _print(rows: list[dict[str, Any]], console: Console) -> None:
-    table = Table(title="how the structures grow", title_justify="left")
-    for heading in ("scene", "structure", "surfaces", "build", "structure's memory", "peak memory", "surfaces/ray",
-                    "boxes/ray", "ns/ray"):  # fmt: skip
-        table.add_column(heading, justify="left" if heading in ("scene", "structure") else "right")
+    headings = ("scene", "structure", "surfaces", "build", "structure's memory", "peak memory", "surfaces/ray",
+                "boxes/ray", "ns/ray")  # fmt: skip
+    table = terminal_table("how the structures grow", headings)
     for row in rows:
         table.add_row(
             row["scene"],
             row["structure"],
             str(row["surfaces"]),
-            f"{row['build_seconds']['median'] * 1e3:.2f} ms",
-            f"{row['bytes'] / 1e6:.2f} MB" if row["bytes"] else "",
-            f"{row['peak_bytes'] / 1e6:.0f} MB" if row["peak_bytes"] else "",
+            milliseconds(row["build_seconds"], 2, " ms"),
+            megabytes(row["bytes"], unit=" MB"),
+            megabytes(row["peak_bytes"], 0, " MB"),
             f"{row['surface_tests_per_ray']:.2f}",
             f"{row['box_tests_per_ray']:.2f}",
-            f"{row['ns_per_ray']['median']:.0f}",
+            median(row["ns_per_ray"], 0),
         )
     console.print(table)
 

@@ -9,13 +9,13 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
 from raysteps.course.project import Project
 from tools.bench.programs import Programs, accelerations, checked, default_scenes, portable
 from tools.bench.records import keep, spread_of
+from tools.bench.tables import median, milliseconds, terminal_table
 
 _SECONDS = 3600
 
@@ -76,16 +76,15 @@ def _measured(programs: Programs, scene: Path, accel: str, wish: ThreadsWish) ->
 
 
 def _print(rows: list[dict[str, Any]], console: Console) -> None:
-    table = Table(title="one picture on several threads", title_justify="left")
-    for heading in ("scene", "accel", "threads", "picture", "building", "speed-up"):
-        table.add_column(heading, justify="left" if heading in ("scene", "accel") else "right")
+    headings = ("scene", "accel", "threads", "picture", "building", "speed-up")
+    table = terminal_table("one picture on several threads", headings)
     for row in rows:
         table.add_row(
             escape(row["scene"]),
             row["accel"],
             str(row["threads"]),
-            f"{row['render_seconds']['median']:.3f} s",
-            f"{row['build_seconds']['median'] * 1e3:.2f} ms",
+            median(row["render_seconds"], 3, " s"),
+            milliseconds(row["build_seconds"], 2, " ms"),
             f"{row['speed_up']:.2f} x",
         )
     console.print(table)

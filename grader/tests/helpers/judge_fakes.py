@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from raysteps.common.process import Outcome
-from raysteps.judge.numbers import Vector, text
+from raysteps.common.vectors import Vector
+from raysteps.judge.numbers import text
 from raysteps.sandbox.task import TaskResult
 
 Answer = Callable[[str, list[float]], str]

@@ -7,9 +7,9 @@ from raysteps.common.errors import GraderFault
 from raysteps.course.project import Project
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
 from tools.bench.docs import replace_part
-from tools.bench.page_tables import markdown
 from tools.bench.records import NAMES
 from tools.bench.render import against_embree, names_of
+from tools.bench.tables import markdown
 
 pytestmark = pytest.mark.portable
 

@@ -1,4 +1,5 @@
-"""Numbers, points and colours of a record, and when two of them are the same."""
+"""Numbers, points and colours of a record, and when two of them are the same. Its vectors are JSON, where a number that
+is not finite is a word: they have an algebra of their own."""
 
 import math
 from collections.abc import Sequence

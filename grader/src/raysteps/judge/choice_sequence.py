@@ -9,7 +9,8 @@ from functools import lru_cache
 from itertools import permutations, product
 from typing import TypeAlias, TypeVar
 
-from raysteps.judge.numbers import Number, Vector, dot, rounded, text
+from raysteps.common.vectors import Vector, dot
+from raysteps.judge.numbers import Number, rounded, text
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource
 

@@ -3,8 +3,9 @@
 from collections.abc import Callable
 from typing import Any
 
+from raysteps.common.vectors import Vector
 from raysteps.judge.functions import Function
-from raysteps.judge.numbers import Vector, f32
+from raysteps.judge.numbers import f32
 from raysteps.judge.protocol import (
     Box,
     Camera,

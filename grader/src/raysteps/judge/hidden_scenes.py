@@ -8,9 +8,9 @@ import math
 from dataclasses import dataclass
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
-from raysteps.judge.numbers import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.judge.plan import Plan, RandomPlan, TwinPlan
 from raysteps.judge.random_source import RandomSource
 

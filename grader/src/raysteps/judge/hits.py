@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from raysteps.common.vectors import Vector, add, length, minus, times
 from raysteps.judge.compare import (
     LENGTHS,
     SMALL,
@@ -17,7 +18,6 @@ from raysteps.judge.compare import (
     vector,
     words_of_ray,
 )
-from raysteps.judge.numbers import Vector, add, length, minus, times
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, ProtocolError, Ray, TokenReader
 
 _LISTED = 256  # surface i of a list has red i / 256

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
-from raysteps.judge.numbers import Number, Vector, text
+from raysteps.common.vectors import Vector
+from raysteps.judge.numbers import Number, text
 
 
 class Value(Protocol):

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.numbers import Vector, add, cross, dot, f32, length, minus, rounded, times, unit
+from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
+from raysteps.judge.numbers import f32, rounded
 from raysteps.judge.protocol import Fill, Light, Ray
 from raysteps.judge.surfaces import Sphere, Triangle
 

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from raysteps.judge.numbers import Number, Vector, text
+from raysteps.common.vectors import Vector
+from raysteps.judge.numbers import Number, text
 from raysteps.judge.protocol import Ray, TokenReader, vector_words
 
 MOST_ASKED = 1000

@@ -7,6 +7,7 @@ from functools import cached_property
 from itertools import chain, groupby, zip_longest
 from typing import Any
 
+from raysteps.common.vectors import Vector
 from raysteps.judge.choice_sequence import (
     Choice,
     Chosen,
@@ -18,7 +19,7 @@ from raysteps.judge.choice_sequence import (
     simpler_wholes,
 )
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.numbers import Vector, f32
+from raysteps.judge.numbers import f32
 from raysteps.judge.protocol import Inputs, Lights, Real, Value
 from raysteps.judge.scripted_tracer import Script, ScriptedHit
 from raysteps.judge.searches import Rays, Reaches

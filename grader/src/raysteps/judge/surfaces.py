@@ -3,7 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from raysteps.judge.numbers import Number, Vector, add, cross, dot, minus, text
+from raysteps.common.vectors import Vector, add, cross, dot, minus
+from raysteps.judge.numbers import Number, text
 from raysteps.judge.protocol import Fill, Ray, vector_words
 
 _MAX_IN_WORDS = 12

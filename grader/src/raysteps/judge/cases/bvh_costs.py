@@ -2,10 +2,11 @@
 
 import math
 
+from raysteps.common.vectors import Vector, add
 from raysteps.judge.cases.octree_boxes import any_box, far_box, flat_box, simple_box
 from raysteps.judge.compare import Answer, real, words_of_number
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import Vector, add, rounded
+from raysteps.judge.numbers import rounded
 from raysteps.judge.protocol import Box, Inputs, Whole
 from raysteps.judge.random_source import RandomSource
 

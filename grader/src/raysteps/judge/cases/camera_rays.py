@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
 from raysteps.judge.compare import (
     LENGTHS,
     Answer,
@@ -18,7 +19,7 @@ from raysteps.judge.compare import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import Vector, add, cross, f32, length, minus, rounded, times, unit
+from raysteps.judge.numbers import f32, rounded
 from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole
 from raysteps.judge.random_source import RandomSource
 

@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
+from raysteps.common.vectors import Vector, add, times, unit
 from raysteps.judge.compare import Answer, channels, read_vector, vector, words_of_vector
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import Vector, add, mirrored, rounded, times, unit
+from raysteps.judge.numbers import mirrored, rounded
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec
 from raysteps.judge.random_source import RandomSource, next_axis
 

@@ -2,6 +2,7 @@
 
 import math
 
+from raysteps.common.vectors import Vector
 from raysteps.judge.compare import (
     Answer,
     Tolerance,
@@ -12,7 +13,7 @@ from raysteps.judge.compare import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import Vector, f32
+from raysteps.judge.numbers import f32
 from raysteps.judge.protocol import Inputs, Real, Vec
 from raysteps.judge.random_source import RandomSource
 

@@ -1,8 +1,9 @@
 """Cases of step 02: rays and triangles; those with exact numbers have a module of their own."""
 
+from raysteps.common.vectors import Vector, add, cross, minus, times, unit
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import HIT
-from raysteps.judge.numbers import Vector, add, cross, minus, rounded, times, unit
+from raysteps.judge.numbers import rounded
 from raysteps.judge.protocol import Inputs, Ray
 from raysteps.judge.random_source import RandomSource, with_zeros
 from raysteps.judge.surfaces import Triangle

@@ -1,0 +1,164 @@
+"""Cases of searches through a tree, of step 06 and of step 09: rays in a scene, what is asked of them, and in whose
+tree. Scene and rays are drawn first, then a distance, then whose tree it is."""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from raysteps.common.vectors import Vector, add, minus, times, unit
+from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene, any_scene, large_and_small, small_scene
+from raysteps.judge.functions import Make
+from raysteps.judge.numbers import f32, rounded
+from raysteps.judge.protocol import Inputs, Ray, Real
+from raysteps.judge.random_source import RandomSource
+from raysteps.judge.searches import Rays, Reach, Reaches, WhoseTree
+from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, first_distance
+
+# One ray in a scene.
+
+
+def point_within(draw: RandomSource, surface: Surface) -> Vector:
+    """A point well within the surface's outline."""
+    if isinstance(surface, Sphere):
+        return add(surface.center, draw.direction(), 0.7 * surface.radius * draw.real(0, 1))
+    assert not isinstance(surface, Scripted)
+    return times(1 / 3, add(add(surface.a, surface.b), surface.c))
+
+
+def aimed(draw: RandomSource, surfaces: Scene, distance: float) -> Ray:
+    """At one of the surfaces; something else may stand before it."""
+    return draw.ray_towards(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), distance)
+
+
+def aimed_from_inside(draw: RandomSource, surfaces: Scene) -> Ray:
+    """At one of the surfaces, from among them."""
+    origin = draw.point(4)
+    way = minus(point_within(draw, surfaces[draw.whole(0, len(surfaces) - 1)]), origin)
+    return Ray(origin, rounded(unit(way)))
+
+
+# Scenes and the rays through them.
+
+RaysInScene: TypeAlias = tuple[Scene, tuple[Ray, ...]]
+MakeRays: TypeAlias = Callable[[RandomSource], RaysInScene]
+
+
+def one_ray(draw: RandomSource) -> RaysInScene:
+    """Mostly aimed at something."""
+    surfaces = any_scene(draw)
+    return surfaces, (aimed(draw, surfaces, 15) if draw.chance(0.8) else draw.ray_towards(draw.point(9), 20),)
+
+
+def aimed_ray(draw: RandomSource) -> RaysInScene:
+    surfaces = any_scene(draw)
+    return surfaces, (aimed(draw, surfaces, 15),)
+
+
+def from_inside(draw: RandomSource) -> RaysInScene:
+    surfaces = small_scene(draw, 35, 8)
+    return surfaces, (aimed_from_inside(draw, surfaces),)
+
+
+def along_axis(draw: RandomSource) -> RaysInScene:
+    surfaces = small_scene(draw, 35, 6)
+    direction = draw.axis()
+    target = point_within(draw, surfaces[draw.whole(0, 34)])
+    return surfaces, (Ray(rounded(add(target, direction, -16)), direction),)
+
+
+def from_far(draw: RandomSource) -> RaysInScene:
+    surfaces = small_scene(draw, 25, 6)
+    return surfaces, (aimed(draw, surfaces, 100),)
+
+
+def looking_away(draw: RandomSource, nearest: float = 10) -> RaysInScene:
+    """Everything is behind the ray."""
+    surfaces = small_scene(draw, 25, 6)
+    direction = draw.direction()
+    return surfaces, (Ray(rounded(times(draw.real(nearest, 20), direction)), direction),)
+
+
+def slope_and_balls(draw: RandomSource) -> RaysInScene:
+    """A slanted triangle runs through near boxes and far ones; balls stand before and behind it."""
+    return (SLOPE, *BALLS), (draw.ray_towards(draw.point(6), 25),)
+
+
+def over_a_ground(draw: RandomSource) -> RaysInScene:
+    """Something large and many little things: rays that meet the one or the others."""
+    surfaces = large_and_small(draw)
+    return surfaces, (Ray(draw.point(4), draw.slanted()) if draw.chance(0.5) else aimed(draw, surfaces[2:], 7),)
+
+
+def many_rays(draw: RandomSource, surfaces: Scene) -> RaysInScene:
+    return surfaces, tuple(aimed(draw, surfaces, 16) for _ in range(24))
+
+
+def among_many(draw: RandomSource) -> RaysInScene:
+    """Many rays among many small spheres."""
+    return many_rays(draw, small_scene(draw, 200, 0, largest=0.3))
+
+
+def no_surfaces(draw: RandomSource) -> RaysInScene:
+    return (), (draw.ray_towards((0.0, 0.0, 0.0), 5),)
+
+
+# What is asked: the closest hit, or whether anything occludes the rays before a distance.
+
+Question: TypeAlias = Callable[[RandomSource, Scene, tuple[Ray, ...]], Inputs]
+Distance: TypeAlias = Callable[[RandomSource, Scene, Ray], float]
+
+_FAR = 60.0  # the distance where nothing is met
+
+
+def closest(_draw: RandomSource, _surfaces: Scene, rays: tuple[Ray, ...]) -> Inputs:
+    """The closest hit of each ray."""
+    return {"rays": Rays(rays)}
+
+
+def occluded(distance: Distance) -> Question:
+    """Whether each ray meets anything before the distance, which is the same for all and that of the first."""
+
+    def ask(draw: RandomSource, surfaces: Scene, rays: tuple[Ray, ...]) -> Inputs:
+        return {"rays": Rays(rays), "distance": Real(distance(draw, surfaces, rays[0]))}
+
+    return ask
+
+
+def occluded_each(distance: Distance) -> Question:
+    """Whether each ray meets anything before a distance of its own."""
+
+    def ask(draw: RandomSource, surfaces: Scene, rays: tuple[Ray, ...]) -> Inputs:
+        return {"rays": Reaches(tuple(Reach(ray, distance(draw, surfaces, ray)) for ray in rays))}
+
+    return ask
+
+
+def fixed(distance: float) -> Distance:
+    return lambda _draw, _surfaces, _ray: distance
+
+
+def between(low: float, high: float) -> Distance:
+    return lambda draw, _surfaces, _ray: draw.real(low, high)
+
+
+def times_first(factor: Callable[[RandomSource], float]) -> Distance:
+    """So many times as far as the first hit."""
+    return lambda draw, surfaces, ray: f32(min(first_distance(surfaces, ray), _FAR) * factor(draw))
+
+
+# In whose tree.
+
+
+def _is_own(draw: RandomSource, share: float) -> bool:
+    """Nothing is drawn where it is certain."""
+    return share == 1 or (share > 0 and draw.chance(share))
+
+
+def search(tree: type[WhoseTree], question: Question, rays: MakeRays, own: float = 0.5) -> Make:
+    """`own`: the share of the cases in which the submission builds the tree itself."""
+
+    def make(draw: RandomSource) -> Inputs:
+        surfaces, sent = rays(draw)
+        asked = question(draw, surfaces, sent)
+        return {"tree": tree(_is_own(draw, own)), "surfaces": Surfaces(surfaces), **asked}
+
+    return make
