@@ -1,7 +1,6 @@
 """Files that take another's place in a students' kit: the one that they replace is there, and its header stays."""
 
 import re
-from pathlib import Path
 
 import pytest
 

@@ -111,6 +111,12 @@ def needed_modules(source: Path) -> list[Path]:
     return sorted(found.values())
 
 
+def _belongs_elsewhere(path: Path, modules: Collection[Path]) -> bool:
+    """Whether it is the schema of a module that does not go out."""
+    module = path.with_name(path.name.removesuffix(".schema.json") + ".py")
+    return module.is_file() and module not in modules
+
+
 def package_files(source: Path) -> list[Path]:
     """The modules, and the schemas, templates and scripts that lie in their packages."""
     modules = needed_modules(source)
@@ -122,9 +128,7 @@ def package_files(source: Path) -> list[Path]:
         for path in (path for room in rooms if room.is_dir() for path in room.iterdir()):
             if path.is_file() and path.suffix in _DATA:
                 found.add(path)
-    kept = {path.with_suffix("") for path in modules}  # a schema goes the way of its module
-    schemas = {path: path.with_name(path.name.removesuffix(".schema.json")) for path in found}
-    return sorted(path for path, module in schemas.items() if module in kept or not module.with_suffix(".py").is_file())
+    return sorted(path for path in found if not _belongs_elsewhere(path, modules))
 
 
 # Stand-ins for steps that a kit does not have: the framework calls their functions.
