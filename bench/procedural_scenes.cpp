@@ -1,6 +1,7 @@
 #include "bench/procedural_scenes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -53,9 +54,9 @@ void add_clusters(Scene& scene, int count) {
     constexpr int k_levels = 4;
     constexpr std::size_t k_branches = 8;
     Dice dice;
-    std::vector<glm::vec3> branches;
-    for (std::size_t i = 0; i < k_branches; ++i) {
-        branches.push_back(dice.point());
+    std::array<glm::vec3, k_branches> branches{};
+    for (glm::vec3& branch : branches) {
+        branch = dice.point();
     }
     const float radius = size_at_same_cover(count, 0.6F);
     for (int i = 0; i < count; ++i) {

@@ -8,6 +8,6 @@ namespace raysteps::bench {
 extern const char* const k_scale_usage;
 
 /// Returns JSON, schema raysteps/bench-structure/v1.
-[[nodiscard]] std::string bench_scale(const std::vector<std::string>& words);
+[[nodiscard]] std::string bench_scale(const std::vector<std::string>& arguments);
 
 }  // namespace raysteps::bench

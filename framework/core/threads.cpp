@@ -29,7 +29,7 @@ void run_on_threads(int count, const std::function<void()>& work) {
         try {
             work();
         } catch (...) {
-            const std::lock_guard lock(guard);
+            const std::scoped_lock lock(guard);
             failed = std::current_exception();
         }
     };

@@ -93,7 +93,7 @@ bool RayRecorder::search_any(RayNode* node, const SceneQuery& scene, const Ray& 
     return blocked;
 }
 
-void RayRecorder::describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface) {
+void RayRecorder::describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface) const {
     HitTrace& trace = node.hit.emplace();
     trace.hit = hit;
     if (surface != nullptr) {

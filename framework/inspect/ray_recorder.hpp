@@ -47,7 +47,7 @@ private:
 
     [[nodiscard]] std::optional<HitRecord> search(RayNode* node, const SceneQuery& scene, const Ray& ray);
     [[nodiscard]] bool search_any(RayNode* node, const SceneQuery& scene, const Ray& ray, float distance);
-    void describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface);
+    void describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface) const;
     void check(RayNode& node, float limit);
 
     const Scene& scene_;

@@ -36,13 +36,12 @@ Unheard::~Unheard() {
 SearchRecorder::SearchRecorder(const Accelerator& accelerator, std::size_t surfaces) : last_ray_(surfaces, 0) {
     accelerator.visit_nodes(
         nullptr, [this](const NodeInfo& place) { known_.push_back({&place.box, place.level, place.listed}); });
-    std::sort(known_.begin(), known_.end(),
-              [](const Known& a, const Known& b) { return std::less<const Box*>()(a.box, b.box); });
+    std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) { return std::less<>()(a.box, b.box); });
 }
 
 const SearchRecorder::Known* SearchRecorder::find_known(const Box& box) const {
     const auto found = std::lower_bound(known_.begin(), known_.end(), &box, [](const Known& known, const Box* wanted) {
-        return std::less<const Box*>()(known.box, wanted);
+        return std::less<>()(known.box, wanted);
     });
     return found != known_.end() && found->box == &box ? &*found : nullptr;
 }

@@ -35,7 +35,7 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
 }
 
 std::string amount(std::uint64_t count, const std::string& noun) {
-    const std::string ending = noun.ends_with("x") || noun.ends_with("s") ? "es" : "s";
+    const std::string ending = noun.ends_with('x') || noun.ends_with('s') ? "es" : "s";
     return std::to_string(count) + " " + noun + (count == 1 ? "" : ending);
 }
 

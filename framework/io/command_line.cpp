@@ -26,8 +26,11 @@ std::vector<int> numbers_in(std::string_view text, char separator, std::size_t c
     const char* at = text.data();
     const char* const end = text.data() + text.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (i > 0 && (at == end || *at++ != separator)) {
-            return {};
+        if (i > 0) {
+            if (at == end || *at != separator) {
+                return {};
+            }
+            ++at;
         }
         int value = 0;
         const auto [after, error] = std::from_chars(at, end, value);

@@ -66,7 +66,7 @@ public:
 
     /// Sets what was typed, and returns the words that are no options, in their order. A number below 0 is a word.
     /// Throws UsageError.
-    std::vector<std::string> parse(const std::vector<std::string>& arguments) const;
+    [[nodiscard]] std::vector<std::string> parse(const std::vector<std::string>& arguments) const;
 
 private:
     struct Flag {

@@ -99,7 +99,7 @@ JsonWriter& JsonWriter::line_break() {
     if (!after_key_) {
         text_ += std::exchange(levels_.back().needs_comma, false) ? "," : "";
     }
-    text_ += "\n";
+    text_ += '\n';
     return *this;
 }
 

@@ -184,7 +184,7 @@ private:
         fill_ = fill;
     }
 
-    const Fill& fill(const Token& surface) const {
+    [[nodiscard]] const Fill& fill(const Token& surface) const {
         if (!fill_) {
             scanner_.fail(surface, "a fill `f` before the first surface");
         }

@@ -109,7 +109,7 @@ double out_of_range(const Decimal& decimal) {
 /// The nearest double to a number without a sign, whatever its digits.
 double exact_value(std::string_view text, const Decimal& decimal) {
     double number = 0.0;
-#if defined(__cpp_lib_to_chars)
+#ifdef __cpp_lib_to_chars
     const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
     return result.ec == std::errc::result_out_of_range ? out_of_range(decimal) : number;
 #else
@@ -146,7 +146,7 @@ bool looks_like_number(std::string_view text) {
 }
 
 std::string number_text(float number) {
-#if defined(__cpp_lib_to_chars)
+#ifdef __cpp_lib_to_chars
     std::array<char, 64> buffer{};
     const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
     return {buffer.data(), result.ptr};

@@ -205,7 +205,7 @@ private:
     }
 
     // A corner at the same place as one of the ear's does not block it: holes are joined by such pairs.
-    bool blocks(std::size_t dent, std::size_t a, std::size_t b, std::size_t c) const {
+    [[nodiscard]] bool blocks(std::size_t dent, std::size_t a, std::size_t b, std::size_t c) const {
         const Point& p = points_[dent];
         const bool is_dent = corners_[dent].left && corners_[dent].turn <= 0.0;
         if (!is_dent || p == points_[a] || p == points_[b] || p == points_[c]) {
@@ -243,7 +243,7 @@ private:
     }
 
     std::size_t least_bad() {
-        std::size_t best = any_left();
+        const std::size_t best = any_left();
         std::size_t i = best;
         for (std::size_t count = 0; count < left_; ++count, i = corners_[i].after) {
             ++work_;
@@ -254,7 +254,7 @@ private:
         return best;
     }
 
-    std::size_t any_left() const { return start_; }
+    [[nodiscard]] std::size_t any_left() const { return start_; }
 
     std::span<const Point> points_;
     std::vector<Corner> corners_;
@@ -294,7 +294,7 @@ bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a);
     const glm::dvec3 ac = glm::dvec3(c) - glm::dvec3(a);
     const glm::dvec3 bc = glm::dvec3(c) - glm::dvec3(b);
-    const double longest = std::max(glm::dot(ab, ab), std::max(glm::dot(ac, ac), glm::dot(bc, bc)));
+    const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
     return glm::length(glm::cross(ab, ac)) > k_thinnest * longest;
 }
 
@@ -304,6 +304,7 @@ std::optional<std::vector<TriangleIndices>> triangulate(std::span<const glm::vec
         return std::vector<TriangleIndices>{};
     }
     std::vector<glm::vec3> points;
+    points.reserve(kept.size());
     for (const std::size_t i : kept) {
         points.push_back(corners[i]);
     }

@@ -1,6 +1,7 @@
 #include "render/accelerators.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "steps/02-intersection/intersection.hpp"
 
@@ -16,7 +17,7 @@ bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
 
 class LinearAccelerator final : public Accelerator {
 public:
-    explicit LinearAccelerator(const SurfaceList& surfaces) : surfaces_(surfaces) {}
+    explicit LinearAccelerator(SurfaceList surfaces) : surfaces_(std::move(surfaces)) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         return raysteps::closest_hit(surfaces_, ray);

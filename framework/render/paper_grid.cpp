@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/rounding.hpp"
@@ -59,7 +60,7 @@ bool hits_untested(const std::vector<std::uint64_t>& members, std::vector<std::u
 
 class PaperGrid final : public Accelerator {
 public:
-    explicit PaperGrid(const SurfaceList& surfaces);
+    explicit PaperGrid(SurfaceList surfaces);
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
@@ -82,7 +83,7 @@ private:
     std::array<Middle, 8> middle_;
 };
 
-PaperGrid::PaperGrid(const SurfaceList& surfaces) : surfaces_(surfaces) {
+PaperGrid::PaperGrid(SurfaceList surfaces) : surfaces_(std::move(surfaces)) {
     if (surfaces_.empty()) {
         return;
     }

@@ -23,7 +23,7 @@ void Progress::advance() {
     std::fflush(stderr);
 }
 
-void Progress::finish() {
+void Progress::finish() const {
     if (visible_) {
         std::fprintf(stderr, "\r\033[K");
         std::fflush(stderr);

@@ -14,7 +14,7 @@ public:
     void advance();
 
     /// Takes the bar away.
-    void finish();
+    void finish() const;
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -27,7 +27,7 @@ struct Job {
     Rect crop;
     std::vector<Rect> tiles;
     std::atomic<std::size_t> next_tile{0};
-    std::mutex mutex{};  ///< guards stats and progress
+    std::mutex mutex;  ///< guards stats and progress
     Stats stats{};
     Progress progress;
     Image image;
@@ -53,10 +53,10 @@ void work(Job& job) {
     const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
     for (std::size_t tile = job.next_tile++; tile < job.tiles.size(); tile = job.next_tile++) {
         render_tile(job.tiles[tile], *integrator, job);
-        const std::lock_guard lock(job.mutex);
+        const std::scoped_lock lock(job.mutex);
         job.progress.advance();
     }
-    const std::lock_guard lock(job.mutex);
+    const std::scoped_lock lock(job.mutex);
     job.stats += thread_stats();
 }
 

@@ -85,7 +85,7 @@ Stats count_spd_rays(const Scene& scene, const Accelerator& accelerator, int thr
                 counter.eye_ray(corner_ray(scene.camera, frame, column, row));
             }
         }
-        const std::lock_guard lock(mutex);
+        const std::scoped_lock lock(mutex);
         total += thread_stats();
     });
     return total;

@@ -88,7 +88,7 @@ public:
             }
             const std::size_t first = node.is_leaf() ? std::min(child, bvh_.surfaces.size()) : 0;
             const std::size_t count = std::min<std::size_t>(node.count, bvh_.surfaces.size() - first);
-            const Place begin = bvh_.surfaces.begin() + static_cast<std::ptrdiff_t>(first);
+            const auto begin = bvh_.surfaces.begin() + static_cast<std::ptrdiff_t>(first);
             visit({.box = node.box,
                    .level = levels[i],
                    .listed = count,

@@ -15,7 +15,7 @@ public:
 
     /// From any thread; others that ask meanwhile wait. Throws what make_accelerator throws.
     [[nodiscard]] const Accelerator& get(Acceleration kind) {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         std::unique_ptr<Accelerator>& structure = built_[kind];
         if (!structure) {
             structure = make_accelerator(kind, scene_.surfaces());

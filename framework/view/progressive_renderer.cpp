@@ -56,7 +56,7 @@ ProgressiveRenderer::~ProgressiveRenderer() {
 }
 
 void ProgressiveRenderer::start(const RenderRequest& request) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     wanted_ = request;
     another_wanted_ = true;
     status_.share = 0.0;
@@ -67,17 +67,17 @@ void ProgressiveRenderer::start(const RenderRequest& request) {
 }
 
 RenderStatus ProgressiveRenderer::status() const {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     return status_;
 }
 
 void ProgressiveRenderer::copy_colors(Frame& frame) const {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     frame.colors = frame_.colors;
 }
 
 void ProgressiveRenderer::copy_costs(Frame& frame) const {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     frame.costs = frame_.costs;
 }
 
@@ -164,7 +164,7 @@ void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
             traced.push_back(pixel);
         }
     }
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     for (const TracedPixel& pixel : traced) {
         fill_block(frame_, pixel, pass.side);
     }

@@ -188,7 +188,7 @@ HWY_INLINE void ask_block(const SphereBlock& block, const SurfaceRay& ray, float
 }
 
 /// Never sure: only lines that pass the axis at more than the radius are out. (Both are lines here, without ends.)
-HWY_INLINE void ask_block(const ConeBlock& block, const SurfaceRay& ray, float, Verdicts& verdicts) {
+HWY_INLINE void ask_block(const ConeBlock& block, const SurfaceRay& ray, float /*limit*/, Verdicts& verdicts) {
     const Vec3 direction = same(ray.direction);
     for (std::size_t at = 0; at < k_lanes; at += hn::Lanes(D())) {
         const Vec3 from_base = same(ray.origin) - load(block.base, at);

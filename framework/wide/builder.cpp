@@ -129,7 +129,7 @@ void Builder::add_surfaces(const Box& box, std::span<const Surface* const> surfa
         const std::size_t count = std::min<std::size_t>(Reference::k_max_blocks, others.size() - done);
         const Reference to(Kind::others, place(tree_.others.size()), static_cast<std::uint32_t>(count));
         items.push_back({.box = box, .to = to});
-        for (std::size_t end = done + count; done < end; ++done) {
+        for (const std::size_t end = done + count; done < end; ++done) {
             tree_.others.push_back(static_cast<std::uint32_t>(tree_.surfaces.size()));
             tree_.surfaces.push_back(others[done]);
         }

@@ -21,6 +21,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace raysteps::wide::HWY_NAMESPACE {
+namespace {
 
 struct Open {
     Reference to;
@@ -159,7 +160,7 @@ std::optional<HitRecord> search(const Tree& tree, const Ray& ray, bool& failed) 
 
 std::optional<HitRecord> closest(const Tree& tree, const Ray& ray) {
     bool failed = false;
-    std::optional<HitRecord> hit = search<false>(tree, ray, failed);
+    const std::optional<HitRecord> hit = search<false>(tree, ray, failed);
     return failed ? search<true>(tree, ray, failed) : hit;
 }
 
@@ -184,6 +185,7 @@ bool any(const Tree& tree, const Ray& ray, float distance) {
 
 const char* target() { return hwy::TargetName(HWY_TARGET); }
 
+}  // namespace
 }  // namespace raysteps::wide::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -17,7 +17,7 @@ using Place = SurfaceList::iterator;
 
 Box box_around(Place begin, Place end) {
     Box box;
-    for (Place at = begin; at != end; ++at) {
+    for (auto at = begin; at != end; ++at) {
         box.extend((*at)->bounds());
     }
     return box;
@@ -41,7 +41,7 @@ void halve(Bvh& bvh, std::size_t at, Place begin, Place end, int axis, float pad
     bvh.nodes[at].first = static_cast<std::uint32_t>(first);
     bvh.nodes[at].count = 0;
     bvh.nodes.resize(first + 2);
-    const Place middle = begin + (end - begin) / 2;
+    const auto middle = begin + (end - begin) / 2;
     halve(bvh, first, begin, middle, (axis + 1) % 3, padding);
     halve(bvh, first + 1, middle, end, (axis + 1) % 3, padding);
 }
