@@ -51,9 +51,9 @@ def _limit(limits: dict[str, int]) -> None:
 
 def _fence(fences: Settings) -> None:
     if fences["files"] is not None:
-        _lockdown.restrict_files(fences["files"]["readable"], fences["files"]["writable"])
+        _lockdown.restrict_files_by_landlock(fences["files"]["readable"], fences["files"]["writable"])
     if fences["system_calls"] is not None:
-        _lockdown.restrict_system_calls(bytes.fromhex(fences["system_calls"]))
+        _lockdown.restrict_system_calls_by_seccomp(bytes.fromhex(fences["system_calls"]))
 
 
 def _become(user: int) -> None:

@@ -60,7 +60,7 @@ def _allow(rules: int, path: str, access: int) -> None:
         os.close(fd)
 
 
-def restrict_files(readable: list[str], writable: list[str]) -> None:
+def restrict_files_by_landlock(readable: list[str], writable: list[str]) -> None:
     """From now on only these, and what lies in them."""
     version = landlock_version()
     everything = (1 << _KINDS.get(version, _KINDS_NOW)) - 1
@@ -77,7 +77,7 @@ def restrict_files(readable: list[str], writable: list[str]) -> None:
     os.close(rules)
 
 
-def restrict_system_calls(instructions: bytes) -> None:
+def restrict_system_calls_by_seccomp(instructions: bytes) -> None:
     """From now on all but those that the filter refuses."""
     buffer = ctypes.create_string_buffer(instructions, len(instructions))
     program = struct.pack("@HP", len(instructions) // 8, ctypes.addressof(buffer))
