@@ -68,7 +68,7 @@ MISTAKES = (
     ("04", "hit.position + k_shadow_threshold * hit.normal", "hit.position"),
     ("04", "!scene.occluded(ray, glm::distance(ray.origin, light.position))", "!scene.closest_hit(ray)"),
     ("05", "depth == 1 ? tracer.background() : k_black", "tracer.background()"),
-    ("05", "color += hit->fill.ks * trace(", "color += trace("),
+    ("05", "color += hit->fill.ks * tracer.trace(", "color += tracer.trace("),
 )
 
 # Number of the step and a line of its solution before which a statement can stand.

@@ -96,7 +96,7 @@ def test_half_a_kit_is_refused(tmp_path: Path) -> None:
 def test_the_real_kit_is_whole(project: Project) -> None:
     places = set(_places(project))
     assert {"raysteps", "CMakeLists.txt", "grader/pyproject.toml", "solutions/06-octree/octree.cpp"} <= places
-    assert {"grader/samples/complete/steps/06-octree/octree.cpp", "grader/src/raysteps/exports/command.py"} <= places
+    assert {"grader/samples/complete/steps/06-octree/octree.cpp", "grader/src/raysteps/cli/export.py"} <= places
     assert not [place for place in places if place.startswith(("docs/", "build/", "grader/tests/", ".", "bench/"))]
     for step in project.steps.glob("*/step.toml"):
         assert step.relative_to(project.root).as_posix() in places

@@ -130,7 +130,7 @@ def read_roster(path: Path) -> list[Student]:
         for kind, value in (("id", student.id), ("email", student.email), ("name", alone)):
             if value and seen.setdefault((kind, folded(value)), line) != line:
                 other = seen[kind, folded(value)]
-                raise UsageError(f"{path}:{line}: the {field} {value!r} stands in line {other}, too")
+                raise UsageError(f"{path}:{line}: the {kind} {value!r} stands in line {other}, too")
         students.append(student)
     if not students:
         raise UsageError(f"{path}: expected a line for each student below the header, found none")
