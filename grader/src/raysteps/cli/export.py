@@ -245,9 +245,6 @@ def _package_github(arguments: argparse.Namespace, words: list[str]) -> list[Pat
     return written
 
 
-__all__ = ["add_arguments", "run"]
-
-
 def _options(arguments: argparse.Namespace) -> Options:
     words = tuple(grading_words(arguments))
     return Options(arguments.minutes * 60, tuple(arguments.steps), words, echo=arguments.system == "gradescope")

@@ -137,9 +137,6 @@ def line_to_go_on(order: ClassOptions) -> str:
     return shlex.join([*words, "--resume"])
 
 
-__all__ = ["add_arguments", "run"]
-
-
 @contextmanager
 def _only_one(out: Path) -> Iterator[None]:
     """Two runs into one folder would take each other's results for changes."""

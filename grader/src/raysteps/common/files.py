@@ -50,16 +50,6 @@ def one_at_a_time(lock: Path) -> Iterator[None]:
         yield
 
 
-__all__ = [
-    "forget_unfinished",
-    "one_at_a_time",
-    "open_regular",
-    "usable_folder",
-    "write_bytes",
-    "write_if_changed",
-    "write_json",
-]
-
 _PATIENCE_SECONDS = 2.0
 
 

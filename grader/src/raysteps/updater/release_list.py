@@ -55,8 +55,6 @@ def path_problem(paths: Iterable[str]) -> str:
     return ""
 
 
-__all__ = ["PLACE", "ListedFile", "Owner", "Release", "encoded", "parse", "read_release"]
-
 PLACE = ".raysteps/release.json"
 _FORM = "raysteps/release/v1"
 _MAX_BYTES = 16 << 20
