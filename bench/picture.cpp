@@ -6,10 +6,9 @@
 
 namespace raysteps::bench {
 
-Image draw(const Scene& scene, const Accelerator& accelerator, const StepOptions& options) {
+Image draw(const Scene& scene, RayCounter& rays, const StepOptions& options) {
     const Camera& camera = scene.camera;
     const ViewFrame frame = view_frame(camera);
-    RayCounter rays(accelerator);
     const std::unique_ptr<Integrator> integrator = make_integrator(scene, rays, options);
     Image image(camera.width, camera.height);
     for (const Rect& tile : tiles_of({0, 0, camera.width, camera.height})) {

@@ -1,29 +1,47 @@
 #include "bench/recording.hpp"
 
 namespace raysteps::bench {
+namespace {
 
-// The renderer counts a ray by its kind once it has the answer. So the kind of one ray shows when the next comes.
-void Recorder::name_last() const {
-    const Stats& now = thread_stats();
-    if (!rays_.empty()) {
-        RayKind& kind = rays_.back().kind;
-        kind = now.shadow > known_.shadow     ? RayKind::shadow
-               : now.reflect > known_.reflect ? RayKind::reflect
-               : now.refract > known_.refract ? RayKind::refract
-                                              : RayKind::eye;
+CountedAs counted_as(RayKind kind) {
+    switch (kind) {
+        case RayKind::eye:
+            return CountedAs::eye;
+        case RayKind::reflected:
+            return CountedAs::reflect;
+        case RayKind::refracted:
+            break;
     }
-    known_ = now;
+    return CountedAs::refract;
 }
 
-std::optional<HitRecord> Recorder::closest_hit(const Ray& ray) const {
-    name_last();
-    rays_.push_back({.ray = ray, .distance = 0.0F, .question = Question::closest, .kind = RayKind::eye});
+RecordedRay closest(const Ray& ray, CountedAs kind) {
+    return {.ray = ray, .distance = 0.0F, .question = Question::closest, .kind = kind};
+}
+
+RecordedRay any(const Ray& ray, float distance, CountedAs kind) {
+    return {.ray = ray, .distance = distance, .question = Question::any, .kind = kind};
+}
+
+}  // namespace
+
+std::optional<HitRecord> Recorder::closest_hit(const RayOrigin& origin, const Ray& ray) {
+    rays_.push_back(closest(ray, counted_as(origin.kind)));
+    return RayCounter::closest_hit(origin, ray);
+}
+
+bool Recorder::occluded(const RayOrigin& origin, const Ray& ray, float distance) {
+    rays_.push_back(any(ray, distance, counted_as(origin.kind)));
+    return RayCounter::occluded(origin, ray, distance);
+}
+
+std::optional<HitRecord> Recorder::ShadowRays::closest_hit(const Ray& ray) const {
+    rays_.push_back(closest(ray, CountedAs::shadow));
     return inner_.closest_hit(ray);
 }
 
-bool Recorder::occluded(const Ray& ray, float distance) const {
-    name_last();
-    rays_.push_back({.ray = ray, .distance = distance, .question = Question::any, .kind = RayKind::eye});
+bool Recorder::ShadowRays::occluded(const Ray& ray, float distance) const {
+    rays_.push_back(any(ray, distance, CountedAs::shadow));
     return inner_.occluded(ray, distance);
 }
 

@@ -3,40 +3,49 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/stats.hpp"
 #include "render/accelerator.hpp"
+#include "render/ray_counter.hpp"
 
 namespace raysteps::bench {
 
 enum class Question : std::uint8_t { closest, any };
-enum class RayKind : std::uint8_t { eye, shadow, reflect, refract };
+
+/// What a ray is counted as.
+enum class CountedAs : std::uint8_t { eye, shadow, reflect, refract };
 
 struct RecordedRay {
     Ray ray;
     float distance = 0.0F;  ///< question any: hits nearer than this count
     Question question = Question::closest;
-    RayKind kind = RayKind::eye;
+    CountedAs kind = CountedAs::eye;
 };
 
-/// Passes every question on, and writes it down.
-class Recorder final : public Accelerator {
+/// Writes down each ray before it is sent.
+class Recorder final : public RayCounter {
 public:
-    /// known: what the thread had counted when the last ray was asked.
-    Recorder(const Accelerator& inner, std::vector<RecordedRay>& rays, Stats& known)
-        : inner_(inner), rays_(rays), known_(known) {}
+    Recorder(const Accelerator& scene, std::vector<RecordedRay>& rays)
+        : RayCounter(scene), rays_(rays), shadow_rays_(RayCounter::shadow_query(k_no_ray, 0), rays) {}
 
-    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
-    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
-
-    /// To be called after the last ray.
-    void finish() const { name_last(); }
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const RayOrigin& origin, const Ray& ray) override;
+    [[nodiscard]] bool occluded(const RayOrigin& origin, const Ray& ray, float distance) override;
+    [[nodiscard]] const SceneQuery& shadow_query(RayNumber /*ray*/, std::size_t /*light*/) override {
+        return shadow_rays_;
+    }
 
 private:
-    void name_last() const;
+    class ShadowRays final : public SceneQuery {
+    public:
+        ShadowRays(const SceneQuery& inner, std::vector<RecordedRay>& rays) : inner_(inner), rays_(rays) {}
+        [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
+        [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
 
-    const Accelerator& inner_;
+    private:
+        const SceneQuery& inner_;
+        std::vector<RecordedRay>& rays_;
+    };
+
     std::vector<RecordedRay>& rays_;
-    Stats& known_;
+    ShadowRays shadow_rays_;
 };
 
 /// Every n-th of the rays, from the first.

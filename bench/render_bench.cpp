@@ -122,7 +122,8 @@ void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
     const bool draws = pictures && !side.structure.slow;
     const ProcessorClock drawing;
     if (draws) {
-        (void)draw(workload.scene, *side.accelerator, workload.options);
+        RayCounter counter(*side.accelerator);
+        (void)draw(workload.scene, counter, workload.options);
     }
     if (warm_up) {
         return;
@@ -146,7 +147,7 @@ void write_rays(JsonWriter& json, const std::vector<RecordedRay>& rays) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
         json.key(k_names[i]).whole(counts[i]);
     }
-    json.key("occluded").whole(any).end_object();
+    json.key("any_hit").whole(any).end_object();
 }
 
 void write_side(JsonWriter& json, const Side& side) {

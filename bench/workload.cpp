@@ -5,12 +5,9 @@
 namespace raysteps::bench {
 
 void record(Workload& workload, const Accelerator& accelerator) {
-    thread_stats() = Stats{};
     workload.rays.clear();
-    Stats known;
-    const Recorder recorder(accelerator, workload.rays, known);
+    Recorder recorder(accelerator, workload.rays);
     (void)draw(workload.scene, recorder, workload.options);
-    recorder.finish();
 }
 
 }  // namespace raysteps::bench

@@ -103,7 +103,7 @@ def test_gradescope_reports_its_own_faults(autograder: Path, project: Project) -
     validate(results, "gradescope")
     assert not any("score" in test for test in results["tests"])
 
-    cli = autograder / "source" / "kit" / "grader" / "src" / "raysteps" / "cli.py"
+    cli = autograder / "source" / "kit" / "grader" / "src" / "raysteps" / "cli" / "app.py"
     text = cli.read_text()
     cli.write_text("broken(")
     try:

@@ -32,7 +32,7 @@ _FILES = (
 )  # fmt: skip
 _FOLDERS = (
     ".devcontainer", ".github", ".vscode", "bench", "cmake", "course", "docs", "framework", "grader", "scenes",
-    "solutions", "steps",
+    "solutions", "steps", "tools",
 )  # fmt: skip
 _CAMERA, _OCTREE = "01-camera-rays/camera_rays.cpp", "06-octree/octree.cpp"  # quick to grade; in one, work is counted
 

@@ -139,6 +139,7 @@ def test_a_new_step_is_graded_and_shown_and_no_other_file_is_edited(
         path = root / file.place
         path.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file.source, path)
+    shutil.copytree(project.root / "tools", root / "tools")
     assert _raysteps(root, "dev", "new", "10-fog", "--points", "12").code == 0
     _change(Project(root), "05-reflection", "bonus = false", "bonus = false\nleft_out = true")
 
