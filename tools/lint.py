@@ -42,8 +42,9 @@ def _cpp(project: Project, *words: str) -> Report:
 
 
 def _tidy(project: Project, *words: str) -> Report:
-    """Looks at each source but tests and stubs as the preset `dev` compiles it; nothing has to be built."""
-    tree = BuildTree(project, "dev", project.build / "dev", project.steps)
+    """Looks at each source but tests and stubs as the preset `dev` compiles it, yet with no header that others brought;
+    nothing has to be built."""
+    tree = BuildTree(project, "dev", project.build / "tidy", project.steps, ("-DRAYSTEPS_PRECOMPILE=OFF",))
     with tree.locked():
         tree.configure()
     sources = rf"^{re.escape(project.root.as_posix())}/(bench|framework|solutions)/(?!testing/|io/fuzz/|.*_test\.)"

@@ -5,6 +5,7 @@ if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/apps/spd_report.cpp")  # a students' kit 
 endif()
 add_library(raytrace-app OBJECT ${sources} ${RAYSTEPS_SHADING_HOOKS})
 target_link_libraries(raytrace-app PRIVATE raysteps-flags raysteps-strict)
+raysteps_precompile(framework raytrace-app)
 
 # name, then the numbers of the steps that are mine
 function(raysteps_add_raytrace name)
@@ -27,6 +28,7 @@ endif()
 # inspect, the life of one pixel.
 add_library(inspect-app OBJECT apps/inspect.cpp apps/inspect_options.cpp apps/options.cpp ${RAYSTEPS_SHADING_HOOKS})
 target_link_libraries(inspect-app PRIVATE raysteps-flags raysteps-strict)
+raysteps_precompile(framework inspect-app)
 
 function(raysteps_add_inspect name)
     add_executable(${name} $<TARGET_OBJECTS:inspect-app> $<TARGET_OBJECTS:raysteps-inspect-recorded>)
@@ -45,6 +47,7 @@ if(RAYSTEPS_WINDOW)
     add_library(view-app OBJECT apps/view.cpp apps/view_options.cpp apps/options.cpp view/viewer.cpp ${sources}
                 ${RAYSTEPS_SHADING_HOOKS})
     target_link_libraries(view-app PRIVATE raysteps-flags raysteps-strict glfw OpenGL::GL)
+    raysteps_precompile(framework view-app)
     target_compile_definitions(view-app PRIVATE GL_SILENCE_DEPRECATION)  # a Mac calls all of OpenGL deprecated
 
     function(raysteps_add_view name)
@@ -65,4 +68,5 @@ file(GLOB sources CONFIGURE_DEPENDS "worker/*.cpp")
 if(sources)  # a students' kit has no judge
     add_library(worker-app OBJECT ${sources} ${RAYSTEPS_OWN_WORKERS})
     target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
+    raysteps_precompile(framework worker-app)
 endif()

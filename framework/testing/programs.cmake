@@ -13,6 +13,7 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
     file(GLOB tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/steps/${step}/*_test.cpp")
     add_library(test-${number}-objects OBJECT ${tests})
     target_link_libraries(test-${number}-objects PRIVATE raysteps-testing raysteps-strict)
+    raysteps_precompile(testing test-${number}-objects)
     if(RAYSTEPS_MODEL STREQUAL "reference")
         raysteps_add_test(test-reference-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects>)
         raysteps_add_test(test-isolated-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${number})
@@ -32,6 +33,7 @@ file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "r
 raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp
                   apps/inspect_options.cpp apps/view_options.cpp $<TARGET_OBJECTS:raysteps-inspect-recorded>)
 target_link_libraries(test-framework PRIVATE raysteps-view raysteps-inspect raysteps-render raysteps-io raysteps-core)
+raysteps_precompile(testing test-framework)
 raysteps_link_wide(test-framework)
 
 # The readers against broken files: replayed with any compiler, and searched for new ones with libFuzzer.

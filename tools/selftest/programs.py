@@ -125,16 +125,18 @@ def same_pictures_check(project: Project, tree: BuildTree, inputs: Inputs) -> Ch
     return Check(name, lambda: _same_pictures(project, tree), inputs(__name__), beside=True)
 
 
+def _has_clang() -> bool:
+    return shutil.which("clang++") is not None or install(CLANG)
+
+
 def asan_checks(project: Project, inputs: Inputs) -> list[Check]:
-    tree = BuildTree(project, "asan", project.build / "asan", project.steps, (_QUICK,))
+    """By clang where it can be had: it needs a third of the time that g++ takes for code with sanitizers."""
+    compiler = ("-DCMAKE_CXX_COMPILER=clang++",) if _has_clang() else ()
+    tree = BuildTree(project, "asan", project.build / "asan", project.steps, (*compiler, _QUICK))
     tests = [f"test-reference-{step.number}" for step in read_steps(project)]
     targets = ["test-framework", *tests, "fuzz-readers-replay"]
     name = "build with address and undefined behaviour sanitizers"
     return [build_check(name, tree, targets, inputs), *program_checks(tree, inputs, ", sanitized")]
-
-
-def _has_clang() -> bool:
-    return shutil.which("clang++") is not None or install(CLANG)
 
 
 def _fuzz(project: Project, tree: BuildTree) -> Report:
