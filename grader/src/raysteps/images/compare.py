@@ -80,7 +80,8 @@ def pixels_differ(one: Pixels, other: Pixels) -> Gaps:
 
 def gaps(one: Pixels, other: Pixels) -> Gaps:
     """For each pixel of two pictures of one size, the difference of the channel that differs most."""
-    largest: Gaps = pixels_differ(one, other).max(axis=2)
+    red, green, blue = np.moveaxis(pixels_differ(one, other), 2, 0)  # much quicker than the maximum of an axis of three
+    largest: Gaps = np.maximum(np.maximum(red, green), blue)
     return largest
 
 

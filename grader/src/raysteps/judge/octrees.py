@@ -16,7 +16,7 @@ from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
 # Points on surfaces, to see which boxes a surface touches.
 
-Points: TypeAlias = npt.NDArray[np.float64]  # one in each row
+Points: TypeAlias = npt.NDArray[np.float64]  # one in each row; of many surfaces, a row for each of them
 
 _POINTS = 14  # on each surface
 
@@ -52,30 +52,45 @@ def points_on(surfaces: tuple[Surface, ...]) -> tuple[Points, ...]:
 # Many boxes at once, and which points lie in them.
 
 _Flags: TypeAlias = npt.NDArray[np.bool_]
+_AT_ONCE = 1 << 16  # pairs, which bounds the memory for any tree
 
 
 class Boxes:
-    """One array for each side of all of them."""
+    """One array for each side of all of them. A margin makes every box larger, and a negative one smaller."""
 
     def __init__(self, low: Sequence[Vector], high: Sequence[Vector]) -> None:
         self._low = np.array(low).T.copy()
         self._high = np.array(high).T.copy()
 
-    def holding(self, points: Points, which: _Flags, margin: float) -> _Flags:
-        """Of each point whether it lies in one of these boxes, grown by the margin."""
-        low, high = self._low[:, which] - margin, self._high[:, which] + margin
-        least, most = points.min(axis=0)[:, np.newaxis], points.max(axis=0)[:, np.newaxis]
-        # Most boxes hold all points or are far from them, which is quickly seen.
-        if ((low <= least) & (high >= most)).all(axis=0).any():
-            return np.ones(len(points), dtype=np.bool_)
-        near: _Flags = ((low <= most) & (high >= least)).all(axis=0)
-        low, high = low[:, near], high[:, near]
-        inside: _Flags = np.ones((len(points), low.shape[1]), dtype=np.bool_)
+    def around(self, low: Points, high: Points, margin: float) -> _Flags:
+        """Of each extent (row) and box (column) whether the box holds the whole extent."""
+        found: _Flags = np.ones((len(low), self._low.shape[1]), dtype=np.bool_)
         for axis in range(3):
-            along = points[:, axis : axis + 1]
-            np.logical_and(inside, along >= low[axis], out=inside)
-            np.logical_and(inside, along <= high[axis], out=inside)
-        held: _Flags = np.any(inside, axis=1)
+            found &= low[:, axis : axis + 1] >= self._low[axis] - margin
+            found &= high[:, axis : axis + 1] <= self._high[axis] + margin
+        return found
+
+    def touching(self, low: Points, high: Points, margin: float) -> _Flags:
+        """Of each extent (row) and box (column) whether they have a place in common."""
+        found: _Flags = np.ones((len(low), self._low.shape[1]), dtype=np.bool_)
+        for axis in range(3):
+            found &= high[:, axis : axis + 1] >= self._low[axis] - margin
+            found &= low[:, axis : axis + 1] <= self._high[axis] + margin
+        return found
+
+    def holding(self, points: Points, pairs: _Flags, margin: float) -> _Flags:
+        """Of each point (column) of each set (row) whether it lies in one of the boxes that the set is paired with."""
+        held: _Flags = np.zeros(points.shape[:2], dtype=np.bool_)
+        sets, boxes = np.nonzero(pairs)
+        for start in range(0, len(sets), _AT_ONCE):
+            chosen, box = sets[start : start + _AT_ONCE], boxes[start : start + _AT_ONCE]
+            inside: _Flags = np.ones((len(chosen), points.shape[1]), dtype=np.bool_)
+            for axis in range(3):
+                along = points[chosen, :, axis]
+                inside &= along >= (self._low[axis, box] - margin)[:, np.newaxis]
+                inside &= along <= (self._high[axis, box] + margin)[:, np.newaxis]
+            first = np.flatnonzero(np.diff(chosen, prepend=-1))  # of each set's pairs, which lie together
+            held[chosen[first]] |= np.logical_or.reduceat(inside, first, axis=0)
         return held
 
 
@@ -161,18 +176,25 @@ def tree_words(tree: Tree) -> str:
 
 
 def _lost(tree: Tree, surfaces: tuple[Surface, ...], own: _Table, every: _Table) -> str:
-    points = points_on(surfaces)
-    together = np.concatenate(points)
-    margin = _MARGIN * float((together.max(axis=0) - together.min(axis=0)).max())
+    points = np.stack(points_on(surfaces))
+    least, most = points.min(axis=1), points.max(axis=1)
+    margin = _MARGIN * float((most.max(axis=0) - least.min(axis=0)).max())
     boxes = Boxes([node.low for node in tree.nodes], [node.high for node in tree.nodes])
     leaves = np.array([node.is_leaf for node in tree.nodes])
-    for number, mine in enumerate(points):
-        holders = own[:, number] | (leaves & every[:, number])
-        if not boxes.holding(mine, holders, margin).all():
-            return "a part of a surface is in no box that has the surface in its list"
-        if boxes.holding(mine, leaves & ~every[:, number], -margin).any():
-            return "a surface runs through a leaf that does not have it in its list"
-    return ""
+    known = every.T
+    holders = own.T | (leaves & known)
+    # Most boxes hold a whole surface or are far from it, which is quickly seen.
+    whole: _Flags = np.any(holders & boxes.around(least, most, margin), axis=1)
+    near = holders & boxes.touching(least, most, margin) & ~whole[:, np.newaxis]
+    outside: _Flags = ~(whole | np.all(boxes.holding(points, near, margin), axis=1))
+    strangers = leaves & ~known & boxes.touching(least, most, -margin)
+    through: _Flags = np.any(boxes.holding(points, strangers, -margin), axis=1)
+    wrong: _Flags = outside | through
+    if not wrong.any():
+        return ""
+    if outside[wrong.argmax()]:
+        return "a part of a surface is in no box that has the surface in its list"
+    return "a surface runs through a leaf that does not have it in its list"
 
 
 def _tree_problem(inputs: Inputs, _expected: Tree, actual: Tree) -> str:
