@@ -55,7 +55,10 @@ def _wish(project: Project, arguments: argparse.Namespace) -> InspectOptions:
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
     if arguments.impl == "mine":
-        words += as_far_as_written(project, words)
+        more, said = as_far_as_written(project, words)
+        words += more
+        if said:
+            print(f"raysteps: {said}", file=sys.stderr)
     at = words.index("--step") if "--step" in words else len(words)
     (step,) = choose(steps, words[at + 1 : at + 2] or [str(usual_step(project))])
     return InspectOptions(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))

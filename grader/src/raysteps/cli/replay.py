@@ -107,8 +107,9 @@ def replay(project: Project, path: Path, submission: Path | None, console: Conso
     taken = load_submission(submission or project.steps, read_steps(project))
     if step.id not in taken.sources:
         raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
-    with console.status("building") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+    with console.status("starting") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         kit = build_kit(project, status.update)
+        status.update(f"building step {step.number}")
         student = _student(kit, step, taken.sources[step.id], sandbox, Path(folder))
         judged = _ask(kit, step, path, case, student)
     return _print(console, file, judged)
