@@ -2,12 +2,14 @@
 
 import argparse
 import os
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import takewhile
 from types import ModuleType
-from typing import Literal
+from typing import Any, Literal
 
 from raysteps import __version__
 from raysteps.cli.errors import EXITS, console_here, exit_code_of
@@ -75,9 +77,37 @@ def _module(project: Project, command: Command) -> ModuleType:
     return import_module(command.module)
 
 
+def _nearest(word: str, known: Iterable[str]) -> str:
+    """What may have been meant, as the end of a sentence."""
+    from difflib import get_close_matches  # rarely
+
+    return "".join(f"; did you mean {name}?" for name in get_close_matches(word, list(known), n=1))
+
+
+class _Parser(argparse.ArgumentParser):
+    """Of one command: it refuses what it does not know itself, with its own usage. argparse hands that up to the
+    parser of all commands, which knows nothing of it, and asks first for what is missing."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        if self._subparsers is None:
+            options = takewhile(lambda word: word != "--", args or ())  # what comes after it is none
+            self._refuse_unknown(word for word in options if re.fullmatch("--[^ ]+", word))
+        known, left = super().parse_known_args(args, namespace)
+        self._refuse_unknown(word for word in left if word.startswith("-"))
+        if left:
+            self.error(f"'{left[0]}': expected nothing more")
+        return known, left
+
+    def _refuse_unknown(self, words: Iterable[str]) -> None:
+        names = self._option_string_actions
+        for option in (word.partition("=")[0] for word in words):
+            if not any(name.startswith(option) for name in names):  # argparse takes the beginning of one, too
+                self.error(f"{option}: there is no such option{_nearest(option, names)}")
+
+
 def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentParser:
     """Of all commands; with `only`, the arguments of no other command are known, which saves importing it."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="raysteps",
         description="A ray tracer in graded steps.",
         epilog=EXITS,
@@ -102,6 +132,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if command is None:
             parser = new_parser(project, "")
+            if words and not words[0].startswith("-"):
+                names = [one.name for one in _commands(project)]
+                parser.error(f"{words[0]}: there is no such command{_nearest(words[0], names)} See ./raysteps --help")
             if words:
                 parser.parse_args(words)  # which says what is wrong with them, or prints the help
             parser.print_help(sys.stderr)
