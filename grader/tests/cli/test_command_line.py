@@ -1,4 +1,8 @@
-"""What is said of words that no command knows."""
+"""What is said of words that no command knows, and to a reader who has read enough."""
+
+import os
+import subprocess
+import sys
 
 import pytest
 
@@ -40,3 +44,17 @@ def test_the_beginning_of_an_option_is_known(capsys: pytest.CaptureFixture[str])
 def test_what_follows_two_dashes_is_no_option(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", "--", "--a.png", "--b.png"]) == 2
     assert "--a.png: " in capsys.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGPIPE")
+@pytest.mark.parametrize(
+    ("words", "unbuffered"), [(["list"], ""), (["list"], "1"), (["--help"], ""), (["compare", "--help"], "")]
+)
+def test_a_reader_who_is_gone_ends_a_command_without_a_word(words: list[str], unbuffered: str) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-m", "raysteps", *words]
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, env=environment, timeout=60, check=False)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, b"")

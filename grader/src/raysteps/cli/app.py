@@ -144,6 +144,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             code: int = module.run_words(project, words[1:])
         else:
             code = module.run(project, new_parser(project, command.name).parse_args(words), console_here())
+        sys.stdout.flush()
         return code
     except BaseException as error:
         return exit_code_of(error)
