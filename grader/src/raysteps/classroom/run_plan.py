@@ -17,7 +17,7 @@ from raysteps.classroom.entry_names import name_entries
 from raysteps.classroom.jobs import KIT_GRADER
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
@@ -74,8 +74,7 @@ def read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        why = "is not UTF-8" if isinstance(error, UnicodeDecodeError) else error.strerror
-        raise UsageError(f"{path}: the late policy cannot be read: {why}") from error
+        raise UsageError(f"{path}: the late policy cannot be read: {reason(error)}") from error
 
 
 # What the last run was given beside the submissions: a --resume that does not name it anew uses it again.

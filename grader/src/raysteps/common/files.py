@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 
 # Locks between processes. A lock goes with the process that holds it, however that ends.
 
@@ -62,7 +62,7 @@ def usable_folder(path: Path) -> None:
         with tempfile.TemporaryFile(dir=path):
             pass
     except OSError as error:
-        raise UsageError(f"{path}: results cannot be written there: {error.strerror or error}") from error
+        raise UsageError(f"{path}: results cannot be written there: {reason(error)}") from error
 
 
 def open_regular(path: Path) -> int:

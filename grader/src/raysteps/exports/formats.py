@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 from typing import Any, Literal
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_bytes
 from raysteps.common.schemas import complaint, read_schema
 
@@ -35,7 +35,7 @@ def write_out(path: Path, data: bytes) -> None:
     try:
         write_bytes(path, data)
     except OSError as error:
-        raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise UsageError(f"{path}: cannot be written: {reason(error)}") from error
 
 
 def remove(path: Path) -> None:
@@ -46,4 +46,4 @@ def remove(path: Path) -> None:
         else:
             path.unlink(missing_ok=True)
     except OSError as error:
-        raise UsageError(f"{path}: cannot be replaced: {error.strerror or error}") from error
+        raise UsageError(f"{path}: cannot be replaced: {reason(error)}") from error

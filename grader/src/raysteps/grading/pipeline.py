@@ -6,7 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 from raysteps.course.manifest import Step
 from raysteps.grading.hidden import HiddenStepGrader
 from raysteps.grading.options import Settings, withhold
@@ -53,5 +53,5 @@ def grade_submission(
     try:
         write_document(withhold(results.to_json(), settings.feedback), out)
     except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

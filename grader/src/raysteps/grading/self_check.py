@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.grading.scoring import is_right, status_and_points
@@ -120,5 +120,5 @@ def self_check(
     try:
         write_document(results.to_json(), out)
     except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import printable, shorten
@@ -58,7 +58,7 @@ def read_case(path: Path) -> CaseFile:
     except IsADirectoryError as error:
         raise _refuse(path, "a folder; name a file in it") from error
     except OSError as error:
-        raise _refuse(path, f"cannot be read ({error.strerror or error})") from error
+        raise _refuse(path, f"cannot be read ({reason(error)})") from error
     except (ValueError, RecursionError) as error:
         raise _refuse(path, f"not JSON ({error})") from error
     problem = complaint(document, read_schema("raysteps.judge", "case.schema.json"))

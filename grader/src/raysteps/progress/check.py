@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import one_at_a_time, usable_folder
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -53,7 +53,7 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
             if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
                 room.rmdir()
     except OSError as error:
-        raise UsageError(f"{out}: old results cannot be removed: {error}") from error
+        raise UsageError(f"{out}: old results cannot be removed: {reason(error)}") from error
 
 
 @dataclass(frozen=True)

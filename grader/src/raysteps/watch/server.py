@@ -10,7 +10,7 @@ from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlsplit
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.watch.page_state import News, PageState
 
 _HOSTS = {"127.0.0.1", "localhost"}  # another name that leads here is an attack by DNS rebinding
@@ -128,7 +128,9 @@ class PageServer:
         try:
             self._server = _Server(port, board, make_page)
         except (OSError, OverflowError) as error:
-            raise UsageError(f"--port {port}: the page cannot be served there: {error}; choose another port") from error
+            raise UsageError(
+                f"--port {port}: the page cannot be served there: {reason(error)}; choose another port"
+            ) from error
         self._board = board
         self._thread = threading.Thread(target=self._server.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()
