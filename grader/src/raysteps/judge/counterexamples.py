@@ -63,7 +63,7 @@ def read_case(path: Path) -> CaseFile:
         raise _refuse(path, f"not JSON ({error})") from error
     problem = complaint(document, read_schema("raysteps.judge", "case.schema.json"))
     if problem:
-        raise _refuse(path, problem)
+        raise _refuse(path, f"a case that somebody changed ({problem.removeprefix('$').lstrip('.: ')})")
     del document["schema"]
     texts = {key: printable(value) for key, value in document.items() if key != "seed"}
     for name, former in FORMER_NAMES.items():
