@@ -20,7 +20,7 @@ from raysteps.inspector.side_by_side import print_trees
 Change = Callable[[Record], None]
 
 
-def _no_image_plane(record: Record) -> None:
+def _no_window(record: Record) -> None:
     record["frame"] |= {"half_width": "nan", "forward": ["nan", "nan", "nan"]}
 
 
@@ -42,7 +42,7 @@ def _endless_ray(record: Record) -> None:
 @pytest.mark.parametrize(
     ("change", "function"),
     [
-        (_no_image_plane, "view_frame"),
+        (_no_window, "view_frame"),
         (_lost_hit, "Sphere::intersect"),
         (_normal_of_any_length, None),
         (_endless_ray, "reflected_ray"),
