@@ -52,6 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _wish(project: Project, arguments: argparse.Namespace) -> InspectOptions:
     steps = read_steps(project)
+    if arguments.step is not None:
+        arguments.step = str(choose(steps, [arguments.step])[0].index)
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
     if arguments.impl == "mine":
