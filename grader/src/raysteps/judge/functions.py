@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from raysteps.judge.compare import Answer
+from raysteps.judge.answers import Answer
 from raysteps.judge.numbers import text
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import chain, islice
 
 from raysteps.common.errors import GraderFault
+from raysteps.judge.answers import TooLarge, TooMuchWork
 from raysteps.judge.choice_sequence import Choice
-from raysteps.judge.compare import TooLarge, TooMuchWork
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import (

@@ -9,7 +9,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
 from raysteps.common.text import in_seconds
-from raysteps.judge.compare import Verdict
+from raysteps.judge.answers import Verdict
 from raysteps.judge.functions import Case, Function
 from raysteps.results.model import Termination
 from raysteps.sandbox.limits_only import LimitsOnly

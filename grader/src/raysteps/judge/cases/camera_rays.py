@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
-from raysteps.judge.compare import (
+from raysteps.judge.answers import (
     LENGTHS,
     Answer,
     direction,

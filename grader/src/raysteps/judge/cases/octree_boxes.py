@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector, add, unit
+from raysteps.judge.answers import LENGTHS, SMALL, Answer, first, real, vector
 from raysteps.judge.cases.tree_scenes import small_scene
-from raysteps.judge.compare import LENGTHS, SMALL, Answer, first, real, vector
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import rounded
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, Ray, TokenReader

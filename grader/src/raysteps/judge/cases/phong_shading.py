@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from raysteps.common.vectors import Vector, add, times, unit
-from raysteps.judge.compare import Answer, channels, read_vector, vector, words_of_vector
+from raysteps.judge.answers import Answer, channels, read_vector, vector, words_of_vector
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.numbers import mirrored, rounded
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec

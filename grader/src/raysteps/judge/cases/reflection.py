@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from raysteps.common.vectors import Vector, add, dot, length, minus, times
-from raysteps.judge.compare import Answer, angle, channels, first
+from raysteps.judge.answers import Answer, angle, channels, first
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import REFLECTED_RAY
 from raysteps.judge.numbers import rounded

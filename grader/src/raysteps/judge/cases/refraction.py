@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, dot, length, minus, times
-from raysteps.judge.compare import Answer, channels, direction, first
+from raysteps.judge.answers import Answer, channels, direction, first
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import TRANSMITTED_RAY, hit_of
 from raysteps.judge.numbers import f32, rounded

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
-from raysteps.judge.compare import Answer
+from raysteps.judge.answers import Answer
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import SHADOW_RAY
 from raysteps.judge.numbers import rounded

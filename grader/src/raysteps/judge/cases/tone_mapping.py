@@ -3,7 +3,7 @@
 import math
 
 from raysteps.common.vectors import Vector
-from raysteps.judge.compare import (
+from raysteps.judge.answers import (
     Answer,
     Tolerance,
     channels,
