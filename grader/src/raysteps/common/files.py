@@ -50,7 +50,7 @@ def one_at_a_time(lock: Path) -> Iterator[None]:
         yield
 
 
-_PATIENCE_SECONDS = 2.0
+_REPLACE_SECONDS = 2.0
 
 
 def usable_folder(path: Path) -> None:
@@ -73,7 +73,7 @@ def open_regular(path: Path) -> int:
 
 def _replace(temporary: Path, path: Path) -> None:
     """On Windows a file cannot be replaced while somebody, such as a virus scanner, has it open."""
-    until = time.monotonic() + _PATIENCE_SECONDS
+    until = time.monotonic() + _REPLACE_SECONDS
     while True:
         try:
             temporary.replace(path)

@@ -73,7 +73,7 @@ def read_case(path: Path) -> CaseFile:
 
 
 LONGEST = 2000  # characters of an input or an answer in words
-_PATIENCE = 8.0  # seconds that a student's worker runs for the examples of a step
+_BUDGET_SECONDS = 8.0  # seconds that a student's worker runs for the examples of a step
 
 
 def choices_of(group: Group, seed: str, place: int) -> list[Choice]:
@@ -96,7 +96,7 @@ class Examples:
         self._reference = reference
         self._folder = folder
         self._say = say
-        self._patience = CpuBudget(_PATIENCE)
+        self._budget = CpuBudget(_BUDGET_SECONDS)
 
     def smallest(self, step: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results.
@@ -111,7 +111,7 @@ class Examples:
         function = functions_of(step.number)[found.case.function]
         kind = found.case.group
         choices = choices_of(function.by_name[kind], seed_of(step.id, function.name, kind, seed), place)
-        shrinker = Shrinker(function, self._student, self._reference, self._patience)
+        shrinker = Shrinker(function, self._student, self._reference, self._budget)
         found = shrinker.shrink(found, choices)
         verdict, given = found.verdict, shorten(found.case.given(), LONGEST)
         expected, actual = shorten(verdict.expected, LONGEST), shorten(verdict.actual, LONGEST)

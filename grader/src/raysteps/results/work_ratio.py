@@ -71,7 +71,7 @@ _NO_PICTURES = {"not-started": "not started", "does-not-build": "does not build"
 
 
 @dataclass(frozen=True)
-class Effort:
+class WorkRatio:
     """Of one step of one submission."""
 
     relative: float  # 1 is the reference's
@@ -81,7 +81,7 @@ class Effort:
 
 
 @dataclass(frozen=True)
-class NoEffort:
+class NoWorkRatio:
     """Why there is nothing to compare."""
 
     reason: str
@@ -102,17 +102,17 @@ def _wrong(images: Sequence[Document]) -> str:
     return f"{_pictures_are(costly)} right, but the work that was counted did not pass" if costly else ""
 
 
-def _relative(image: Document) -> float | NoEffort:
+def _relative(image: Document) -> float | NoWorkRatio:
     name = image["name"]
     if "work" not in image or "reference_work" not in image:
-        return NoEffort("graded by an older kit, which kept no counters; grade it again")
+        return NoWorkRatio("graded by an older kit, which kept no counters; grade it again")
     if image["work"] is None or image["reference_work"] is None:
-        return NoEffort(f"picture {name} has no counters")
+        return NoWorkRatio(f"picture {name} has no counters")
     mine, reference = Work(**image["work"]), Work(**image["reference_work"])
     if not mine.rays or not mine.surface_tests or not reference.tests_per_ray:
-        return NoEffort(f"picture {name}: no test of a surface was counted")
+        return NoWorkRatio(f"picture {name}: no test of a surface was counted")
     if reference.box_tests and not mine.box_tests:
-        return NoEffort(f"picture {name}: no test of a box was counted, as when boxes are not asked by box.hit(ray)")
+        return NoWorkRatio(f"picture {name}: no test of a box was counted, as when boxes are not asked by box.hit(ray)")
     return mine.tests_per_ray / reference.tests_per_ray
 
 
@@ -121,26 +121,26 @@ def limited(result: Document) -> list[Document]:
     return [image for image in result["images"] if image["max_share"] is not None]
 
 
-def effort_of(result: Document, expected: Sequence[str] = ()) -> Effort | NoEffort:
+def work_ratio_of(result: Document, expected: Sequence[str] = ()) -> WorkRatio | NoWorkRatio:
     """Of one step in results.json. `expected` are the pictures that count and must be there; else all that have a
     max_share."""
     if result["status"] in _NO_PICTURES:
-        return NoEffort(_NO_PICTURES[result["status"]])
+        return NoWorkRatio(_NO_PICTURES[result["status"]])
     if result["inconsistent"]:
-        return NoEffort("inconsistent: the program claims what the judge did not see")
+        return NoWorkRatio("inconsistent: the program claims what the judge did not see")
     problem = _wrong(result["images"])
     if problem:
-        return NoEffort(problem)
+        return NoWorkRatio(problem)
     images = [image for image in limited(result) if not expected or image["name"] in expected]
     missing = [name for name in expected if name not in {image["name"] for image in images}]
     if missing or not images:
-        return NoEffort(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
+        return NoWorkRatio(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
     pictures: dict[str, float] = {}
     for image in images:
         relative = _relative(image)
-        if isinstance(relative, NoEffort):
+        if isinstance(relative, NoWorkRatio):
             return relative
         pictures[image["name"]] = round(relative, _DIGITS)
     mean = math.exp(math.fsum(math.log(max(value, 10**-_DIGITS)) for value in pictures.values()) / len(pictures))
     mine, reference = (sum(image[key]["bytes"] for image in images) for key in ("work", "reference_work"))
-    return Effort(round(mean, _DIGITS), mine, reference, pictures)
+    return WorkRatio(round(mean, _DIGITS), mine, reference, pictures)
