@@ -10,10 +10,9 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import usable_folder
+from raysteps.common.files import usable_folder, write_out
 from raysteps.common.text import size as shown_size
 from raysteps.course.project import Project
-from raysteps.exports.formats import write_out
 from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
 from raysteps.gallery.scenes import CHOSEN, GalleryScene, gallery_scenes
 from raysteps.gallery.shots import MySteps, my_steps, reference_shots, reference_work_maps

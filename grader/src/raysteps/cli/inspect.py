@@ -11,10 +11,10 @@ from rich.markup import escape
 from raysteps.cli.render import build_program, whose
 from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
 from raysteps.common.errors import UsageError
+from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
-from raysteps.exports.formats import encoded, write_out
 from raysteps.inspector.pixel_page import write_page
 from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
 from raysteps.inspector.records import Difference, Record

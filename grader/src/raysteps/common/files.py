@@ -112,6 +112,19 @@ def write_json(path: Path, value: Any) -> None:
     write_bytes(path, (json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode())
 
 
+def write_out(path: Path, data: bytes) -> None:
+    """Writes a file that somebody named, or says why not."""
+    try:
+        write_bytes(path, data)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be written: {reason(error)}") from error
+
+
+def encoded(document: Any) -> bytes:
+    """JSON for other programs, as it is written."""
+    return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
 def write_if_changed(path: Path, data: bytes) -> bool:
     """Leaves a file with the same content alone, so that nothing is rebuilt for it."""
     if path.is_file() and not path.is_symlink() and path.read_bytes() == data:

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from raysteps.common.files import write_out
 from raysteps.common.text import count
-from raysteps.exports.formats import write_out
 from raysteps.inspector.records import (
     EYE,
     Difference,
