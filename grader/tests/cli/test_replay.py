@@ -16,10 +16,9 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.options import Feedback, Settings
 from raysteps.grading.pipeline import grade_submission
-from raysteps.judge.cases import functions_of
 from raysteps.judge.counterexamples import CaseFile, read_case, write_case
 from raysteps.judge.decode_case import decode_inputs
-from raysteps.judge.functions import Case
+from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
 from raysteps.judge.protocol import ProtocolError

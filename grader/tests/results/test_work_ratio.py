@@ -10,9 +10,10 @@ from rich.console import Console
 
 from raysteps.common.text import mean, size
 from raysteps.course.manifest import Step
+from raysteps.images.render import read_work
 from raysteps.report.terminal import print_details
 from raysteps.results.model import Results
-from raysteps.results.work_ratio import NoWorkRatio, Work, WorkRatio, read_work, work_ratio_of
+from raysteps.results.work_ratio import NoWorkRatio, Work, WorkRatio, work_ratio_of
 
 _STATS: dict[str, Any] = {
     "schema": "raysteps/stats/v1",

@@ -14,10 +14,9 @@ from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.build_messages import link_message, why_not_built
-from raysteps.judge.cases import functions_of
 from raysteps.judge.counterexamples import LONGEST, CaseFile, read_case
 from raysteps.judge.decode_case import decode_inputs
-from raysteps.judge.functions import Case, Function
+from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
 from raysteps.sandbox.detect import find_sandbox

@@ -11,14 +11,14 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
-from raysteps.grading.build_messages import build_log, link_message, why_not_built
+from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points
 from raysteps.grading.unit_tests import run_tests
 from raysteps.results.model import Integration, StepResult
 from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program, StudentBuild
+from raysteps.toolchain.compile import Compiled, Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits, limits_of
 

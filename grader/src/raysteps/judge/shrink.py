@@ -29,23 +29,23 @@ from raysteps.judge.worker import Ask, JudgedCase, Reply, answers_until_trouble,
 _RUN_SECONDS = 2.0
 
 
+@dataclass
 class CpuBudget:
     """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
     not count, so that a busy machine shows the same examples; but a program that sleeps, and a judge that is slow, come
     to an end too: after `longest` seconds on the clock, from the first run on."""
 
-    def __init__(self, seconds: float, longest: float = 20.0) -> None:
-        self._left = seconds
-        self._longest = longest
-        self._end = math.inf
+    left: float = 8.0
+    longest: float = 20.0
+    end: float = math.inf
 
     def next_run(self) -> float:
         now = time.monotonic()
-        self._end = min(self._end, now + self._longest)
-        return _RUN_SECONDS if self._left > 0 and now < self._end else 0.0
+        self.end = min(self.end, now + self.longest)
+        return _RUN_SECONDS if self.left > 0 and now < self.end else 0.0
 
     def spend(self, seconds: float) -> None:
-        self._left -= seconds
+        self.left -= seconds
 
 
 # Which of many candidates are wrong in the same way as a known case, and which of these is beyond doubt.

@@ -4,7 +4,6 @@ A surface test and a box test weigh alike. Of a picture it is (surface tests + b
 reference's; of a step the geometric mean of its pictures that have a max_share.
 """
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,8 +12,6 @@ from typing import Any
 from raysteps.common.text import join_and
 
 # What a picture cost: tests that the program counted, and the structure that it built. No clock is involved.
-
-_MAX = 2**63  # a counter of the framework has 64 bits
 
 
 @dataclass(frozen=True)
@@ -40,29 +37,6 @@ class Work:
     def tests_per_ray(self) -> float:
         """A test of a surface and a test of a box weigh alike."""
         return (self.surface_tests + self.box_tests) / self.rays if self.rays else 0.0
-
-
-def _count(value: Any) -> int:
-    if type(value) is not int or not 0 <= value < _MAX:
-        raise ValueError("not a counter")
-    return value
-
-
-def read_work(stats: bytes) -> Work | None:
-    """None when these are no statistics of raytrace: a student's program may have written anything."""
-    try:
-        told = json.loads(stats)
-        structure = told["structure"]
-        return Work(
-            rays=sum(_count(told["rays"][kind]) for kind in ("eye", "shadow", "reflect", "refract")),
-            surface_tests=_count(told["surface_tests"]),
-            box_tests=_count(told["box_tests"]),
-            boxes=_count(structure["boxes"]),
-            references=_count(structure["references"]),
-            bytes=_count(structure["bytes"]),
-        )
-    except (ValueError, KeyError, TypeError, RecursionError):
-        return None
 
 
 Document = Mapping[str, Any]

@@ -1,10 +1,12 @@
 """Compiles and links one step of a student, in the sandbox. The commands are the kit's; only the source is not."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.files import write_bytes
 from raysteps.common.platform import executable
+from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.sandbox.task import Input, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
@@ -13,6 +15,17 @@ from raysteps.toolchain.link import compile_words, include_words, library_flags,
 from raysteps.toolchain.symbols import nm_arguments, of_somebody, parse_readable, parse_symbols
 
 _MAX_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thousand
+
+
+_MAX_LOG = 64_000
+_DRIVE, _PART = r"(?:\b[A-Za-z]:)?", r"[/\\][^\s:/\\]+"
+
+
+def build_log(ran: TaskResult) -> str:
+    """All that the compiler said, as text that cannot steer a terminal, and without the grader's folders."""
+    text = printable(ran.outcome.stderr + ran.outcome.stdout)
+    text = re.sub(rf"{_DRIVE}(?:{_PART})*[/\\]include[/\\](core|steps)[/\\]", r"\1/", text)
+    return shorten(re.sub(rf"{_DRIVE}(?:{_PART})+[/\\](\w+\.cpp\b)", r"\1", text).strip(), _MAX_LOG)
 
 
 @dataclass(frozen=True)

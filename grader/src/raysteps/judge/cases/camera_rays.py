@@ -19,8 +19,7 @@ from raysteps.judge.answers import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole
+from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole, f32, rounded
 from raysteps.judge.random_source import RandomSource
 
 # Cases of step 01: cameras of all kinds, and the view frame of each.

@@ -3,8 +3,7 @@
 from raysteps.common.vectors import Vector, add, cross, times, unit
 from raysteps.judge.answers import Answer
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Box, Inputs
+from raysteps.judge.protocol import Box, Inputs, f32, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Triangle
 
