@@ -16,13 +16,13 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.options import Feedback, Settings
 from raysteps.grading.pipeline import grade_submission
+from raysteps.grading.step import clear
 from raysteps.judge.counterexamples import CaseFile, read_case, write_case
 from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
 from raysteps.judge.protocol import ProtocolError
-from raysteps.progress.check import clear
 from raysteps.results.store import place_of
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission

@@ -16,7 +16,8 @@ from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
-from raysteps.progress.check import clear, exit_code
+from raysteps.grading.scoring import exit_code
+from raysteps.grading.step import clear
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results

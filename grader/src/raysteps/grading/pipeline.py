@@ -161,7 +161,8 @@ def grade_submission(
             graders = [
                 HiddenStepGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
             ]
-            right = {result.id for result in pool.map(HiddenStepGrader.grade, graders) if is_right(result)}
+            alone = list(pool.map(HiddenStepGrader.grade, graders))
+            right = {result.id for result in alone if is_right(result)}
             steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)

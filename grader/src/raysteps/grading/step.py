@@ -7,7 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.files import usable_folder
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
@@ -15,7 +16,10 @@ from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points
 from raysteps.grading.unit_tests import run_tests
+from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
+from raysteps.results.store import FOLDER as CASES
+from raysteps.results.store import place_of
 from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program, StudentBuild, build_log
@@ -25,6 +29,35 @@ from raysteps.toolchain.limits import StepLimits, limits_of
 Programs = dict[Kind, Program]
 
 _LEAST_ROOM = 256 << 20  # bytes, more than a build can use
+
+
+# Old results go first.
+
+
+def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
+    """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any. Cases
+    stay for `replay` until their step is graded again."""
+    usable_folder(out)
+    try:
+        for name in ("results.json", REPORT):
+            (out / name).unlink(missing_ok=True)
+        for step in steps:
+            folder = out / "pictures" / step.id
+            if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
+                continue
+            for kind in ("mine", "reference", "difference"):
+                for picture in folder.glob(f"*-{kind}.png"):
+                    picture.unlink()
+            if not any(folder.iterdir()):
+                folder.rmdir()
+        if not (out / CASES).is_symlink():
+            for name in (place_of(step.number, function) for step in asked_again for function in step.functions):
+                (out / name).unlink(missing_ok=True)
+        for room in (out / "pictures", out / CASES):
+            if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
+                room.rmdir()
+    except OSError as error:
+        raise UsageError(f"{out}: old results cannot be removed: {reason(error)}") from error
 
 
 # A sandbox that adds up what its tasks cost, and tells of limits in round numbers.

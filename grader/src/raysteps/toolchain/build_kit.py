@@ -17,6 +17,7 @@ from raysteps.course.manifest import Step, read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
+from raysteps.toolchain.compile import readable_names, symbols_of
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from raysteps.toolchain.link import (
     Description,
@@ -30,7 +31,6 @@ from raysteps.toolchain.link import (
     read_description,
     version_script,
 )
-from raysteps.toolchain.symbols import readable_names, symbols_of
 
 # The names and tags of the visible tests, as the reference ran them: a students' kit cannot ask it again.
 
