@@ -32,7 +32,7 @@ namespace {
 
 constexpr double k_max_differing = 0.001;  // share of the rays that Embree may see differently
 
-struct Wish {
+struct Options {
     std::string scene;
     int size = 512;
     int depth = 5;
@@ -51,21 +51,21 @@ std::vector<std::string> parts_of(const std::string& list) {
     return parts;
 }
 
-Wish read_wish(const std::vector<std::string>& arguments) {
-    Wish wish;
+Options read_options(const std::vector<std::string>& arguments) {
+    Options options;
     std::string structures;
     CommandLine line(1, "one scene and the options that --help lists");
-    line.number("--size", wish.size, 1, 8192).number("--depth", wish.depth, 1, 1000);
-    line.number("--rounds", wish.rounds, 1, 1000).number("--every", wish.every, 1, 1000000);
+    line.number("--size", options.size, 1, 8192).number("--depth", options.depth, 1, 1000);
+    line.number("--rounds", options.rounds, 1, 1000).number("--every", options.every, 1, 1000000);
     line.option("--structures", structures);
-    line.choice<bool>("--pictures", wish.pictures, {{"yes", true}, {"no", false}});
+    line.choice<bool>("--pictures", options.pictures, {{"yes", true}, {"no", false}});
     const std::vector<std::string> words = line.parse(arguments);
     if (words.empty()) {
         throw UsageError("expected one scene");
     }
-    wish.scene = words.front();
-    wish.structures = chosen_structures(parts_of(structures));
-    return wish;
+    options.scene = words.front();
+    options.structures = chosen_structures(parts_of(structures));
+    return options;
 }
 
 /// One structure and all that is measured of it.
@@ -90,10 +90,10 @@ struct Race {
     }
 };
 
-Workload read_workload(const Wish& wish) {
+Workload read_workload(const Options& options) {
     Workload workload;
-    workload.scene = load_scene(wish.scene, PictureSize{.width = wish.size, .height = wish.size});
-    workload.options.max_ray_depth = wish.depth;
+    workload.scene = load_scene(options.scene, PictureSize{.width = options.size, .height = options.size});
+    workload.options.max_ray_depth = options.depth;
     return workload;
 }
 
@@ -170,17 +170,17 @@ void write_side(JsonWriter& json, const Side& side) {
     json.end_object();
 }
 
-std::string report(const Wish& wish, const Race& race) {
+std::string report(const Options& options, const Race& race) {
     const Workload& workload = race.workload;
     JsonWriter json;
     json.begin_object(JsonWriter::Layout::block).key("schema").text("raysteps/bench-rays/v1");
-    json.key("scene").text(display_name(path_of(wish.scene).stem()));
+    json.key("scene").text(display_name(path_of(options.scene).stem()));
     json.key("surfaces").whole(workload.scene.surfaces().size());
-    json.key("size").whole(static_cast<std::uint64_t>(wish.size));
+    json.key("size").whole(static_cast<std::uint64_t>(options.size));
     json.key("depth")
-        .whole(static_cast<std::uint64_t>(wish.depth))
+        .whole(static_cast<std::uint64_t>(options.depth))
         .key("every")
-        .whole(static_cast<std::uint64_t>(wish.every));
+        .whole(static_cast<std::uint64_t>(options.every));
     json.key("embree_version").text(embree_version());
     write_rays(json, workload.rays);
     json.key("structures").begin_array(JsonWriter::Layout::block);
@@ -193,24 +193,24 @@ std::string report(const Wish& wish, const Race& race) {
 }  // namespace
 
 std::string bench_render(const std::vector<std::string>& words) {
-    const Wish wish = read_wish(words);
+    const Options options = read_options(words);
     set_default_threads(1);
-    Race race{read_workload(wish), {}, {}};
+    Race race{read_workload(options), {}, {}};
     const auto truth = make_accelerator(Acceleration::octree, race.workload.scene.surfaces());
     record(race.workload, *truth);
-    race.sample = every(static_cast<std::size_t>(wish.every), race.workload.rays);
-    for (const Structure& structure : wish.structures) {
+    race.sample = every(static_cast<std::size_t>(options.every), race.workload.rays);
+    for (const Structure& structure : options.structures) {
         Side& side = race.sides.emplace_back();
         side.structure = structure;
         side.accelerator = structure.make(race.workload.scene.surfaces());
         check_agreement(race.rays_for(side), *truth, side);
     }
-    for (int round = 0; round <= wish.rounds; ++round) {
+    for (int round = 0; round <= options.rounds; ++round) {
         for (Side& side : race.sides) {
-            measure_once(race, wish.pictures, side, round == 0);
+            measure_once(race, options.pictures, side, round == 0);
         }
     }
-    return report(wish, race);
+    return report(options, race);
 }
 
 }  // namespace raysteps::bench

@@ -9,7 +9,7 @@ import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 
 _SECONDS = 60
 _TRIES = 8
@@ -51,7 +51,7 @@ def _started(number: int) -> "subprocess.Popen[bytes] | None":
         try:
             server = subprocess.Popen(command, pass_fds=[writing], stderr=subprocess.DEVNULL)
         except OSError as error:
-            raise GraderFault(f"Xvfb does not start: {error}") from error
+            raise GraderFault(f"Xvfb does not start: {reason(error)}") from error
         finally:
             os.close(writing)
         if pipe.readline().strip():

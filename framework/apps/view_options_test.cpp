@@ -42,7 +42,7 @@ TEST_CASE("A wrong option of the window is answered with what was expected", "[a
     }
     CHECK(complaint_about({"a.nff", "--strip"}) == "--strip: expected --screenshot FILE.ppm with it");
     CHECK(complaint_about({"a.nff", "-o", "b.ppm"}) ==
-          "arguments: expected one scene and the options that --help lists, found '-o'");
+          "-o: there is no such option; expected one scene and the options that --help lists");
     CHECK(complaint_about({"a.nff", "b.nff"}) ==
           "arguments: expected one scene and the options that --help lists, found 'b.nff'");
 }

@@ -19,8 +19,8 @@ struct ViewFrame {
     glm::vec3 right{1.0F, 0.0F, 0.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     glm::vec3 forward{0.0F, 0.0F, -1.0F};
-    float half_width = 1.0F;   ///< half the width of the image plane at distance 1
-    float half_height = 1.0F;  ///< half the height of the image plane at distance 1
+    float half_width = 1.0F;   ///< half the width of the window at distance 1
+    float half_height = 1.0F;  ///< half the height of the window at distance 1
 };
 
 }  // namespace raysteps

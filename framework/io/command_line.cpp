@@ -1,7 +1,9 @@
 #include "io/command_line.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <numeric>
 
 #include "io/files.hpp"
 
@@ -13,6 +15,21 @@ bool is_digit(char character) { return character >= '0' && character <= '9'; }
 /// Such as --step; -5 is a number.
 bool looks_like_option(const std::string& word) {
     return word.starts_with('-') && (word.size() == 1 || !is_digit(word[1]));
+}
+
+/// How many characters must be put in, left out or changed to make the one of the other (Levenshtein).
+std::size_t edit_distance(std::string_view one, std::string_view other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < other.size(); ++j) {
+            const std::size_t changed = diagonal + (one[i] == other[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
 }
 
 }  // namespace
@@ -99,13 +116,35 @@ std::vector<std::string> CommandLine::parse(const std::vector<std::string>& argu
             if (flag->second.ends) {
                 return words;
             }
-        } else if (looks_like_option(argument) || words.size() == max_words_) {
+        } else if (looks_like_option(argument)) {
+            const std::string meant = nearest(argument.substr(0, argument.find('=')));
+            throw UsageError(argument + ": there is no such option" +
+                             (meant.empty() ? "; expected " + expected_ : "; did you mean " + meant + "?"));
+        } else if (words.size() == max_words_) {
             refuse("arguments", expected_, argument);
         } else {
             words.push_back(argument);
         }
     }
     return words;
+}
+
+std::string CommandLine::nearest(const std::string& word) const {
+    std::string nearest;
+    std::size_t least = 3;  // from here on it is another word
+    const auto look_at = [&](const std::string& name) {
+        if (const std::size_t distance = edit_distance(word, name); name.size() > least && distance < least) {
+            nearest = name;
+            least = distance;
+        }
+    };
+    for (const auto& [name, setter] : options_) {
+        look_at(name);
+    }
+    for (const auto& [name, flag] : flags_) {
+        look_at(name);
+    }
+    return nearest;
 }
 
 int run_program(const char* command, const std::function<void()>& work) {

@@ -74,6 +74,9 @@ private:
         bool ends = false;
     };
 
+    /// The option that may have been meant; nothing where none is like it.
+    [[nodiscard]] std::string nearest(const std::string& word) const;
+
     std::size_t max_words_;
     std::string expected_;
     std::map<std::string, Setter> options_;

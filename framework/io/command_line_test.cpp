@@ -58,8 +58,10 @@ TEST_CASE("A wrong command line is answered with what was expected and what was 
     CHECK(complaint_about({"--number", "11"}) == "--number: expected a whole number from -3 to 10, found '11'");
     CHECK(complaint_about({"--number", "2 "}) == "--number: expected a whole number from -3 to 10, found '2 '");
     CHECK(complaint_about({"--letter", "d"}) == "--letter: expected a, b or c, found 'd'");
-    CHECK(complaint_about({"--quiet"}) == "arguments: expected two words, found '--quiet'");
-    CHECK(complaint_about({"-"}) == "arguments: expected two words, found '-'");
+    CHECK(complaint_about({"--quiet"}) == "--quiet: there is no such option; expected two words");
+    CHECK(complaint_about({"-"}) == "-: there is no such option; expected two words");
+    CHECK(complaint_about({"--nubmer", "3"}) == "--nubmer: there is no such option; did you mean --number?");
+    CHECK(complaint_about({"--lettre=b"}) == "--lettre=b: there is no such option; did you mean --letter?");
     CHECK(complaint_about({"1", "2", "3"}) == "arguments: expected two words, found '3'");
 }
 

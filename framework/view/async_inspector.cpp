@@ -33,9 +33,9 @@ std::optional<std::string> AsyncInspector::answer() {
     return text;
 }
 
-bool AsyncInspector::idle_within(std::chrono::milliseconds patience) {
+bool AsyncInspector::idle_within(std::chrono::milliseconds timeout) {
     waiting_.reset();
-    return !running_.valid() || running_.wait_for(patience) == std::future_status::ready;
+    return !running_.valid() || running_.wait_for(timeout) == std::future_status::ready;
 }
 
 std::string AsyncInspector::inspected(const Question& question) {

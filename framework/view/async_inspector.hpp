@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool is_idle() const { return !running_.valid(); }
 
     /// False: it goes on, as a step may hang.
-    [[nodiscard]] bool idle_within(std::chrono::milliseconds patience);
+    [[nodiscard]] bool idle_within(std::chrono::milliseconds timeout);
 
 private:
     struct Question {

@@ -81,11 +81,11 @@ void ProgressiveRenderer::copy_costs(Frame& frame) const {
     frame.costs = frame_.costs;
 }
 
-bool ProgressiveRenderer::stop(std::chrono::milliseconds patience) {
+bool ProgressiveRenderer::stop(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     stopping_ = true;
     changed_.notify_all();
-    return changed_.wait_for(lock, patience, [this] { return ended_; });
+    return changed_.wait_for(lock, timeout, [this] { return ended_; });
 }
 
 bool ProgressiveRenderer::given_up() const {

@@ -66,7 +66,7 @@ public:
     void copy_costs(Frame& frame) const;
 
     /// Ends the work. False: it did not end in time, as a step may hang, and the program can only be left at once.
-    [[nodiscard]] bool stop(std::chrono::milliseconds patience);
+    [[nodiscard]] bool stop(std::chrono::milliseconds timeout);
 
 private:
     using Clock = std::chrono::steady_clock;

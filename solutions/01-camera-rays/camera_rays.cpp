@@ -17,7 +17,7 @@ glm::vec3 point_at(const Ray& ray, float distance) {
 
 ViewFrame view_frame(const Camera& camera) {
     // BEGIN SOLUTION view_frame
-    // TODO: Build the camera's three unit axes and the half extents of the image plane at distance 1.
+    // TODO: Build the camera's three unit axes and the half extents of the window at distance 1.
     // RETURN ViewFrame{}
     ViewFrame frame;
     frame.forward = glm::normalize(camera.at - camera.from);
@@ -31,7 +31,7 @@ ViewFrame view_frame(const Camera& camera) {
 
 Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y) {
     // BEGIN SOLUTION primary_ray
-    // TODO: Find where the pixel's centre lies on the image plane, and aim a unit direction at it.
+    // TODO: Find where the pixel's centre lies in the window, and aim a unit direction at it.
     // RETURN Ray{camera.from, frame.forward}
     const float across = 2.0F * (static_cast<float>(x) + 0.5F) / static_cast<float>(camera.width) - 1.0F;
     const float upwards = 1.0F - 2.0F * (static_cast<float>(y) + 0.5F) / static_cast<float>(camera.height);

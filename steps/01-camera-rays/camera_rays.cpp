@@ -14,13 +14,13 @@ glm::vec3 point_at(const Ray& ray, float distance) {
 }
 
 ViewFrame view_frame(const Camera& camera) {
-    // TODO: Build the camera's three unit axes and the half extents of the image plane at distance 1.
+    // TODO: Build the camera's three unit axes and the half extents of the window at distance 1.
     RAYSTEPS_TODO("01-camera-rays", "view_frame");
     return ViewFrame{};
 }
 
 Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y) {
-    // TODO: Find where the pixel's centre lies on the image plane, and aim a unit direction at it.
+    // TODO: Find where the pixel's centre lies in the window, and aim a unit direction at it.
     RAYSTEPS_TODO("01-camera-rays", "primary_ray");
     return Ray{camera.from, frame.forward};
 }

@@ -8,7 +8,7 @@ namespace raysteps {
 /// The point at the given distance along the ray: origin + distance * direction. World coordinates.
 [[nodiscard]] glm::vec3 point_at(const Ray& ray, float distance);
 
-/// The camera's own axes and the half extents of its image plane at distance 1.
+/// The camera's own axes and the half extents of its window at distance 1.
 /// forward points from `from` to `at`; right = forward x up; up is made perpendicular to both.
 /// half_height = tan(angle / 2), angle being the full vertical field of view in degrees;
 /// half_width = half_height * width / height, so that pixels are square.

@@ -10,7 +10,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-/// At (0, 0, 5), looking along -z; the image plane at distance 1 is 2 high.
+/// At (0, 0, 5), looking along -z; the window at distance 1 is 2 high.
 Camera straight_camera(int width, int height) {
     Camera camera;
     camera.from = {0.0F, 0.0F, 5.0F};
@@ -146,7 +146,7 @@ TEST_CASE("primary_ray of the middle pixel goes straight ahead", "[01-camera-ray
     const Ray middle = primary_ray(camera, frame, 1, 1);
     CHECK_THAT(middle.origin, IsNear(camera.from));
     CHECK_THAT(middle.direction, IsNear({0.0F, 0.0F, -1.0F}));
-    INFO("its right neighbour, for comparison, goes through (2/3, 0) of the image plane");
+    INFO("its right neighbour, for comparison, goes through (2/3, 0) of the window");
     CHECK_THAT(primary_ray(camera, frame, 2, 1).direction, IsParallelTo({2.0F / 3.0F, 0.0F, -1.0F}));
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("primary_ray: the handout's worked example - unit length", "[01-camera
     CHECK_THAT(ray.direction, IsNear({0.8018F, 0.2673F, -0.5345F}, 1e-3F));
 }
 
-TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01-camera-rays][primary_ray][any]") {
+TEST_CASE("primary_ray: a pixel's point in the window for any camera", "[01-camera-rays][primary_ray][any]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -191,7 +191,7 @@ TEST_CASE("primary_ray: a pixel's point on the image plane for any camera", "[01
             INFO("the direction must have length 1 and has " << glm::length(ray.direction));
             REQUIRE_THAT(ray.direction, IsUnitLength());
         }
-        // Back from the direction to the pixel: where does the ray cross the image plane?
+        // Back from the direction to the pixel: where does the ray cross the window?
         const float depth = glm::dot(ray.direction, frame.forward);
         {
             INFO("the ray must go forward");

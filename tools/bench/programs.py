@@ -15,7 +15,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
-from raysteps.toolchain.description import read_description
+from raysteps.toolchain.link import read_description
 from tools.selftest.programs import accelerations_of
 
 # Holds the programs that are started here on one processor, so that they do not wander while they are measured.

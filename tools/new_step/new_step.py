@@ -8,7 +8,7 @@ import shutil
 from importlib.resources import files
 from typing import Any
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_bytes
 from raysteps.course.manifest import read_all_steps, read_step, read_steps
 from raysteps.course.project import Project
@@ -106,7 +106,7 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
     except (OSError, GraderFault) as error:
         for room in (project.steps, project.solutions):
             shutil.rmtree(room / name, ignore_errors=True)
-        raise GraderFault(f"{name}: the step cannot be written, and nothing of it is left: {error}") from error
+        raise GraderFault(f"{name}: the step cannot be written, and nothing of it is left: {reason(error)}") from error
     return sorted(path.relative_to(project.root).as_posix() for path in made)
 
 

@@ -19,7 +19,10 @@ _SECTIONS = (
     ("Reference", ("glossary", "commands", "contracts", "core", "formats", "mistakes/README", "spd", "benchmarks")),
     (
         "How it works",
-        ("architecture", "handouts", "site", "truth", "diagnosis", "judge", "sandbox", "hostile", "calibration"),
+        (
+            *("architecture", "decisions", "dependencies", "handouts", "site", "truth"),
+            *("diagnosis", "judge", "sandbox", "hostile", "calibration"),
+        ),
     ),
 )
 _PROJECT = ("CONTRIBUTING", "CHANGELOG", "SECURITY", "THIRD_PARTY", "LICENSE-CC-BY-4.0")  # at the top of the repository

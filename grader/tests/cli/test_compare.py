@@ -37,6 +37,29 @@ def test_what_cannot_be_compared_is_told(tmp_path: Path, capsys: pytest.CaptureF
     mine = _picture(tmp_path / "a.png")
     assert main(["compare", mine, _picture(tmp_path / "b.png", size=(6, 6))]) == 2
     assert "is 6x4 pixels, and the other 6x6" in capsys.readouterr().err
-    assert main(["compare", mine, str(tmp_path / "none.png")]) == 2
-    assert "none.png: expected a picture" in capsys.readouterr().err
     assert main(["compare", mine, mine, "-o", str(tmp_path / "d.jpg")]) == 2
+
+
+_EXPECTED = "; expected a picture as `./raysteps render` writes it, .png or .ppm"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("none.png", None, "there is no such file"),
+        ("none.ppm", None, "there is no such file"),
+        (".", None, "is a folder"),
+        ("text.png", b"no picture", "is no PNG, or only a part of one"),
+        ("text.ppm", b"no picture", "the picture is not a binary PPM with 8-bit channels"),
+        ("part.png", b"a part", "is no PNG, or only a part of one"),
+    ],
+)
+def test_what_is_no_picture_is_told_in_plain_words(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, content: bytes | None, said: str
+) -> None:
+    mine = _picture(tmp_path / "a.png")
+    if content is not None:
+        data = Path(mine).read_bytes()[:60] if name == "part.png" else content
+        (tmp_path / name).write_bytes(data)
+    assert main(["compare", mine, str(tmp_path / name)]) == 2
+    assert capsys.readouterr().err == f"raysteps: {tmp_path / name}{_EXPECTED}\n".replace(";", f": {said};", 1)

@@ -4,15 +4,17 @@ from pathlib import Path
 
 import pytest
 
+from raysteps.cli import render
 from raysteps.cli.app import main
-from raysteps.cli.render import run_raytrace, take_impl
+from raysteps.cli.render import build_mine, run_raytrace, take_impl
 from raysteps.cli.todo_steps import advice, as_far_as_written
-from raysteps.common.errors import UsageError
-from raysteps.common.process import run
+from raysteps.common.errors import StudentBuildError, UsageError
+from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import stub_for
 from raysteps.images.compare import read_png, read_ppm
+from raysteps.toolchain.cmake import BuildTree, release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
@@ -32,9 +34,7 @@ def test_a_crash_of_the_renderer_is_a_failure(tmp_path: Path, capsys: pytest.Cap
     program = tmp_path / "raytrace-mine"
     program.write_text("#!/bin/sh\nkill -SEGV $$\n")
     program.chmod(0o755)
-    with pytest.raises(SystemExit) as caught:
-        run_raytrace(program, [])
-    assert caught.value.code == 1
+    assert run_raytrace(program, []) == 1
     assert "your program crashed (SIGSEGV: memory" in capsys.readouterr().err
 
 
@@ -90,7 +90,49 @@ def test_a_picture_that_needs_more_than_is_written(
 def test_a_picture_goes_as_far_as_is_written_and_does_without_a_tree(
     project: Project, tmp_path: Path, written: tuple[int, ...], words: list[str], more: list[str]
 ) -> None:
-    assert as_far_as_written(_written(project, tmp_path, *written), words) == more
+    added, said = as_far_as_written(_written(project, tmp_path, *written), words)
+    assert added == more
+    assert said == (f"--step {more[1]}, the last that your steps can draw" if "--step" in more[:1] else "")
+
+
+@pytest.mark.parametrize(("words", "found"), [(["--step", "99"], "99"), (["--step", "x"], "x"), (["--step"], "")])
+def test_a_step_that_is_none_is_all_that_is_told(
+    words: list[str], found: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Neither advice for it nor a build comes first."""
+    assert main(["render", "scene.nff", "-o", "picture.png", *words]) == 2
+    assert capsys.readouterr().err == f"raysteps: --step: expected a whole number from 1 to 9, found '{found}'\n"
+
+
+@pytest.mark.parametrize(("code", "advised"), [(2, False), (0, True)])
+def test_words_that_the_program_refuses_get_no_advice(
+    project: Project,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    code: int,
+    advised: bool,
+) -> None:
+    program = tmp_path / "raytrace-mine"
+    program.write_text(f"#!/bin/sh\nexit {code}\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(render, "build_mine", lambda _: program)
+    words = ["scene.nff", "-o", "picture.png"]
+    assert render.run_words(_written(project, tmp_path, 1, 2), words) == code
+    assert ("--step 2, the last that your steps can draw" in capsys.readouterr().err) == advised
+
+
+def test_only_the_first_build_is_said_to_take_long(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Not each one until the student's steps build."""
+    failed = Outcome(1, timed_out=False, stdout="", stderr="", seconds=1)
+    monkeypatch.setattr(BuildTree, "build", lambda *_: failed)
+    tree = release_tree(_written(project, tmp_path))
+    for said in ("raysteps: building; the first time takes a minute or two\n", ""):
+        with pytest.raises(StudentBuildError):
+            build_mine(tree)
+        assert capsys.readouterr().err == said
 
 
 @pytest.mark.parametrize(

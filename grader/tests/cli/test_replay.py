@@ -16,14 +16,13 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.options import Feedback, Settings
 from raysteps.grading.pipeline import grade_submission
-from raysteps.judge.cases import functions_of
+from raysteps.grading.step import clear
 from raysteps.judge.counterexamples import CaseFile, read_case, write_case
 from raysteps.judge.decode_case import decode_inputs
-from raysteps.judge.functions import Case
+from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
 from raysteps.judge.protocol import ProtocolError
-from raysteps.progress.check import clear
 from raysteps.results.store import place_of
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission
@@ -78,9 +77,14 @@ def test_names_of_files(steps: list[Step]) -> None:
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"line": 5}, r"\$\.line: 5 is not of type 'string'"),
-        ({"line": None}, "'line' is a required property"),
-        ({"schema": "raysteps/case/v9"}, r"\$\.schema: 'raysteps/case/v1' was expected"),
+        ({"line": 5}, r"a case that somebody changed \(line: 5 is not of type 'string'\)"),
+        ({"line": None}, r"a case that somebody changed \('line' is a required property\)"),
+        ({"schema": "raysteps/case/v9"}, "schema: 'raysteps/case/v1' was expected"),
+        (
+            {"schema": "raysteps/class/v1"},
+            r"it is JSON of another kind \(raysteps/class/v1\); expected the file of one",
+        ),
+        ({"schema": None}, "it is other JSON; expected the file of one hidden case, such as cases/02-closest-hit.json"),
         ({"colour": 1}, "colour"),
         ({"step": "09-none"}, "step: expected one of 01-camera-rays, .*found '09-none'"),
         ({"function": "trace"}, "function: expected one of Triangle::intersect, .*found 'trace'"),
@@ -104,6 +108,27 @@ def test_a_file_that_is_no_case(tmp_path: Path, content: bytes) -> None:
     path.write_bytes(content)
     with pytest.raises(UsageError, match=r"odd\.json: .*expected a case as `check` writes it"):
         read_case(path)
+
+
+@pytest.mark.parametrize(
+    ("steps", "said"),
+    [
+        (
+            [{"hidden": [{"case": "cases/02-closest-hit.json"}, {"case": ""}, 7]}, {}, {"hidden": 3}, None],
+            "It names:\n  FOLDER/cases/02-closest-hit.json",
+        ),
+        ([], "It names none: all were right, or none were asked"),
+        (5, "It names none: all were right, or none were asked"),
+    ],
+)
+def test_a_results_file_is_known_and_the_cases_that_it_names_are_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], steps: Any, said: str
+) -> None:
+    path = tmp_path / "results.json"
+    path.write_text(json.dumps({"schema": "raysteps/results/v1", "steps": steps}))
+    assert cli.main(["replay", str(path)]) == 2
+    wanted = "this is a results.json; replay wants the file of one hidden case."
+    assert capsys.readouterr().err == f"raysteps: {path}: {wanted} {said.replace('FOLDER', str(tmp_path))}\n"
 
 
 @pytest.mark.parametrize(("name", "says"), [("nothing.json", "cannot be read"), (".", "a folder; name a file in it")])

@@ -8,7 +8,7 @@ import pytest
 from rich.console import Console
 
 from raysteps.cli import export as exports
-from raysteps.cli.grade_class import add_arguments, read_order
+from raysteps.cli.grade_class import add_arguments, read_options
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project, here
 from raysteps.course.settings import PLACE, Course, read_course
@@ -23,8 +23,8 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def _order(course: Course, *words: str) -> tuple[int, Path | None, bool]:
     parser = argparse.ArgumentParser()
     add_arguments(parser)
-    order = read_order(parser.parse_args(["class", "--out", "out", *words]), "", course)
-    return order.seed, order.late_policy, order.no_late_policy
+    options = read_options(parser.parse_args(["class", "--out", "out", *words]), "", course)
+    return options.seed, options.late_policy, options.no_late_policy
 
 
 def test_without_a_file_nothing_is_settled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

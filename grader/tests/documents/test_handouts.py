@@ -119,6 +119,12 @@ def test_no_handout_gives_a_line_of_the_solution_away(project: Project, step: St
         assert len(code) < 26 or code.startswith("#include") or code not in text, line
 
 
+def test_what_students_read_of_step_01_says_window_as_its_handout_does(project: Project) -> None:
+    texts = [*(project.steps / "01-camera-rays").iterdir(), project.root / "framework" / "core" / "camera.hpp"]
+    assert [path.name for path in texts if "image plane" in path.read_text(encoding="utf-8").lower()] == []
+    assert "window" in _handout(project, _STEPS[0])
+
+
 def test_every_command_line_of_a_handout_can_be_read(project: Project, kit: BuiltKit) -> None:
     raytrace = kit.reference("raytrace")
     seen = set()

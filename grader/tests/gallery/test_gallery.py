@@ -76,10 +76,10 @@ def test_a_scene_that_is_too_large_to_be_traced_without_a_tree_shows_no_work(
     monkeypatch.setattr(reference, "reference_picture", too_slow)
     kit: Any = SimpleNamespace(project=project, steps=steps)
     own = GalleryScene("large", "Large", "", tmp_path / "large.nff")
-    assert reference.reference_efforts(kit, own, lambda words: None) == {}
+    assert reference.reference_work_maps(kit, own, lambda words: None) == {}
     (glass,) = gallery_scenes(project, ["glass"])
     with pytest.raises(GraderFault):
-        reference.reference_efforts(kit, glass, lambda words: None)
+        reference.reference_work_maps(kit, glass, lambda words: None)
 
 
 def test_a_page_is_made_of_the_kits_own_scene(
@@ -118,4 +118,4 @@ def test_steps_that_cannot_be_shown_are_notes_and_the_others_are_shown(
     assert shots[3].note == "The reference stands in for 02 and 03."
     expected = reference_picture(kit, scene.path, ("--step", "4", "--size", _SIZE))
     assert np.array_equal(shots[3].pixels, expected)  # type: ignore[arg-type]
-    assert mine.efforts(scene) == {}
+    assert mine.work_maps(scene) == {}

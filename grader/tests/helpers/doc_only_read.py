@@ -19,16 +19,16 @@ COMMANDS = {
     "./raysteps figures": _FIGURES,
     "./raysteps figures --check": _FIGURES,
     "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
-        "shows a mistake that somebody made; test_inspect_mutants makes such"
+        "shows a mistake that somebody made; test_divergence makes such"
     ),
     "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
-        "needs a cluster; test_class_cluster has one"
+        "needs a cluster; test_cluster has one"
     ),
 }
 
 SOMEBODY_ELSES = {
     "../.venv/bin/python": "runs a test; `test --full` runs all",
-    ".venv/bin/dask": "starts a cluster; test_class_cluster does it",
+    ".venv/bin/dask": "starts a cluster; test_cluster does it",
     ".venv/bin/pip": "installs",
     ".venv/bin/pre-commit": "changes what git does",
     "brew": "installs",

@@ -29,7 +29,7 @@ class Ending:
 
 
 def _on_a_terminal(command: Sequence[str], here: Path, keys: Keys, seconds: float) -> tuple[int, str]:
-    terminal = Terminal(command, cwd=here, patience=seconds)
+    terminal = Terminal(command, cwd=here, timeout=seconds)
     try:
         terminal.wait(keys.after)
         terminal.press(keys.pressed)

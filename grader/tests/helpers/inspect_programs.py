@@ -7,7 +7,7 @@ from raysteps.common.process import run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
-from raysteps.toolchain.description import Description, read_description
+from raysteps.toolchain.link import Description, read_description
 
 _TARGETS = ["inspect-reference", "raytrace-reference"]
 _SECONDS = 300

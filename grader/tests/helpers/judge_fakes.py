@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from raysteps.common.process import Outcome
 from raysteps.common.vectors import Vector
-from raysteps.judge.numbers import text
+from raysteps.judge.protocol import text
 from raysteps.sandbox.task import TaskResult
 
 Answer = Callable[[str, list[float]], str]

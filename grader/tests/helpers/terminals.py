@@ -23,10 +23,10 @@ def _take_the_terminal() -> None:
 
 
 class Terminal:
-    """A pseudo-terminal in which a program runs. Nothing on it is waited for longer than `patience` seconds."""
+    """A pseudo-terminal in which a program runs. Nothing on it is waited for longer than `timeout` seconds."""
 
-    def __init__(self, command: Sequence[str | Path], *, cwd: Path | None = None, patience: float = 90) -> None:
-        self._patience = patience
+    def __init__(self, command: Sequence[str | Path], *, cwd: Path | None = None, timeout: float = 90) -> None:
+        self._timeout = timeout
         self._master, self._slave = os.openpty()
         self.before = termios.tcgetattr(self._slave)
         self._read = b""
@@ -49,13 +49,13 @@ class Terminal:
 
     def wait(self, text: str) -> str:
         """Everything up to this text, which must be new."""
-        until = time.monotonic() + self._patience
+        until = time.monotonic() + self._timeout
         while (found := self.printed.find(text, self._at)) < 0:
             has_ended = self.process.poll() is not None
             if select.select([self._master], [], [], 0.1)[0]:
                 self._read += os.read(self._master, 65536)
             elif has_ended or time.monotonic() > until:
-                why = f"exit code {self.process.returncode}" if has_ended else f"waited for {self._patience} s"
+                why = f"exit code {self.process.returncode}" if has_ended else f"waited for {self._timeout} s"
                 raise AssertionError(f"{why}, and no '{text}' in:\n{self.printed[self._at :]}")
         before, self._at = self.printed[self._at : found], found + len(text)
         return before
@@ -64,7 +64,7 @@ class Terminal:
         os.write(self._master, keys.encode())
 
     def end(self) -> int:
-        return self.process.wait(self._patience)
+        return self.process.wait(self._timeout)
 
     def is_as_before(self) -> bool:
         return termios.tcgetattr(self._slave) == self.before

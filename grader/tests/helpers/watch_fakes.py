@@ -28,11 +28,11 @@ from raysteps.progress.standing import remember
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 WORKER = (sys.executable, str(Path(__file__)), "worker")
-_PATIENCE = 90
+_TIMEOUT = 90
 
 
 def wait_for(what: Callable[[], object], why: str = "it took too long") -> None:
-    end = time.monotonic() + _PATIENCE
+    end = time.monotonic() + _TIMEOUT
     while not what():
         assert time.monotonic() < end, why
         time.sleep(0.02)

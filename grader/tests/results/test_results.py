@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.progress.check import exit_code
+from raysteps.grading.scoring import exit_code
 from raysteps.results.model import ImageResult, Results, StepResult, TestResult
 from raysteps.results.store import validate, write_document
 

@@ -20,8 +20,7 @@ _FLOORS = (
     {"diagnosis", "report"},
     {"grading"},
     {"classroom", "gallery", "progress", "release"},
-    {"exports", "watch"},
-    {"inspector"},
+    {"exports", "inspector", "watch"},
     {"cli"},
     {"__main__", "tools"},
 )

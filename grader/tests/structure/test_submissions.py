@@ -8,7 +8,7 @@ from raysteps.cli.demo import complain_about
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
 from raysteps.course.manifest import Step
-from raysteps.progress.check import clear
+from raysteps.grading.step import clear
 from raysteps.results.model import Results, StepResult
 
 

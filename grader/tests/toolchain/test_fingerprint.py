@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.course.project import Project
-from raysteps.toolchain.fingerprint import fingerprint
+from raysteps.toolchain.build_kit import fingerprint
 
 pytestmark = pytest.mark.portable
 

@@ -129,7 +129,7 @@ def test_a_full_disk(mine: Path, newer: Path, monkeypatch: pytest.MonkeyPatch) -
         return real(path, target)
 
     monkeypatch.setattr(Path, "replace", replacing)
-    with pytest.raises(UsageError, match=r"more\.hpp: No space left on device\. Your work is as it was\. Mend that"):
+    with pytest.raises(UsageError, match=r"more\.hpp: the disk is full\. Your work is as it was\. Mend that"):
         _run(mine, newer)
     monkeypatch.undo()
     assert (mine / PLACE).read_bytes() != (newer / PLACE).read_bytes()

@@ -16,7 +16,7 @@ from raysteps.classroom.class_document import Document, class_document
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.common.csv_safety import escape_formula
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import number
@@ -184,7 +184,7 @@ def _from_facts(path: Path) -> Document:
     try:
         document: Document = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError) as error:
-        raise UsageError(f"{path}: cannot be read as JSON: {error}") from error
+        raise UsageError(f"{path}: cannot be read as JSON: {reason(error)}") from error
     problem = complaint(document, read_schema("raysteps.classroom", "class.schema.json"))
     if problem:
         raise UsageError(f"{path}: is not a class.json of this kit: {problem}")
@@ -197,4 +197,4 @@ def remake_class_page(source: Path) -> Path:
     try:
         return write_class_report(document, source.parent)
     except OSError as error:
-        raise UsageError(f"{source.parent}: class.html cannot be written: {error.strerror or error}") from error
+        raise UsageError(f"{source.parent}: class.html cannot be written: {reason(error)}") from error

@@ -9,7 +9,7 @@ from typing import Any
 
 from raysteps.classroom.jobs import Answer, Job, ProgressCallback, make_grader
 from raysteps.classroom.local_pool import Slot
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import count
 
 # What runs in a worker of a cluster. Each job is graded by a process of its own: a grader that crashes takes no
@@ -111,7 +111,7 @@ def _connect(address: str) -> Any:
     try:
         return distributed.Client(address, timeout=_CONNECT_SECONDS)
     except (OSError, TimeoutError) as error:
-        raise UsageError(f"--scheduler {address}: there is no scheduler that answers ({error})") from error
+        raise UsageError(f"--scheduler {address}: there is no scheduler that answers ({reason(error)})") from error
 
 
 class Cluster:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import printable
 from raysteps.course.manifest import Step
 from raysteps.submission.load import Submission, load_submission
@@ -73,7 +73,7 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
     try:
         paths = sorted(folder.iterdir(), key=lambda path: os.fsencode(path.name))
     except OSError as error:
-        raise UsageError(f"{folder}: expected a folder with one entry per submission: {error.strerror}") from error
+        raise UsageError(f"{folder}: expected a folder with one entry per submission: {reason(error)}") from error
     entries: list[Entry] = []
     ignored: list[str] = []
     known: set[str] = set()

@@ -17,7 +17,7 @@ from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import count, printable, size
 from raysteps.course.manifest import Step
 from raysteps.results.store import read_results, validate
-from raysteps.results.work_ratio import Effort, NoEffort, effort_of
+from raysteps.results.work_ratio import NoWorkRatio, WorkRatio, work_ratio_of
 
 Document = Mapping[str, Any]
 _WANTED = "expected the folder of a graded class, its class.json or class.sqlite, or a results.json"
@@ -123,7 +123,7 @@ class Ranked:
 
     rank: int
     name: str
-    effort: Effort
+    work_ratio: WorkRatio
 
 
 @dataclass(frozen=True)
@@ -146,42 +146,42 @@ class Board:
     @property
     def reference_bytes(self) -> int | None:
         """None where results of several kits do not agree, or nobody is ranked."""
-        known = {one.effort.reference_bytes for one in self.ranked}
+        known = {one.work_ratio.reference_bytes for one in self.ranked}
         return known.pop() if len(known) == 1 else None
 
 
-def _effort(entered: LeaderboardEntry, step: Step) -> Effort | NoEffort:
+def _work_ratio(entered: LeaderboardEntry, step: Step) -> WorkRatio | NoWorkRatio:
     if entered.document is None:
-        return NoEffort(entered.why)
+        return NoWorkRatio(entered.why)
     result = next((result for result in entered.document["steps"] if result["id"] == step.id), None)
-    return NoEffort("the step was not graded") if result is None else effort_of(result, step.limited_pictures)
+    return NoWorkRatio("the step was not graded") if result is None else work_ratio_of(result, step.limited_pictures)
 
 
-def _standing(effort: Effort) -> tuple[float, int]:
-    return effort.relative, effort.bytes
+def _standing(work_ratio: WorkRatio) -> tuple[float, int]:
+    return work_ratio.relative, work_ratio.bytes
 
 
-def _in_place(efforts: Sequence[tuple[str, Effort]]) -> list[Ranked]:
+def _in_place(work_ratios: Sequence[tuple[str, WorkRatio]]) -> list[Ranked]:
     """Names come last: among equals their order must tell nothing, should they be hidden."""
-    ordered = sorted(efforts, key=lambda one: (*_standing(one[1]), *one[1].pictures.values(), one[0]))
-    places = [_standing(effort) for _, effort in ordered]
-    return [Ranked(places.index(_standing(effort)) + 1, name, effort) for name, effort in ordered]
+    ordered = sorted(work_ratios, key=lambda one: (*_standing(one[1]), *one[1].pictures.values(), one[0]))
+    places = [_standing(work_ratio) for _, work_ratio in ordered]
+    return [Ranked(places.index(_standing(work_ratio)) + 1, name, work_ratio) for name, work_ratio in ordered]
 
 
 def rank(entered: Sequence[LeaderboardEntry], step: Step) -> Board:
     """Least work first, then least memory. The same results give the same board, in whatever order they come."""
-    efforts: list[tuple[str, Effort]] = []
+    work_ratios: list[tuple[str, WorkRatio]] = []
     others: list[NotRanked] = []
     kits: set[str] = set()
     for one in entered:
-        effort = _effort(one, step)
-        if isinstance(effort, NoEffort):
-            others.append(NotRanked(one.name, effort.reason))
+        work_ratio = _work_ratio(one, step)
+        if isinstance(work_ratio, NoWorkRatio):
+            others.append(NotRanked(one.name, work_ratio.reason))
             continue
-        efforts.append((one.name, effort))
+        work_ratios.append((one.name, work_ratio))
         kits |= {one.document["kit"]} if one.document is not None else set()
     others.sort(key=lambda other: (other.reason, other.name))
-    return Board(step, _in_place(efforts), others, sorted(kits))
+    return Board(step, _in_place(work_ratios), others, sorted(kits))
 
 
 # A board as a table, and all boards as JSON.
@@ -203,9 +203,11 @@ def _table(board: Board, width: int, *, anonymous: bool) -> Table:
     for heading in ("work", *pictures, "memory"):
         table.add_column(escape(heading), justify="right", no_wrap=True)
     for one in board.ranked:
-        works = (f"{value:.3f}" for value in (one.effort.relative, *(one.effort.pictures[name] for name in pictures)))
+        works = (
+            f"{value:.3f}" for value in (one.work_ratio.relative, *(one.work_ratio.pictures[name] for name in pictures))
+        )
         name = _HIDDEN if anonymous else escape(printable(one.name))
-        table.add_row(str(one.rank), name, *works, size(one.effort.bytes))
+        table.add_row(str(one.rank), name, *works, size(one.work_ratio.bytes))
     if board.reference_bytes is not None:
         ones = ["1.000"] * (1 + len(pictures))
         table.add_row("", "the reference", *ones, size(board.reference_bytes), style="dim")
@@ -257,9 +259,9 @@ def _board(board: Board, *, anonymous: bool) -> dict[str, Any]:
             {
                 "rank": one.rank,
                 "name": None if anonymous else one.name,
-                "work": one.effort.relative,
-                "bytes": one.effort.bytes,
-                "pictures": dict(one.effort.pictures),
+                "work": one.work_ratio.relative,
+                "bytes": one.work_ratio.bytes,
+                "pictures": dict(one.work_ratio.pictures),
             }
             for one in board.ranked
         ],

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from raysteps.classroom.entry_names import folded, platform_identity, stem
 from raysteps.common.csv_safety import delimiter_of
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, printable
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
@@ -85,7 +85,7 @@ def _text(path: Path) -> str:
         with path.open("rb") as file:
             data = file.read(_MAX_BYTES + 1)
     except OSError as error:
-        raise UsageError(f"{path}: the roster cannot be read: {error.strerror}") from error
+        raise UsageError(f"{path}: the roster cannot be read: {reason(error)}") from error
     if len(data) > _MAX_BYTES:
         raise UsageError(f"{path}: is larger than {_MAX_BYTES >> 20} MB; expected a roster")
     try:

@@ -17,7 +17,7 @@ from raysteps.classroom.entry_names import name_entries
 from raysteps.classroom.jobs import KIT_GRADER
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
@@ -74,8 +74,7 @@ def read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        why = "is not UTF-8" if isinstance(error, UnicodeDecodeError) else error.strerror
-        raise UsageError(f"{path}: the late policy cannot be read: {why}") from error
+        raise UsageError(f"{path}: the late policy cannot be read: {reason(error)}") from error
 
 
 # What the last run was given beside the submissions: a --resume that does not name it anew uses it again.
@@ -130,22 +129,22 @@ def _used_again(last: _Last, out: Path, option: str, what: str) -> str:
     return f"{what} of the last run in {out} is used again; {option} FILE takes another one, {option} none drops it"
 
 
-def read_run_inputs(order: ClassOptions) -> RunInputs:
+def read_run_inputs(options: ClassOptions) -> RunInputs:
     """The roster and the late policy that were named, else with --resume those of the last run."""
-    last = _last(order.out) if order.resume else _Last()
-    given = RunInputs(files=[path for path in (order.roster, order.late_policy) if path is not None] + last.files)
-    if order.late_policy is not None:
-        given.late_policy = read_text(order.late_policy)
-        parse_late_policy(given.late_policy, str(order.late_policy))
-    elif last.late_policy and not order.no_late_policy:
+    last = _last(options.out) if options.resume else _Last()
+    given = RunInputs(files=[path for path in (options.roster, options.late_policy) if path is not None] + last.files)
+    if options.late_policy is not None:
+        given.late_policy = read_text(options.late_policy)
+        parse_late_policy(given.late_policy, str(options.late_policy))
+    elif last.late_policy and not options.no_late_policy:
         given.late_policy = last.late_policy
-        given.said.append(_used_again(last, order.out, "--late-policy", "the late policy"))
-    if order.roster is not None:
-        given.students = read_roster(order.roster)
-    elif last.students and not order.no_roster:
+        given.said.append(_used_again(last, options.out, "--late-policy", "the late policy"))
+    if options.roster is not None:
+        given.students = read_roster(options.roster)
+    elif last.students and not options.no_roster:
         given.students = last.students
         what = f"the roster ({count(len(last.students), 'student')})"
-        given.said.append(_used_again(last, order.out, "--roster", what))
+        given.said.append(_used_again(last, options.out, "--roster", what))
     return given
 
 
@@ -153,7 +152,7 @@ def read_run_inputs(order: ClassOptions) -> RunInputs:
 class Plan:
     """`entries` are those of this shard, with their names."""
 
-    order: ClassOptions
+    options: ClassOptions
     steps: list[Step]
     chosen: list[Step]
     listing: Listing
@@ -173,20 +172,20 @@ class Plan:
     def grading(self) -> dict[str, Any]:
         """Beside the kit and the submission, all that a grade depends on. The database keeps everything that is known;
         what a student is not to see is left out when results.json is made from it."""
-        only = [step.id for step in self.chosen] if self.order.only else []
-        return {"seed": self.order.seed, "only": only, "feedback": "full", "limits": self.order.limits}
+        only = [step.id for step in self.chosen] if self.options.only else []
+        return {"seed": self.options.seed, "only": only, "feedback": "full", "limits": self.options.limits}
 
     @property
     def settings(self) -> dict[str, Any]:
         """As the instructor gave them."""
-        return {**self.grading, "feedback": self.order.feedback}
+        return {**self.grading, "feedback": self.options.feedback}
 
     def facts(self, kit: str) -> RunFacts:
         columns = [
             {"id": step.id, "title": step.title, "points": step.points, "bonus": step.bonus} for step in self.chosen
         ]
-        folder = str(self.order.folder.resolve()).encode("utf-8", "backslashreplace").decode()
-        shard = str(self.order.shard)
+        folder = str(self.options.folder.resolve()).encode("utf-8", "backslashreplace").decode()
+        shard = str(self.options.shard)
         files = [os.path.realpath(path) for path in self.given.files]
         return RunFacts(
             *(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored),
@@ -203,7 +202,7 @@ class Plan:
             said = times.get(at, [])
             when = said[-1][0] if said else newest_time(entry.path)
             source = "roster" if said else "files" if when else ""
-            scope: Scope = "here" if self.order.shard.holds(entry.label) else "elsewhere"
+            scope: Scope = "here" if self.options.shard.holds(entry.label) else "elsewhere"
             note = self.matches.entry_notes.get(at, "")
             if len(said) > 1:
                 times_said = ", ".join(time for _, time in said)
@@ -240,15 +239,15 @@ class Plan:
         return rows
 
     def mine(self) -> list[Entry]:
-        return [entry for entry in self.listing.entries if self.order.shard.holds(entry.label)]
+        return [entry for entry in self.listing.entries if self.options.shard.holds(entry.label)]
 
 
-def make_plan(project: Project, order: ClassOptions) -> Plan:
+def make_plan(project: Project, options: ClassOptions) -> Plan:
     """Everything that can be wrong with the inputs is found here."""
-    check_places(order.folder, order.out, resume=order.resume)
+    check_places(options.folder, options.out, resume=options.resume)
     steps = read_steps(project)
-    chosen = choose(steps, list(order.only))
-    given = read_run_inputs(order)
-    listing = list_entries(order.folder, given.files)
+    chosen = choose(steps, list(options.only))
+    given = read_run_inputs(options)
+    listing = list_entries(options.folder, given.files)
     matches = match([entry.label for entry in listing.entries], given.students)
-    return Plan(order, steps, chosen, listing, given, matches)
+    return Plan(options, steps, chosen, listing, given, matches)

@@ -117,19 +117,21 @@ class Session:
                 self._record(Answer(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
                 continue
             key = submission_key(taken.submission, self.kit, self.plan.grading)
-            if self.plan.order.resume and self._is_done(name, key):
+            if self.plan.options.resume and self._is_done(name, key):
                 self.reused.append(name)
                 self.meter.skip()
                 continue
             self._pending[name] = _Pending(key, taken.unreadable)
-            order = self.plan.order
-            yield Job(taken.submission, self.plan.grading, order.grader, self.kit, order.require_sandbox, self.plan.uid)
+            options = self.plan.options
+            yield Job(
+                taken.submission, self.plan.grading, options.grader, self.kit, options.require_sandbox, self.plan.uid
+            )
 
     def _is_done(self, name: str, key: str) -> bool:
         current = self.database.current(name)
         if current is None or current["status"] == "fault" or current["key"] != key:
             return False
-        return not self.plan.order.require_sandbox or bool(json.loads(current["document"])["isolation"]["strong"])
+        return not self.plan.options.require_sandbox or bool(json.loads(current["document"])["isolation"]["strong"])
 
     def _record(self, answer: Answer, pending: _Pending) -> None:
         if answer.document is not None:
@@ -139,9 +141,9 @@ class Session:
                 answer = Answer(answer.name, "fault", fault=str(fault), seconds=answer.seconds, worker=answer.worker)
         if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
             if not self.recorded:
-                withdraw_tables(self.plan.order.out)
+                withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)
-            write_submission(self.database, self.plan.order.out, answer.name)
+            write_submission(self.database, self.plan.options.out, answer.name)
             total = answer.document["total"] if answer.document is not None else None
             points = (
                 f"{number(total['points'])} of {number(total['max'])} points"

@@ -1,18 +1,24 @@
-"""The commands of ./raysteps. Each has a module of its own, which is imported when the command is typed."""
+"""The commands of ./raysteps, and how they end. Each has a module of its own, imported when the command is typed."""
 
 import argparse
 import os
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import takewhile
 from types import ModuleType
-from typing import Literal
+from typing import Any, Literal
+
+from rich.console import Console
 
 from raysteps import __version__
-from raysteps.cli.errors import EXITS, console_here, exit_code_of
+from raysteps.common.errors import RaystepsError
 from raysteps.course.project import Project, here
 
+EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
+130 interrupted"""
 Kit = Literal["any", "whole", "students"]
 
 
@@ -75,9 +81,37 @@ def _module(project: Project, command: Command) -> ModuleType:
     return import_module(command.module)
 
 
+def _nearest(word: str, known: Iterable[str]) -> str:
+    """What may have been meant, as the end of a sentence."""
+    from difflib import get_close_matches  # rarely
+
+    return "".join(f"; did you mean {name}?" for name in get_close_matches(word, list(known), n=1))
+
+
+class _Parser(argparse.ArgumentParser):
+    """Of one command: it refuses what it does not know itself, with its own usage. argparse hands that up to the
+    parser of all commands, which knows nothing of it, and asks first for what is missing."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        if self._subparsers is None:
+            options = takewhile(lambda word: word != "--", args or ())  # what comes after it is none
+            self._refuse_unknown(word for word in options if re.fullmatch("--[^ ]+", word))
+        known, left = super().parse_known_args(args, namespace)
+        self._refuse_unknown(word for word in left if word.startswith("-"))
+        if left:
+            self.error(f"'{left[0]}': expected nothing more")
+        return known, left
+
+    def _refuse_unknown(self, words: Iterable[str]) -> None:
+        names = self._option_string_actions
+        for option in (word.partition("=")[0] for word in words):
+            if not any(name.startswith(option) for name in names):  # argparse takes the beginning of one, too
+                self.error(f"{option}: there is no such option{_nearest(option, names)}")
+
+
 def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentParser:
     """Of all commands; with `only`, the arguments of no other command are known, which saves importing it."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="raysteps",
         description="A ray tracer in graded steps.",
         epilog=EXITS,
@@ -94,6 +128,51 @@ def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentPa
     return parser
 
 
+# How a command ends: with what exit code, and with what words when something went wrong.
+
+_NO_TERMINAL = 10_000  # columns
+_SIGPIPE = 128 + 13  # as a shell has it of programs that a closed pipe ends
+
+
+class _Console(Console):
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError  # not an exit code of 1: see `exit_code_of`
+
+
+def console_here() -> Console:
+    """As wide as the terminal; where there is none, lines are not broken."""
+    return _Console() if sys.stdout.isatty() else _Console(width=_NO_TERMINAL)
+
+
+def _reader_is_gone(error: BaseException) -> bool:
+    """Whether who reads what is printed has read enough, as `head` does. Then nothing more is printed."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        pass
+    else:
+        return isinstance(error, BrokenPipeError)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return True
+
+
+def exit_code_of(error: BaseException) -> int:
+    """Says what went wrong; SystemExit and the like are none of its business, and with RAYSTEPS_DEBUG no fault is."""
+    if _reader_is_gone(error):
+        return _SIGPIPE
+    if isinstance(error, RaystepsError):
+        print(f"raysteps: {error}", file=sys.stderr)
+        return error.exit_code
+    if isinstance(error, KeyboardInterrupt):
+        print("raysteps: interrupted", file=sys.stderr)
+        return 130
+    if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):
+        raise error
+    Console(stderr=True).print_exception(max_frames=4)
+    print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
+    return 4
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code; without words it prints the help."""
     project = here()
@@ -102,6 +181,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if command is None:
             parser = new_parser(project, "")
+            if words and not words[0].startswith("-"):
+                names = [one.name for one in _commands(project)]
+                parser.error(f"{words[0]}: there is no such command{_nearest(words[0], names)} See ./raysteps --help")
             if words:
                 parser.parse_args(words)  # which says what is wrong with them, or prints the help
             parser.print_help(sys.stderr)
@@ -111,6 +193,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             code: int = module.run_words(project, words[1:])
         else:
             code = module.run(project, new_parser(project, command.name).parse_args(words), console_here())
+        sys.stdout.flush()
         return code
     except BaseException as error:
         return exit_code_of(error)

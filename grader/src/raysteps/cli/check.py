@@ -6,7 +6,8 @@ from rich.console import Console
 
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
-from raysteps.progress.check import check_steps, exit_code
+from raysteps.grading.scoring import exit_code
+from raysteps.progress.check import check_steps
 from raysteps.report.terminal import print_details, print_files, print_table, progress
 from raysteps.report.wording import replay_command
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.course.project import Project
 from raysteps.images.compare import (
     TOLERANCE,
@@ -28,13 +28,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", dest="out", type=Path, metavar="FILE.png", help="the difference, 8 times as bright")
 
 
+_EXPECTED = "expected a picture as `./raysteps render` writes it, .png or .ppm"
+
+
 def _read(path: Path) -> Pixels:
+    if not path.is_file():
+        what = "is a folder" if path.is_dir() else "there is no such file"
+        raise UsageError(f"{path}: {what}; {_EXPECTED}")
     try:
-        if path.suffix.lower() == ".ppm":
-            return read_ppm(path)
-        return read_png(path)
-    except (OSError, ValueError, PictureError) as error:
-        raise UsageError(f"{path}: expected a picture, .png or .ppm: {error}") from error
+        path.open("rb").close()
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {reason(error)}; {_EXPECTED}") from error
+    try:
+        return (read_ppm if path.suffix.lower() == ".ppm" else read_png)(path)
+    except PictureError as error:
+        raise UsageError(f"{path}: {error}; {_EXPECTED}") from error
+    except (OSError, ValueError, SyntaxError) as error:  # in the words of a library
+        raise UsageError(f"{path}: is no PNG, or only a part of one; {_EXPECTED}") from error
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -56,6 +66,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         try:
             write_png(difference(mine, reference), arguments.out)
         except OSError as error:
-            raise UsageError(f"{arguments.out}: cannot be written: {error.strerror or error}") from error
+            raise UsageError(f"{arguments.out}: cannot be written: {reason(error)}") from error
         console.print(f"Difference: {escape(str(arguments.out))}", soft_wrap=True, highlight=False)
     return 1 if wrong else 0

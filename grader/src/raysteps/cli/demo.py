@@ -59,6 +59,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         console.print(f"  {escape(str(path))}", soft_wrap=True, highlight=False)
     for sample in ("complete", "partial"):
         console.print(f"\nGrading the sample submission [bold]{sample}[/bold].")
-        wish = GradeOptions(project.samples / sample, folder / sample, details=sample == "partial")
-        complain_about(sample, grade(project, wish, console))
+        options = GradeOptions(project.samples / sample, folder / sample, details=sample == "partial")
+        complain_about(sample, grade(project, options, console))
     return 0

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
+from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
@@ -26,7 +27,7 @@ from raysteps.exports.autograders import (
 )
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.class_results import GradedStudent, moodle_cell, read_class, results_of
-from raysteps.exports.formats import validate, write, write_out
+from raysteps.exports.formats import validate, write
 from raysteps.exports.gradebook import MOODLE_COLUMNS, canvas, fill, moodle, read_sheet
 from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
 from raysteps.exports.hosted import Options, by_id

@@ -10,13 +10,12 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import usable_folder
+from raysteps.common.files import usable_folder, write_out
 from raysteps.common.text import size as shown_size
 from raysteps.course.project import Project
-from raysteps.exports.formats import write_out
 from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
 from raysteps.gallery.scenes import CHOSEN, GalleryScene, gallery_scenes
-from raysteps.gallery.shots import MySteps, my_steps, reference_efforts, reference_shots
+from raysteps.gallery.shots import MySteps, my_steps, reference_shots, reference_work_maps
 from raysteps.report.terminal import progress, short_path
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
@@ -46,21 +45,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", type=_size, default=SIZE, metavar="WxH", help=f"of the pictures ({SIZE})")
 
 
-def _hang(kit: BuiltKit, scene: GalleryScene, size: str, own: MySteps | None, say: ProgressCallback) -> GalleryEntry:
+def _entry(kit: BuiltKit, scene: GalleryScene, size: str, own: MySteps | None, say: ProgressCallback) -> GalleryEntry:
     shots = reference_shots(kit, scene, size, say)
-    efforts = reference_efforts(kit, scene, say)
+    work_maps = reference_work_maps(kit, scene, say)
     if own is None:
-        return GalleryEntry(scene, shots, efforts)
+        return GalleryEntry(scene, shots, work_maps)
     mine = []
     for step in kit.steps:
         say(f"{scene.name}: your step {step.number}")
         mine.append(own.shot(step, scene, size))
-    return GalleryEntry(scene, shots, efforts, mine, own.efforts(scene))
+    return GalleryEntry(scene, shots, work_maps, mine, own.work_maps(scene))
 
 
 def _notes(scenes: Sequence[GalleryEntry], kit: BuiltKit) -> list[str]:
     """Of steps without a picture; each note once."""
-    pairs = [(step, shot) for hung in scenes for step, shot in zip(kit.steps, hung.mine, strict=False)]
+    pairs = [(step, shot) for entries in scenes for step, shot in zip(kit.steps, entries.mine, strict=False)]
     return list(dict.fromkeys(f"{step.id}: {shot.note}" for step, shot in pairs if shot.pixels is None))
 
 
@@ -75,12 +74,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         say = progress(console, status)
         kit = build_kit(project, say)
         own = stack.enter_context(my_steps(kit, say)) if arguments.mine else None
-        hung = [_hang(kit, scene, arguments.size, own, say) for scene in scenes]
+        entries = [_entry(kit, scene, arguments.size, own, say) for scene in scenes]
         say("writing the page")
-        page = gallery_page(kit.steps, hung).encode("utf-8", "replace")
+        page = gallery_page(kit.steps, entries).encode("utf-8", "replace")
     path = out / "index.html"
     write_out(path, page)
-    for note in _notes(hung, kit):
+    for note in _notes(entries, kit):
         console.print(f"No picture of {note}", markup=False, highlight=False, soft_wrap=True)
     console.print(f"Gallery: {escape(short_path(path.resolve()))} ({shown_size(len(page))})", soft_wrap=True)
     return 0

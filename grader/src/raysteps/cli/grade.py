@@ -16,7 +16,8 @@ from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
-from raysteps.progress.check import clear, exit_code
+from raysteps.grading.scoring import exit_code
+from raysteps.grading.step import clear
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
@@ -63,30 +64,32 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
     seed = read_course(project).seed_or(arguments.seed)
     settings = Settings(seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
-    wish = GradeOptions(arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs)
-    return exit_code(grade(project, wish, console))
+    options = GradeOptions(
+        arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs
+    )
+    return exit_code(grade(project, options, console))
 
 
-def grade(project: Project, wish: GradeOptions, console: Console) -> Results:
+def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
 
     def again(case: str) -> str:
-        words = ["replay", short_path(out / case), "--submission", str(wish.submission)]
+        words = ["replay", short_path(out / case), "--submission", str(options.submission)]
         return f"{own_command()} {quote_command(words)}"
 
-    sandbox = find_sandbox(require=wish.require_sandbox)
-    out = (wish.out or project.build / "grade" / submission_name(wish.submission)).resolve()
+    sandbox = find_sandbox(require=options.require_sandbox)
+    out = (options.out or project.build / "grade" / submission_name(options.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
     with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
         say = progress(console, status)
-        submission = load_submission(wish.submission, read_steps(project))
+        submission = load_submission(options.submission, read_steps(project))
         kit = build_kit(project, say)
         clear(out, kit.steps, kit.steps)
-        settings = replace(wish.settings, jobs=wish.jobs or os.cpu_count() or 1)
+        settings = replace(options.settings, jobs=options.jobs or os.cpu_count() or 1)
         results = grade_submission(kit, submission, settings, sandbox, out, say)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
-    if wish.details:
+    if options.details:
         print_details(console, results, kit.steps, out, again)
         console.print()
     print_table(console, results)

@@ -76,7 +76,7 @@ def _file(word: str | None) -> Path | None:
     return None if word is None or word == _NONE else Path(word)
 
 
-def read_order(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> ClassOptions:
+def read_options(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> ClassOptions:
     """What is not said is as course.toml says."""
     if arguments.folder is None:
         raise UsageError("grade-class: expected a folder of submissions (or --merge)")
@@ -112,28 +112,28 @@ def _plain(value: float) -> str:
     return format(Decimal(repr(value)), "f").removesuffix(".0")
 
 
-def line_to_go_on(order: ClassOptions) -> str:
+def line_to_go_on(options: ClassOptions) -> str:
     """The line that goes on with the same run."""
-    words: list[str] = ["./raysteps", "grade-class", str(order.folder), "--out", str(order.out)]
+    words: list[str] = ["./raysteps", "grade-class", str(options.folder), "--out", str(options.out)]
     for option, path, dropped in (
-        ("--roster", order.roster, order.no_roster),
-        ("--late-policy", order.late_policy, order.no_late_policy),
+        ("--roster", options.roster, options.no_roster),
+        ("--late-policy", options.late_policy, options.no_late_policy),
     ):
         named = f"./{path}" if str(path) == _NONE else str(path)
         words += [option, named] if path is not None else [option, _NONE] if dropped else []
-    if order.scheduler:
-        words += ["--scheduler", order.scheduler]
+    if options.scheduler:
+        words += ["--scheduler", options.scheduler]
     else:
-        words += ["--jobs", str(order.jobs)]
-    if order.seed != 1:
-        words += ["--seed", str(order.seed)]
-    if order.feedback != "full":
-        words += ["--feedback", order.feedback]
-    for name, value in order.limits.items():
+        words += ["--jobs", str(options.jobs)]
+    if options.seed != 1:
+        words += ["--seed", str(options.seed)]
+    if options.feedback != "full":
+        words += ["--feedback", options.feedback]
+    for name, value in options.limits.items():
         words += ["--limit", f"{name}={_plain(value)}"]
-    words += ["--require-sandbox"] if order.require_sandbox else []
-    words += ["--shard", str(order.shard)] if order.shard != Shard() else []
-    words += ["--only", *order.only] if order.only else []
+    words += ["--require-sandbox"] if options.require_sandbox else []
+    words += ["--shard", str(options.shard)] if options.shard != Shard() else []
+    words += ["--only", *options.only] if options.only else []
     return shlex.join([*words, "--resume"])
 
 
@@ -159,24 +159,24 @@ def _finish(console: Console, database: ClassDatabase, out: Path, done: Containe
 
 
 def _runner(plan: Plan, kit: str, meter: ProgressMeter) -> Runner:
-    order = plan.order
-    if not order.scheduler:
-        return LocalPool(order.jobs)
-    sandbox = order.require_sandbox
-    return Cluster(order.scheduler, plan.uid, kit, order.grader, require_sandbox=sandbox, say=meter.say)
+    options = plan.options
+    if not options.scheduler:
+        return LocalPool(options.jobs)
+    sandbox = options.require_sandbox
+    return Cluster(options.scheduler, plan.uid, kit, options.grader, require_sandbox=sandbox, say=meter.say)
 
 
-def _prepare(order: ClassOptions, meter: ProgressMeter) -> Grader:
+def _prepare(options: ClassOptions, meter: ProgressMeter) -> Grader:
     """The kit of this machine: its fingerprint is what every result is held against."""
-    sandbox = order.require_sandbox and not order.scheduler
-    grader = make_grader(order.grader, require_sandbox=sandbox, say=meter.say)
-    if not order.scheduler:
+    sandbox = options.require_sandbox and not options.scheduler
+    grader = make_grader(options.grader, require_sandbox=sandbox, say=meter.say)
+    if not options.scheduler:
         meter.say(grader.isolation.description)
     return grader
 
 
-def _again(order: ClassOptions) -> str:
-    return f"To go on:\n  {line_to_go_on(order)}"
+def _again(options: ClassOptions) -> str:
+    return f"To go on:\n  {line_to_go_on(options)}"
 
 
 def _interrupted(console: Console, again: str) -> int:
@@ -185,10 +185,10 @@ def _interrupted(console: Console, again: str) -> int:
 
 
 def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -> int:
-    order = plan.order
-    again = _again(order)
+    options = plan.options
+    again = _again(options)
     runner = _runner(plan, grader.fingerprint, meter)
-    with closing(ClassDatabase(order.out)) as database:
+    with closing(ClassDatabase(options.out)) as database:
         registered = plan.registered(database.names())
         run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
         names = {row.entry: row.name for row in registered}
@@ -198,9 +198,9 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
                 complete = session.grade(runner)
         except GraderFault as fault:
             if session.recorded:
-                _finish(console, database, order.out, session.recorded)
+                _finish(console, database, options.out, session.recorded)
             raise GraderFault(f"{fault}\n{again}") from fault
-        document = _finish(console, database, order.out, session.recorded)
+        document = _finish(console, database, options.out, session.recorded)
     if not complete:
         return _interrupted(console, again)
     return GraderFault.exit_code if document["faults"] else 0
@@ -225,14 +225,14 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
     if arguments.merge:
         refuse_beside_merge(arguments)
         return _merge(console, arguments.merge, arguments.out)
-    plan = make_plan(project, read_order(arguments, grader, read_course(project)))
-    with _only_one(plan.order.out):
+    plan = make_plan(project, read_options(arguments, grader, read_course(project)))
+    with _only_one(plan.options.out):
         meter = ProgressMeter(console, len(plan.mine()))
         for words in plan.given.said:
             meter.say(words)
         try:
             with terminated_as_interrupted():
-                made = _prepare(plan.order, meter)
+                made = _prepare(plan.options, meter)
         except KeyboardInterrupt:
-            return _interrupted(console, _again(plan.order))
+            return _interrupted(console, _again(plan.options))
         return _grade(console, plan, made, meter)

@@ -11,10 +11,10 @@ from rich.markup import escape
 from raysteps.cli.render import build_program, whose
 from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
 from raysteps.common.errors import UsageError
+from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
-from raysteps.exports.formats import encoded, write_out
 from raysteps.inspector.pixel_page import write_page
 from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
 from raysteps.inspector.records import Difference, Record
@@ -50,19 +50,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")
 
 
-def _wish(project: Project, arguments: argparse.Namespace) -> InspectOptions:
+def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
     steps = read_steps(project)
+    if arguments.step is not None:
+        arguments.step = str(choose(steps, [arguments.step])[0].index)
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
     if arguments.impl == "mine":
-        words += as_far_as_written(project, words)
+        more, said = as_far_as_written(project, words)
+        words += more
+        if said:
+            print(f"raysteps: {said}", file=sys.stderr)
     at = words.index("--step") if "--step" in words else len(words)
     (step,) = choose(steps, words[at + 1 : at + 2] or [str(usual_step(project))])
     return InspectOptions(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
 
 
-def _say_unfinished(project: Project, wish: InspectOptions) -> None:
-    left = unfinished(project, wish.step)
+def _say_unfinished(project: Project, options: InspectOptions) -> None:
+    left = unfinished(project, options.step)
     if left and left[0][0].index == 1 and len(left[0][1]) == len(left[0][0].functions):
         file = f"steps/{left[0][0].path.as_posix()}"
         other = ", or look at the reference: --impl reference" if project.has_reference else ""
@@ -73,9 +78,9 @@ def _say_unfinished(project: Project, wish: InspectOptions) -> None:
         print(f"raysteps: step {step.number}: {join_and(functions)} not written yet", file=sys.stderr)
 
 
-def _tell_problem(inspected: InspectResult, program: Path, wish: InspectOptions) -> None:
-    good = last_good_step(program, wish)
-    up_to = f" With --step {good} it comes to its end." if 0 < good < wish.step else ""
+def _tell_problem(inspected: InspectResult, program: Path, options: InspectOptions) -> None:
+    good = last_good_step(program, options)
+    up_to = f" With --step {good} it comes to its end." if 0 < good < options.step else ""
     print(f"raysteps: {whose(program)} {inspected.problem}{up_to}", file=sys.stderr)
 
 
@@ -87,7 +92,7 @@ def _write_json(arguments: argparse.Namespace, inspected: InspectResult, console
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when the pixel could be followed and, where two are compared, they agree."""
-    wish = _wish(project, arguments)
+    options = _options(project, arguments)
     if (arguments.against or arguments.impl == "reference") and not project.has_reference:
         raise UsageError("a students' kit has no reference to inspect; pictures made with it lie in reference/")
     if arguments.against and arguments.impl == "reference":
@@ -95,18 +100,18 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if not Path(arguments.scene).is_file():
         raise UsageError(f"{arguments.scene}: expected a scene, found no file of that name")
     if arguments.impl == "mine":
-        _say_unfinished(project, wish)
+        _say_unfinished(project, options)
 
     tree = release_tree(project)
     program = build_program(tree, "inspect", arguments.impl)
     reference = build_program(tree, "inspect", "reference") if arguments.against else None
-    inspected = inspect(program, wish)
+    inspected = inspect(program, options)
     if inspected.problem:
-        _tell_problem(inspected, program, wish)
+        _tell_problem(inspected, program, options)
         return 1
     _write_json(arguments, inspected, console)
     if reference is not None:
-        return compare(project, inspected, inspect(reference, wish), console, arguments.html)
+        return compare(project, inspected, inspect(reference, options), console, arguments.html)
     assert inspected.record is not None
     sys.stdout.write(inspected.text)
     _write_html(arguments.html, console, inspected.record)
@@ -118,10 +123,10 @@ def _write_html(
     console: Console,
     record: Record,
     reference: Record | None = None,
-    parting: Difference | None = None,
+    divergence: Difference | None = None,
 ) -> None:
     if path is not None:
-        write_page(record, reference, parting, path)
+        write_page(record, reference, divergence, path)
         console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
 
 
@@ -136,8 +141,8 @@ def compare(
     assert mine.record is not None
     if reference.record is None:
         raise UsageError(f"the reference's program {reference.problem}")
-    parting = find_divergence(mine.record, reference.record)
-    print_trees(console, mine.record, reference.record, parting)
-    print_verdict(console, read_steps(project), mine.record, reference.record, parting)
-    _write_html(html, console, mine.record, reference.record, parting)
-    return 0 if parting is None else 1
+    divergence = find_divergence(mine.record, reference.record)
+    print_trees(console, mine.record, reference.record, divergence)
+    print_verdict(console, read_steps(project), mine.record, reference.record, divergence)
+    _write_html(html, console, mine.record, reference.record, divergence)
+    return 0 if divergence is None else 1

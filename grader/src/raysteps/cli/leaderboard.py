@@ -8,10 +8,10 @@ from rich.markup import escape
 
 from raysteps.classroom.leaderboard import print_board, print_caption, rank, read_entries, to_json
 from raysteps.common.errors import UsageError
+from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
-from raysteps.exports.formats import encoded, write_out
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

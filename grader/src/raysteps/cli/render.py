@@ -29,6 +29,7 @@ from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
 
 _FAILED = re.compile(r"^FAILED: .*$", re.MULTILINE)
 _USUAL = "It does not build: "
+_USAGE = UsageError.exit_code
 
 
 def _failed_step(steps: list[Step], said: str) -> Step | None:
@@ -88,16 +89,24 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
     return impl, rest
 
 
-def _say(text: str) -> None:
-    print(f"raysteps: {text}; the first time takes a minute or two", file=sys.stderr, flush=True)
+def _say(text: str, *, first: bool = True) -> None:
+    print(f"raysteps: {text}{'; the first time takes a minute or two' if first else ''}", file=sys.stderr, flush=True)
+
+
+def _build(tree: BuildTree, target: str) -> Outcome:
+    """Says that it takes a while, once: after an error of the student's, too, the next build is not the first."""
+    begun = tree.folder / "begun" / target
+    if not (begun.exists() or tree.program(target).exists()):
+        _say("building")
+    with tree.locked():
+        begun.parent.mkdir(parents=True, exist_ok=True)
+        begun.touch()
+        return tree.build([target])
 
 
 def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
     """Builds a program from the student's steps; what the compiler says is told only when that fails."""
-    if not tree.program(target).exists():
-        _say("building")
-    with tree.locked():
-        outcome = tree.build([target])
+    outcome = _build(tree, target)
     if outcome.code != 0:
         raise StudentBuildError(why_own_steps_do_not_build(tree.project, outcome))
     return tree.program(target)
@@ -105,10 +114,7 @@ def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
 
 def build_reference(tree: BuildTree, target: str) -> Path:
     """Builds a program from the reference's steps."""
-    if not tree.program(target).exists():
-        _say("building")
-    with tree.locked():
-        outcome = tree.build([target])
+    outcome = _build(tree, target)
     if outcome.code != 0:
         raise GraderFault(f"{target} does not build:\n{what_failed(outcome)}")
     return tree.program(target)
@@ -124,15 +130,14 @@ def whose(program: Path) -> str:
     return "your program" if program.stem.endswith("-mine") else "the reference's program"
 
 
-def run_raytrace(program: Path, args: list[str]) -> None:
-    """Runs the program on this terminal, so that its progress bar shows."""
+def run_raytrace(program: Path, args: list[str]) -> int:
+    """Runs the program on this terminal, so that its progress bar shows, and returns its exit code; 1 after a crash."""
     code = subprocess.run([program, *args], check=False).returncode
     name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_words
     if name is not None:
         print(f"raysteps: {whose(program)} crashed ({name}) while it rendered", file=sys.stderr)
-        raise SystemExit(1)
-    if code != 0:
-        raise SystemExit(code)
+        return 1
+    return code
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -146,13 +151,17 @@ def run_words(project: Project, args: list[str]) -> int:
     at = args.index("-o") + 1 if "-o" in args else len(args)
     if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
         raise UsageError(f"{args[at]}: pictures are written as .png or .ppm; expected a name that ends so")
-    program = (
-        build_kit(project, _say).reference("raytrace") if impl == "reference" else build_mine(release_tree(project))
-    )
-    if impl == "mine" and at < len(args):
-        args = [*args, *as_far_as_written(project, args)]
-        said = advice(project, wanted_step(project, args))
-        if said:
-            print(f"raysteps: {said}", file=sys.stderr)
-    run_raytrace(program, args)
-    return 0
+    wanted_step(project, args)  # complains before anything is built
+    if impl == "reference":
+        first = not any((project.build / "kit").glob("*/kit.json"))
+        kit = build_kit(project, lambda text: _say(text, first=first))
+        return run_raytrace(kit.reference("raytrace"), args)
+    program = build_mine(release_tree(project))
+    if at == len(args):
+        return run_raytrace(program, args)
+    more, said = as_far_as_written(project, args)
+    code = run_raytrace(program, [*args, *more])
+    if code != _USAGE:  # then it says what is wrong with the words, and nothing was drawn
+        notes = [note for note in (said, advice(project, wanted_step(project, [*args, *more]))) if note]
+        print("".join(f"raysteps: {note}\n" for note in notes), end="", file=sys.stderr)
+    return code

@@ -1,21 +1,22 @@
 """The command `replay`: one hidden case, asked again."""
 
 import argparse
+import json
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
-from raysteps.common.text import shorten
+from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.build_messages import link_message, why_not_built
-from raysteps.judge.cases import functions_of
 from raysteps.judge.counterexamples import LONGEST, CaseFile, read_case
 from raysteps.judge.decode_case import decode_inputs
-from raysteps.judge.functions import Case, Function
+from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
 from raysteps.sandbox.detect import find_sandbox
@@ -34,7 +35,35 @@ def _find(project: Project, path: Path) -> Path:
     return below if not path.exists() and below.is_file() else path
 
 
+def _inside(parts: list[Any], name: str) -> list[Any]:
+    """What the lists of that name hold; anything may stand in a file."""
+    lists = [part.get(name) for part in parts if isinstance(part, dict)]
+    return [one for found in lists if isinstance(found, list) for one in found]
+
+
+def _refuse_what_is_no_case(path: Path) -> None:
+    """Another document of the kit, above all the results.json beside the cases, or none of it."""
+    try:
+        document = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return  # read_case says what is wrong
+    schema = str(document.get("schema")) if isinstance(document, dict) else ""
+    if schema.startswith("raysteps/case/"):
+        return
+    if not schema.startswith("raysteps/results/"):
+        found = f"it is JSON of another kind ({schema})" if schema.startswith("raysteps/") else "it is other JSON"
+        raise UsageError(f"{path}: {found}; expected the file of one hidden case, such as cases/02-closest-hit.json")
+    items = _inside(_inside([document], "steps"), "hidden")
+    cases = [str(item["case"]) for item in items if isinstance(item, dict) and item.get("case")]
+    named = "".join(f"\n  {path.parent / case}" for case in cases)
+    raise UsageError(
+        f"{path}: this is a results.json; replay wants the file of one hidden case. "
+        + (f"It names:{printable(named)}" if cases else "It names none: all were right, or none were asked")
+    )
+
+
 def _read(project: Project, path: Path) -> tuple[CaseFile, Step, Case]:
+    _refuse_what_is_no_case(path)
     file = read_case(path)
     steps = read_steps(project)
     step = next((step for step in steps if step.id == file.step), None)
@@ -107,8 +136,9 @@ def replay(project: Project, path: Path, submission: Path | None, console: Conso
     taken = load_submission(submission or project.steps, read_steps(project))
     if step.id not in taken.sources:
         raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
-    with console.status("building") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+    with console.status("starting") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         kit = build_kit(project, status.update)
+        status.update(f"building step {step.number}")
         student = _student(kit, step, taken.sources[step.id], sandbox, Path(folder))
         judged = _ask(kit, step, path, case, student)
     return _print(console, file, judged)

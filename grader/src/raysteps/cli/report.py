@@ -6,7 +6,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
 from raysteps.report.student import write_student_page
@@ -34,7 +34,7 @@ def _student_page(project: Project, place: Path) -> Path:
     try:
         return write_student_page(document, path.parent, read_steps(project))
     except OSError as error:
-        raise UsageError(f"{path.parent}: the report cannot be written there: {error.strerror or error}") from error
+        raise UsageError(f"{path.parent}: the report cannot be written there: {reason(error)}") from error
 
 
 def _class_page(place: Path) -> Path | None:

@@ -1,9 +1,9 @@
 """Which of a student's own steps are still to be written, for commands that need them."""
 
 import re
-import sys
 from collections.abc import Sequence
 
+from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import unfinished_functions
@@ -41,24 +41,28 @@ def usual_step(project: Project) -> int:
 
 
 def wanted_step(project: Project, words: Sequence[str]) -> int:
-    """Of the picture with these words; raytrace itself complains about what is no step."""
-    if "--step" not in words[:-1]:
+    """Of the picture with these words; refuses what is no step."""
+    if "--step" not in words:
         return usual_step(project)
-    word = words[words.index("--step") + 1]
-    return int(word) if re.fullmatch("[0-9]{1,2}", word) else 0
+    word = next(iter(words[words.index("--step") + 1 :]), "")
+    last = read_steps(project)[-1].index
+    if not re.fullmatch("[0-9]{1,2}", word) or not 1 <= int(word) <= last:
+        raise UsageError(f"--step: expected a whole number from 1 to {last}, found '{word}'")
+    return int(word)
 
 
-def as_far_as_written(project: Project, words: Sequence[str]) -> list[str]:
-    """What to add to the words of a picture that names no step: the last one that is written, told on stderr."""
+def as_far_as_written(project: Project, words: Sequence[str]) -> tuple[list[str], str]:
+    """What to add to the words of a picture that names no step, the last one that is written, and what to say of it."""
     more: list[str] = []
+    said = ""
     if "--step" not in words:
         last = last_written(project)
         if last == 0:
-            return []
+            return [], ""
         if last < usual_step(project):
-            print(f"raysteps: --step {last}, the last that your steps can draw", file=sys.stderr)
+            said = f"--step {last}, the last that your steps can draw"
             more = ["--step", str(last)]
-    return [*more, *without_tree(project, wanted_step(project, [*words, *more]), words)]
+    return [*more, *without_tree(project, wanted_step(project, [*words, *more]), words)], said
 
 
 def without_tree(project: Project, step: int, words: Sequence[str]) -> list[str]:

@@ -40,5 +40,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
-    run_raytrace(build_view(release_tree(project), impl), args)
-    return 0
+    return run_raytrace(build_view(release_tree(project), impl), args)

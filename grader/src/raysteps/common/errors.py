@@ -1,4 +1,6 @@
-"""What can go wrong, by exit code."""
+"""What can go wrong, by exit code, and what the system says of files in words that a person can use."""
+
+import errno
 
 
 class RaystepsError(Exception):
@@ -21,3 +23,30 @@ class GraderFault(RaystepsError):
     """The kit itself failed; never a student's zero."""
 
     exit_code = 4
+
+
+_REASONS = {
+    errno.ENOENT: "there is no such file or folder",
+    errno.EISDIR: "it is a folder",
+    errno.ENOTDIR: "a part of the path is a file, not a folder",
+    errno.EACCES: "no permission",
+    errno.EPERM: "no permission",
+    errno.ENOSPC: "the disk is full",
+    errno.EROFS: "the disk is read-only",
+    errno.ENAMETOOLONG: "the name is too long",
+    errno.ELOOP: "its links lead in a circle",
+    errno.EADDRINUSE: "another program has this place",
+}
+
+
+def reason(error: Exception) -> str:
+    """Why a file could not be read or written, without numbers and without its path, which the message names."""
+    if isinstance(error, OSError):
+        return _REASONS.get(error.errno or 0) or error.strerror or str(error)
+    return "it is no text in UTF-8" if isinstance(error, UnicodeDecodeError) else str(error)
+
+
+def reason_and_place(error: Exception) -> str:
+    """The same behind the path, for who does not know it."""
+    where = f"{error.filename}: " if isinstance(error, OSError) and error.filename else ""
+    return where + reason(error)

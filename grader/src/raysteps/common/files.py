@@ -5,14 +5,13 @@ import json
 import os
 import re
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 
 # Locks between processes. A lock goes with the process that holds it, however that ends.
 
@@ -50,19 +49,21 @@ def one_at_a_time(lock: Path) -> Iterator[None]:
         yield
 
 
-_PATIENCE_SECONDS = 2.0
+_REPLACE_SECONDS = 2.0
 
 
 def usable_folder(path: Path) -> None:
     """Makes the folder that somebody named for results, or says that it cannot be written to."""
     if path.is_file():
         raise UsageError(f"{path}: is a file; expected a folder for the results, which may be a new one")
+    import tempfile  # it takes long to load, and who only reads can do without
+
     try:
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):
             pass
     except OSError as error:
-        raise UsageError(f"{path}: results cannot be written there: {error.strerror or error}") from error
+        raise UsageError(f"{path}: results cannot be written there: {reason(error)}") from error
 
 
 def open_regular(path: Path) -> int:
@@ -73,7 +74,7 @@ def open_regular(path: Path) -> int:
 
 def _replace(temporary: Path, path: Path) -> None:
     """On Windows a file cannot be replaced while somebody, such as a virus scanner, has it open."""
-    until = time.monotonic() + _PATIENCE_SECONDS
+    until = time.monotonic() + _REPLACE_SECONDS
     while True:
         try:
             temporary.replace(path)
@@ -87,6 +88,8 @@ def _replace(temporary: Path, path: Path) -> None:
 
 def write_bytes(path: Path, data: bytes, *, mode: int = 0o644, ending: str = "") -> None:
     """Writes to a temporary name in the same folder, with that ending, then renames."""
+    import tempfile
+
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=ending, dir=path.parent)
     temporary = Path(name)
@@ -110,6 +113,19 @@ def forget_unfinished(folder: Path) -> None:
 def write_json(path: Path, value: Any) -> None:
     """Writes readable JSON."""
     write_bytes(path, (json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode())
+
+
+def write_out(path: Path, data: bytes) -> None:
+    """Writes a file that somebody named, or says why not."""
+    try:
+        write_bytes(path, data)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be written: {reason(error)}") from error
+
+
+def encoded(document: Any) -> bytes:
+    """JSON for other programs, as it is written."""
+    return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
 
 
 def write_if_changed(path: Path, data: bytes) -> bool:

@@ -9,7 +9,7 @@ from typing import Any
 
 import jsonschema
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 
 
 @cache
@@ -42,7 +42,7 @@ def read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise GraderFault(f"{path}: cannot be read: {error}") from error
+        raise GraderFault(f"{path}: cannot be read: {reason(error)}") from error
 
 
 def parse_table(text: str, path: Path, what: str, package: str, schema: str) -> dict[str, Any]:

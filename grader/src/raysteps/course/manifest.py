@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.course.project import Project
 
 
@@ -115,7 +115,7 @@ def read_step(path: Path) -> Step:
             left_out=bool(table.get("left_out", False)),
         )
     except (OSError, KeyError, TypeError, ValueError) as error:
-        raise GraderFault(f"{path}: not a step manifest: {error}") from error
+        raise GraderFault(f"{path}: not a step manifest: {reason(error)}") from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
     if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):

@@ -5,7 +5,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.course.project import Project
 
@@ -48,7 +48,7 @@ def read_course(project: Project) -> Course:
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as error:
-        raise UsageError(f"{path}: cannot be read as TOML: {error}") from error
+        raise UsageError(f"{path}: cannot be read as TOML: {reason(error)}") from error
     problem = complaint(table, read_schema("raysteps.course", "course.schema.json"))
     if problem:
         raise UsageError(f'{path}: {problem}; expected `seed = N` and `late_policy = "FILE"`, or one of them')

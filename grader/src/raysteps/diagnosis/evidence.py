@@ -13,8 +13,7 @@ import numpy.typing as npt
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.images.compare import TOLERANCE, Pixels, gaps, is_flat
 from raysteps.judge.bvhs import BVH
-from raysteps.judge.cases import functions_of
-from raysteps.judge.functions import Case, Function
+from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.hidden_tests import make_cases, reference_lines
 from raysteps.judge.octrees import TREE
 from raysteps.judge.plan import Plan

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 from raysteps.common.text import join_and
 from raysteps.diagnosis.evidence import Mask, Picture
 from raysteps.images.compare import Pixels
@@ -42,7 +42,7 @@ def read_scene(scene: Path) -> str:
     try:
         return scene.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise GraderFault(f"{scene}: cannot be read: {error}") from error
+        raise GraderFault(f"{scene}: cannot be read: {reason(error)}") from error
 
 
 def size_of(args: Sequence[str]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from raysteps.classroom.entry_names import folded, platform_identity
 from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step
 from raysteps.exports.items import Document, as_html, summary
@@ -87,7 +87,7 @@ def _why_not(folder: Path, error: OSError) -> str:
         return f"{folder}: is not there; {wanted}"
     if isinstance(error, FileNotFoundError):
         return f"{folder}: holds no results.csv; {wanted}, after grade-class has come to its end"
-    return f"{folder / 'results.csv'}: cannot be read: {error.strerror}; {wanted}"
+    return f"{folder / 'results.csv'}: cannot be read: {reason(error)}; {wanted}"
 
 
 def read_class(folder: Path) -> list[GradedStudent]:

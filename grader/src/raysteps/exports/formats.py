@@ -1,12 +1,11 @@
 """The formats of other systems, as schemas; nothing is written that breaks its own."""
 
-import json
 import shutil
 from pathlib import Path
 from typing import Any, Literal
 
-from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import write_bytes
+from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.files import encoded, write_out
 from raysteps.common.schemas import complaint, read_schema
 
 Format = Literal["gradescope", "classroom50", "github-legacy", "autolab", "prairielearn"]
@@ -19,23 +18,10 @@ def validate(document: Any, name: Format) -> None:
         raise GraderFault(f"the {name} result would break its schema: {problem}")
 
 
-def encoded(document: Any) -> bytes:
-    """As it is written."""
-    return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
-
-
 def write(document: Any, name: Format, path: Path) -> None:
     """Checks, then writes."""
     validate(document, name)
     write_out(path, encoded(document))
-
-
-def write_out(path: Path, data: bytes) -> None:
-    """Writes a file that somebody named, or says why not."""
-    try:
-        write_bytes(path, data)
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
 def remove(path: Path) -> None:
@@ -46,4 +32,4 @@ def remove(path: Path) -> None:
         else:
             path.unlink(missing_ok=True)
     except OSError as error:
-        raise UsageError(f"{path}: cannot be replaced: {error.strerror or error}") from error
+        raise UsageError(f"{path}: cannot be replaced: {reason(error)}") from error

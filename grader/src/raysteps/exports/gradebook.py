@@ -8,7 +8,7 @@ from typing import Literal
 
 from raysteps.classroom.entry_names import folded
 from raysteps.common.csv_safety import delimiter_of
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import number
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, spoken_name
 
@@ -119,7 +119,7 @@ def read_sheet(path: Path) -> Sheet:
             raise UsageError(f"{path}: is larger than {_MAX_BYTES >> 20} MB")
         data = path.read_bytes()
     except OSError as error:
-        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UsageError(f"{path}: cannot be read: {reason(error)}") from error
     if data.startswith(_WIDE) or b"\x00" in data:
         raise UsageError(f"{path}: is UTF-16 or no text at all; export or save it as CSV in UTF-8")
     try:

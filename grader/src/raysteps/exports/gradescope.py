@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
 from raysteps.exports.items import Entry, Item, entries_of, one_line, summary, title
-from raysteps.results.work_ratio import NoEffort, effort_of
+from raysteps.results.work_ratio import NoWorkRatio, work_ratio_of
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 VISIBILITIES: tuple[Visibility, ...] = get_args(Visibility)
@@ -47,13 +47,13 @@ def _tests(result: Mapping[str, Any], steps: Mapping[str, Step], hidden: Visibil
 def _leaderboard(result: Mapping[str, Any], steps: Mapping[str, Step]) -> list[dict[str, Any]]:
     """Work and memory of a step whose rays may test few objects only; nothing unless its pictures are all right."""
     step = steps.get(result["id"])
-    effort = effort_of(result, step.limited_pictures if step is not None else ())
-    if isinstance(effort, NoEffort):
+    work_ratio = work_ratio_of(result, step.limited_pictures if step is not None else ())
+    if isinstance(work_ratio, NoWorkRatio):
         return []
     name = one_line(title(result, steps))
     return [
-        {"name": f"{name}: work (1 is the reference's)", "value": round(effort.relative, 3), "order": "asc"},
-        {"name": f"{name}: memory (kB)", "value": round(effort.bytes / 1000, 1), "order": "asc"},
+        {"name": f"{name}: work (1 is the reference's)", "value": round(work_ratio.relative, 3), "order": "asc"},
+        {"name": f"{name}: memory (kB)", "value": round(work_ratio.bytes / 1000, 1), "order": "asc"},
     ]
 
 

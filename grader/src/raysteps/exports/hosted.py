@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import GraderFault, RaystepsError, UsageError
+from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason, reason_and_place
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import clean, number, shorten
 from raysteps.course.manifest import Step, choose, read_steps
@@ -128,8 +128,8 @@ def _grade(project: Project, submission: Path, options: Options, deliver: Delive
             document = grade_here(project, submission, steps, options, work)
             deliver(document, by_id(steps), work)
     except (RaystepsError, NotGraded, OSError, subprocess.SubprocessError) as error:
-        print(f"raysteps: {harmless_log(clean(str(error)))}", file=sys.stderr)
-        return str(error)
+        print(f"raysteps: {harmless_log(clean(reason_and_place(error)))}", file=sys.stderr)
+        return reason_and_place(error)
     return ""
 
 
@@ -203,7 +203,7 @@ def append_output(line: str, path: Path | None) -> None:
         with place.open("a", encoding="utf-8") as file:
             file.write(line)
     except OSError as error:
-        raise UsageError(f"{place}: cannot be written: {error.strerror or error}") from error
+        raise UsageError(f"{place}: cannot be written: {reason(error)}") from error
 
 
 def deliver_github(

@@ -9,9 +9,9 @@ from typing import Any
 
 from PIL import Image
 
+from raysteps.common.files import encoded
 from raysteps.common.text import clean, count
 from raysteps.course.manifest import Step
-from raysteps.exports.formats import encoded
 from raysteps.exports.items import Item, entries_of, one_line, summary, title
 
 # Pictures that travel inside a JSON document.

@@ -8,13 +8,13 @@ from typing import Any
 from raysteps.classroom.entries import list_entries
 from raysteps.classroom.entry_names import name_entries
 from raysteps.common.errors import UsageError
+from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.mutants import reference_source
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.exports.autograders import Member, as_zip, into_folder
-from raysteps.exports.formats import write_out
 from raysteps.submission.load import Submission, load_submission
 
 BASE, ROOM = "base-code", "submissions"

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from raysteps.course.manifest import Step
 from raysteps.gallery.scenes import GalleryScene, what_is_new
-from raysteps.gallery.shots import Effort, Shot
+from raysteps.gallery.shots import Shot, WorkMap
 from raysteps.images.compare import Pixels
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, pixel_data, render_page
 
@@ -38,57 +38,57 @@ class GalleryEntry:
 
     scene: GalleryScene
     reference: Sequence[Shot]
-    efforts: Mapping[int, Sequence[Effort]]
+    work_maps: Mapping[int, Sequence[WorkMap]]
     mine: Sequence[Shot] = field(default_factory=list)  # empty where nobody asked for them
-    my_efforts: Mapping[int, Effort] = field(default_factory=dict)
+    my_work_maps: Mapping[int, WorkMap] = field(default_factory=dict)
 
 
 def _shot(shot: Shot, album: Album) -> dict[str, object]:
     return {"picture": None if shot.pixels is None else album.add(shot.pixels), "note": shot.note}
 
 
-def _effort(effort: Effort, album: Album) -> dict[str, object]:
-    height, width = effort.map.shape[:2]
+def _work_map(work_map: WorkMap, album: Album) -> dict[str, object]:
+    height, width = work_map.map.shape[:2]
     return {
-        "name": effort.name,
-        "map": album.add(effort.map),
+        "name": work_map.name,
+        "map": album.add(work_map.map),
         "width": width,
         "height": height,
-        "surfaces": round(effort.work.surfaces_per_ray, 3),
-        "boxes": round(effort.work.boxes_per_ray, 3),
+        "surfaces": round(work_map.work.surfaces_per_ray, 3),
+        "boxes": round(work_map.work.boxes_per_ray, 3),
     }
 
 
-def _scene(hung: GalleryEntry, album: Album) -> dict[str, object]:
-    efforts = {
-        step: [*before_and_after, *filter(None, [hung.my_efforts.get(step)])]
-        for step, before_and_after in hung.efforts.items()
+def _scene(entries: GalleryEntry, album: Album) -> dict[str, object]:
+    work_maps = {
+        step: [*before_and_after, *filter(None, [entries.my_work_maps.get(step)])]
+        for step, before_and_after in entries.work_maps.items()
     }
-    pixels = next((shot.pixels for shot in hung.reference if shot.pixels is not None), None)
+    pixels = next((shot.pixels for shot in entries.reference if shot.pixels is not None), None)
     return {
-        "name": hung.scene.name,
-        "title": hung.scene.title,
-        "words": hung.scene.words,
+        "name": entries.scene.name,
+        "title": entries.scene.title,
+        "words": entries.scene.words,
         "width": pixels.shape[1] if pixels is not None else 4,
         "height": pixels.shape[0] if pixels is not None else 3,
-        "reference": [_shot(shot, album) for shot in hung.reference],
-        "mine": [_shot(shot, album) for shot in hung.mine],
-        "work": {str(step): [_effort(one, album) for one in shown] for step, shown in efforts.items()},
+        "reference": [_shot(shot, album) for shot in entries.reference],
+        "mine": [_shot(shot, album) for shot in entries.mine],
+        "work": {str(step): [_work_map(one, album) for one in shown] for step, shown in work_maps.items()},
     }
 
 
 def gallery_page(steps: Sequence[Step], scenes: Sequence[GalleryEntry]) -> str:
     """The document. Its pictures lie in its data and are read when their scene is chosen."""
     album = Album()
-    hung = [_scene(one, album) for one in scenes]
+    entries = [_scene(one, album) for one in scenes]
     shown = [
         {"number": step.number, "index": step.index, "title": step.title, "bonus": step.bonus, "new": what_is_new(step)}
         for step in steps
     ]
-    data = {"steps": shown, "scenes": hung, "pictures": album.sources}
-    first = hung[0]["reference"]
+    data = {"steps": shown, "scenes": entries, "pictures": album.sources}
+    first = entries[0]["reference"]
     assert isinstance(first, list)
     plain = [album.sources[shot["picture"]] for shot in (first[0], first[-1]) if shot["picture"] is not None]
-    context = {"steps": shown, "scenes": hung, "mine": any(one.mine for one in scenes), "plain": plain}
+    context = {"steps": shown, "scenes": entries, "mine": any(one.mine for one in scenes), "plain": plain}
     styles = (*COMPARE_STYLES, "gallery", "gallery-strip")
     return render_page("gallery", _TITLE, context, (*COMPARE_SCRIPTS, *_SCRIPTS), styles, data)

@@ -36,7 +36,7 @@ class Shot:
 
 
 @dataclass(frozen=True)
-class Effort:
+class WorkMap:
     """Where the tests went, as a map, and what was counted."""
 
     name: str
@@ -139,7 +139,7 @@ class MySteps:
             return Shot(None, trouble(rendered)[1])
         return Shot(rendered.pixels, self._remarks(step))
 
-    def efforts(self, scene: GalleryScene) -> dict[int, Effort]:
+    def work_maps(self, scene: GalleryScene) -> dict[int, WorkMap]:
         """By step, of those that save work and can be run."""
         found = {}
         for tree in TREES:
@@ -151,7 +151,7 @@ class MySteps:
                 continue
             rendered = self._render(program, step, scene, tree.after[1])
             if rendered.pixels is not None and rendered.work is not None:
-                found[tree.step] = Effort(f"my {tree.after[0]}", rendered.pixels, rendered.work)
+                found[tree.step] = WorkMap(f"my {tree.after[0]}", rendered.pixels, rendered.work)
         return found
 
 
@@ -184,19 +184,19 @@ def reference_shots(kit: BuiltKit, scene: GalleryScene, size: str, say: Progress
     return shots
 
 
-def reference_efforts(kit: BuiltKit, scene: GalleryScene, say: ProgressCallback) -> dict[int, list[Effort]]:
+def reference_work_maps(kit: BuiltKit, scene: GalleryScene, say: ProgressCallback) -> dict[int, list[WorkMap]]:
     """By step: before and after. A scene of the user's has none when it is too large to be traced without a tree."""
-    efforts = {}
+    work_maps = {}
     for tree in TREES:
         if not any(step.index == tree.step for step in kit.steps):
             continue
         say(f"{scene.name}: work in step {tree.step:02d}")
         try:
-            efforts[tree.step] = [
-                Effort(name, reference_picture(kit, scene.path, args), reference_work(kit, scene.path, args))
+            work_maps[tree.step] = [
+                WorkMap(name, reference_picture(kit, scene.path, args), reference_work(kit, scene.path, args))
                 for name, args in (tree.before, tree.after)
             ]
         except GraderFault:
             if _of_the_kit(kit, scene):
                 raise
-    return efforts
+    return work_maps

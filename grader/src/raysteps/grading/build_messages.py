@@ -24,8 +24,6 @@ _TWICE = re.compile(
     r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"
     r"|LNK2005: \"?(?P<theirs>[^\"\n]+?)\"?(?: \([^)\n]*\))? already defined"
 )
-_MAX_LOG = 64_000
-_DRIVE, _PART = r"(?:\b[A-Za-z]:)?", r"[/\\][^\s:/\\]+"
 
 
 @dataclass(frozen=True)
@@ -34,13 +32,6 @@ class _Error:
     line: int
     column: int  # 0: not told
     text: str
-
-
-def build_log(ran: TaskResult) -> str:
-    """All that the compiler said, as text that cannot steer a terminal, and without the grader's folders."""
-    text = printable(ran.outcome.stderr + ran.outcome.stdout)
-    text = re.sub(rf"{_DRIVE}(?:{_PART})*[/\\]include[/\\](core|steps)[/\\]", r"\1/", text)
-    return shorten(re.sub(rf"{_DRIVE}(?:{_PART})+[/\\](\w+\.cpp\b)", r"\1", text).strip(), _MAX_LOG)
 
 
 def _errors(output: str) -> list[_Error]:

@@ -1,24 +1,139 @@
-"""Grades one submission."""
+"""Grades one submission: each step between steps of the reference, the hidden part too, then all of them together."""
 
+import hashlib
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
+from raysteps.common.files import write_bytes
 from raysteps.course.manifest import Step
-from raysteps.grading.hidden import HiddenStepGrader
+from raysteps.diagnosis.diagnose import Diagnostician
+from raysteps.grading.build_messages import link_message
+from raysteps.grading.images import ImageGrader, grade_integration, judge, too_many_tests, trouble
 from raysteps.grading.options import Settings, withhold
-from raysteps.grading.scoring import is_right
-from raysteps.grading.step import GradingContext, compile_steps
-from raysteps.results.model import Results, Timing
+from raysteps.grading.scoring import is_right, status_and_points, sum_up
+from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
+from raysteps.images.compare import compare
+from raysteps.images.render import reference_picture
+from raysteps.judge.claims import contradictions
+from raysteps.judge.counterexamples import Examples
+from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
+from raysteps.judge.hidden_tests import run_hidden_tests
+from raysteps.judge.plan import read_plan
+from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
+from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.store import write_document
-from raysteps.sandbox.accounting import AccountingSandbox
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
+from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from raysteps.toolchain.limits import limits_of
+from raysteps.toolchain.limits import StepLimits, limits_of
+
+
+def _judge_scene(gallery: ImageGrader, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
+    """A scene made for this seed. The file's name says nothing about what it is for."""
+    path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
+    write_bytes(path, scene.nff.encode())
+    reference = reference_picture(gallery.kit, path, scene.args)
+    rendered = gallery.render(program, path, scene.args)
+    result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
+    result.seconds = round(rendered.ran.outcome.seconds, 2)
+    if rendered.pixels is None:
+        result.outcome, result.message = trouble(rendered)
+        return result
+    verdict = compare(rendered.pixels, reference, scene.max_wrong)
+    problem = verdict.message
+    if verdict.passed and scene.max_share is not None:
+        problem = too_many_tests(rendered.share_tested, scene.max_share)
+    result.wrong_share = round(verdict.wrong_share, 6)
+    result.message, result.share = problem, 0.0 if problem else 1.0
+    result.outcome = "wrong" if problem else "ok"
+    return result
+
+
+class HiddenStepGrader(StepGrader):
+    """One step between steps of the reference."""
+
+    def __init__(
+        self, work: GradingContext, step: Step, limits: StepLimits, compiled: dict[str, Compiled], settings: Settings
+    ) -> None:
+        self._plan = read_plan(work.kit.project, step)
+        super().__init__(work, step, limits, compiled, judged=self._plan is not None)
+        self._settings = settings
+        self._ran = False
+        if self._plan is not None:
+            self.kinds = ("test", "raytrace", "worker")
+
+    def grade(self) -> StepResult:
+        """The visible tests and pictures, then the judge's cases, and scenes that nobody has seen."""
+        programs = self.programs()
+        if programs is None:
+            return self._result
+        step, plan, result, kit, gallery = self.step, self._plan, self._result, self._work.kit, self._gallery
+        self._run_tests(programs["test"])
+        for case in step.images:
+            result.images.append(judge(gallery, programs["raytrace"], step, case))
+        if plan is not None:
+            seed, folder = self._settings.seed, self._work.folder / step.number
+            ask = ask_student(gallery.sandbox, programs["worker"], gallery.limits)
+            examples = None
+            if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
+                examples = Examples(ask, lambda cases, _: reference_unkept(kit, cases), gallery.out, self._work.say)
+            result.hidden = run_hidden_tests(
+                step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, gallery.limits.seconds, examples
+            )
+            for scene in hidden_scenes(kit.project, step, plan, seed):
+                result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder))
+            result.inconsistent = contradictions(step, plan, result, kit.tests[step.id])
+        result.messages += sum_up(result)
+        if not is_right(result):
+            self._explain(programs)
+        self._ran = True
+        return result
+
+    def _explain(self, programs: Programs) -> None:
+        """In words why it is not right. Whatever a student's program says, it costs no grade."""
+        worker = programs.get("worker")
+        ask = ask_student(self._gallery.sandbox, worker, self._gallery.limits) if worker is not None else None
+        doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
+        try:
+            self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
+        except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
+            self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
+
+    def finish(self, right: Collection[str]) -> StepResult:
+        """After all steps were graded alone: does this one work with those before it that are right, by their ids? One
+        that is not right is replaced by the reference's: its mistake costs its own step only."""
+        if self._ran:
+            step = self.step
+            earlier = [other for other in self._work.kit.steps if other.index < step.index]
+            replaced = [other for other in earlier if other.id not in right]
+            program, why = self._joined([other for other in earlier if other.id in right], replaced)
+            if program is None:
+                self._result.cumulative = Integration(False, why)
+            else:
+                own, others = [one for one in (*earlier, step) if one not in replaced], [one.id for one in replaced]
+                self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
+            self._result.status, self._result.points = status_and_points(self._result, step)
+        return self._result
+
+    def _joined(self, right: list[Step], replaced: list[Step]) -> tuple[Program | None, str]:
+        """This step with those before it, or why there is no such program."""
+        if not all(image.passed for image in self._result.images[:1]):
+            return None, "This step itself is not right yet."
+        mine = [self._compiled[other.id].binary for other in (*right, self.step)]
+        objects = [path for path in mine if path is not None]
+        objects += [self._work.kit.reference_step(other) for other in replaced]
+        program, ran = self._build.program("raytrace", self.step, objects, self._limits, together=True)
+        if ran is not None:
+            self._expect_room()
+            return None, f"The steps do not build together. {link_message(ran)}"
+        assert program is not None
+        return program, ""
 
 
 def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
@@ -46,12 +161,13 @@ def grade_submission(
             graders = [
                 HiddenStepGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
             ]
-            right = {result.id for result in pool.map(HiddenStepGrader.grade, graders) if is_right(result)}
-            steps = list(pool.map(lambda grader: grader.finish(right), graders))
+            alone = list(pool.map(HiddenStepGrader.grade, graders))
+            right = {result.id for result in alone if is_right(result)}
+            steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:
         write_document(withhold(results.to_json(), settings.feedback), out)
     except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

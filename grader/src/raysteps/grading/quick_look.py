@@ -9,7 +9,7 @@ from pathlib import Path
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
-from raysteps.grading.build_messages import build_log, link_message, why_not_built
+from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.self_check import own_steps
 from raysteps.grading.step import GradingContext, compile_steps
@@ -19,7 +19,7 @@ from raysteps.images.render import reference_picture
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import load_submission
-from raysteps.toolchain.compile import Program, StudentBuild
+from raysteps.toolchain.compile import Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
 from raysteps.toolchain.limits import limits_of
 

@@ -1,10 +1,15 @@
-"""Turns what was seen of a step into points and a status."""
+"""Turns what was seen of a step into points and a status, and results into an exit code."""
+
+from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from raysteps.common.text import count
 from raysteps.course.manifest import Step
-from raysteps.results.model import Status, StepResult
+
+if TYPE_CHECKING:  # `list` and `next` ask what a step is worth, and no result
+    from raysteps.results.model import Results, Status, StepResult
 
 
 def max_points(step: Step, *, judged: bool) -> float:
@@ -60,3 +65,13 @@ def sum_up(result: StepResult) -> list[str]:
     outcomes = [(item.outcome, item.message) for items in (result.tests, result.images) for item in items]
     bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
     return messages + bad[:1]
+
+
+def exit_code(results: Results) -> int:
+    """0 all passed (a bonus need not be started), 3 when building is the only trouble, else 1."""
+    open_steps = [
+        step for step in results.steps if step.status != "passed" and not (step.bonus and step.status == "not-started")
+    ]
+    if not open_steps:
+        return 0
+    return 3 if all(step.status == "does-not-build" for step in open_steps) else 1

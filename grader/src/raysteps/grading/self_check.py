@@ -7,15 +7,15 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
-from raysteps.grading.scoring import is_right, status_and_points
-from raysteps.grading.step import GradingContext, StepGrader, compile_steps
+from raysteps.grading.images import judge
+from raysteps.grading.scoring import is_right, status_and_points, sum_up
+from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
 from raysteps.images.render import reference_image_path
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_document
-from raysteps.sandbox.accounting import AccountingSandbox
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
@@ -44,8 +44,12 @@ class SelfCheckGrader(StepGrader):
 
     def check(self) -> StepResult:
         """The visible part, with its points. The pictures are made with the student's own steps already."""
-        result = self.grade()
-        if self._ran:
+        result, programs = self._result, self.programs()
+        if programs is not None:
+            self._run_tests(programs["test"])
+            for case in self.step.images:
+                result.images.append(judge(self._gallery, programs["raytrace"], self.step, case))
+            result.messages += sum_up(result)
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
@@ -120,5 +124,5 @@ def self_check(
     try:
         write_document(results.to_json(), out)
     except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {error}") from error
+        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

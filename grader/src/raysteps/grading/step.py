@@ -1,29 +1,95 @@
-"""The visible part of one step: it is built, its tests are run, its pictures made and compared."""
+"""What grading a step at home and in a course have in common: it is built, and its visible tests are run."""
 
 import shutil
+import threading
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.files import usable_folder
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
-from raysteps.grading.build_messages import build_log, link_message, why_not_built
-from raysteps.grading.images import ImageGrader, judge
-from raysteps.grading.scoring import is_right, max_points, sum_up
+from raysteps.grading.build_messages import link_message, why_not_built
+from raysteps.grading.images import ImageGrader
+from raysteps.grading.scoring import max_points
 from raysteps.grading.unit_tests import run_tests
+from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
-from raysteps.sandbox.task import Sandbox
+from raysteps.results.store import FOLDER as CASES
+from raysteps.results.store import place_of
+from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program, StudentBuild
+from raysteps.toolchain.compile import Compiled, Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits, limits_of
 
 Programs = dict[Kind, Program]
 
 _LEAST_ROOM = 256 << 20  # bytes, more than a build can use
+
+
+# Old results go first.
+
+
+def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
+    """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any. Cases
+    stay for `replay` until their step is graded again."""
+    usable_folder(out)
+    try:
+        for name in ("results.json", REPORT):
+            (out / name).unlink(missing_ok=True)
+        for step in steps:
+            folder = out / "pictures" / step.id
+            if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
+                continue
+            for kind in ("mine", "reference", "difference"):
+                for picture in folder.glob(f"*-{kind}.png"):
+                    picture.unlink()
+            if not any(folder.iterdir()):
+                folder.rmdir()
+        if not (out / CASES).is_symlink():
+            for name in (place_of(step.number, function) for step in asked_again for function in step.functions):
+                (out / name).unlink(missing_ok=True)
+        for room in (out / "pictures", out / CASES):
+            if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
+                room.rmdir()
+    except OSError as error:
+        raise UsageError(f"{out}: old results cannot be removed: {reason(error)}") from error
+
+
+# A sandbox that adds up what its tasks cost, and tells of limits in round numbers.
+
+
+def _as_limited(ran: TaskResult, limits: Limits) -> TaskResult:
+    """A task that was stopped took as long as it may, however late the grader looked: so the same submission always
+    gets the same words."""
+    if ran.stopped not in ("wall", "cpu"):
+        return ran
+    seconds = limits.wall_seconds if ran.stopped == "wall" else limits.cpu_seconds
+    return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
+
+
+class AccountingSandbox:
+    """Hands each task on and keeps the sum of processor seconds. Safe for several threads."""
+
+    def __init__(self, sandbox: Sandbox) -> None:
+        self._sandbox = sandbox
+        self._lock = threading.Lock()
+        self.cpu_seconds = 0.0
+
+    @property
+    def isolation(self) -> Isolation:
+        return self._sandbox.isolation
+
+    def run(self, task: Task) -> TaskResult:
+        """Runs the task in the sandbox."""
+        ran = self._sandbox.run(task)
+        with self._lock:
+            self.cpu_seconds += ran.cpu_seconds
+        return _as_limited(ran, task.limits)
 
 
 @dataclass(frozen=True)
@@ -47,7 +113,7 @@ class GradingContext:
 
 
 class StepGrader:
-    """One step. Those who know more of it than everybody may see add to it."""
+    """What all who grade a step need: its programs, its visible tests, and the result that they fill in."""
 
     kinds: tuple[Kind, ...] = ("test", "raytrace")
 
@@ -68,10 +134,10 @@ class StepGrader:
         self._gallery = ImageGrader(work.kit, work.sandbox, limits, work.out)
         self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, max_points(step, judged=judged), step.bonus)
-        self._ran = False
 
-    def grade(self) -> StepResult:
-        """What goes wrong in the student's code is a result; only the kit's own trouble is raised."""
+    def programs(self) -> Programs | None:
+        """All programs of the step. None where there is nothing to run, and the result says why: what goes wrong in
+        the student's code is a result; only the kit's own trouble is raised."""
         step, result = self.step, self._result
         self._work.say(f"checking {step.id}")
         source = self._work.source(step)
@@ -82,7 +148,7 @@ class StepGrader:
                 missing = f"{step.file} is still the stub. What to do stands in steps/{step.id}/README.md."
             result.messages = [self._work.submission.notes.get(step.id) or missing]
             result.cumulative = Integration(False, "This step was not started.")
-            return result
+            return None
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
         left = self._unfinished = unfinished_functions(source, step)
@@ -92,11 +158,15 @@ class StepGrader:
         result.build_log = build_log(compiled.ran)
         if compiled.binary is None:
             self._expect_room()
-            return self._does_not_build(why_not_built(self._work.kit, step, compiled, source))
-        programs = self._programs(compiled.binary)
-        if programs is not None:
-            self._run(programs)
-        return result
+            self._does_not_build(why_not_built(self._work.kit, step, compiled, source))
+            return None
+        programs: Programs = {}
+        for kind in self.kinds:
+            program = self._program(kind, compiled.binary)
+            if program is None:
+                return None
+            programs[kind] = program
+        return programs
 
     def _expect_room(self) -> None:
         """A full disk is nobody's fault. The disk is asked, not the compiler, whose words a source can shape."""
@@ -104,11 +174,10 @@ class StepGrader:
         if free < _LEAST_ROOM:
             raise GraderFault(f"{self.step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
 
-    def _does_not_build(self, message: str) -> StepResult:
+    def _does_not_build(self, message: str) -> None:
         self._result.status = "does-not-build"
         self._result.messages.append(message)
         self._result.cumulative = Integration(False, "This step does not build.")
-        return self._result
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
         """The step between steps of the reference."""
@@ -122,33 +191,11 @@ class StepGrader:
             self._does_not_build(link_message(ran))
         return program
 
-    def _programs(self, binary: Path) -> Programs | None:
-        """All of them, or none when one does not build."""
-        programs: Programs = {}
-        for kind in self.kinds:
-            program = self._program(kind, binary)
-            if program is None:
-                return None
-            programs[kind] = program
-        return programs
-
-    def _run(self, programs: Programs) -> None:
-        step, result, work = self.step, self._result, self._work
-        result.tests = run_tests(work.sandbox, programs["test"], list(work.kit.tests[step.id]), self._limits)
-        if any(test.outcome == "timeout" for test in result.tests):
+    def _run_tests(self, program: Program) -> None:
+        names = list(self._work.kit.tests[self.step.id])
+        self._result.tests = run_tests(self._work.sandbox, program, names, self._limits)
+        if any(test.outcome == "timeout" for test in self._result.tests):
             self._gallery.hung()
-        result.images = [judge(self._gallery, programs["raytrace"], step, case) for case in step.images]
-        self._judge(programs)
-        result.messages += sum_up(result)
-        if not is_right(result):
-            self._explain(programs)
-        self._ran = True
-
-    def _judge(self, programs: Programs) -> None:
-        """What is hidden, where there is somebody to judge it."""
-
-    def _explain(self, programs: Programs) -> None:
-        """Why it is not right."""
 
 
 # Compiles the steps of a submission, several at a time.

@@ -258,7 +258,7 @@ def _frame(mine: Record, reference: Record) -> Iterator[Difference]:
             yield Difference(("frame",), words, "view_frame")
     for name in ("half_width", "half_height"):
         if not same_number(mine[name], reference[name], CLOSE):
-            words = f"`{name}` of the image plane: yours is {mine[name]}, the reference's {reference[name]}"
+            words = f"`{name}` of the window: yours is {mine[name]}, the reference's {reference[name]}"
             yield Difference(("frame",), words, "view_frame")
 
 

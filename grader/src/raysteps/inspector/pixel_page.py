@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from raysteps.common.files import write_out
 from raysteps.common.text import count
-from raysteps.exports.formats import write_out
 from raysteps.inspector.records import (
     EYE,
     Difference,
@@ -321,16 +321,16 @@ def space_of(record: Record, tree: PageRay) -> dict[str, Any]:
 _SCRIPTS = ("space-vectors", "space-shapes", "space-painter", "space-orbit", "inspect-space", "inspect")
 
 
-def _parts_at(tree: PageRay, parting: Difference | None) -> str:
+def _parts_at(tree: PageRay, divergence: Difference | None) -> str:
     """The ray of the difference: the deepest one whose key begins the difference's place."""
-    if parting is None:
+    if divergence is None:
         return ""
-    place = tuple(part.replace("shadow", "light").replace("terms", "light") for part in parting.place)
+    place = tuple(part.replace("shadow", "light").replace("terms", "light") for part in divergence.place)
     holders = [ray for ray in tree.all_rays() if place[: len(ray.key)] == ray.key]
     return max(holders, key=lambda ray: len(ray.key)).id if holders else ""
 
 
-def page_html(record: Record, reference: Record | None = None, parting: Difference | None = None) -> str:
+def page_html(record: Record, reference: Record | None = None, divergence: Difference | None = None) -> str:
     """The document; with a reference both trees stand side by side, and the first difference is marked."""
     records = {"mine": record} if reference is None else {"mine": record, "reference": reference}
     trees = {name: page_ray(one["ray"], one["surfaces"]) for name, one in records.items()}
@@ -339,8 +339,8 @@ def page_html(record: Record, reference: Record | None = None, parting: Differen
         "record": record,
         "reference": reference,
         "trees": trees,
-        "parting": parting,
-        "parts_at": {name: _parts_at(tree, parting) for name, tree in trees.items()},
+        "divergence": divergence,
+        "parts_at": {name: _parts_at(tree, divergence) for name, tree in trees.items()},
         "swatch": shown_color([byte / 255 for byte in record["bytes"]] if record["bytes"] else None),
     }
     spaces = {name: space_of(one, trees[name]) for name, one in records.items()}
@@ -348,6 +348,6 @@ def page_html(record: Record, reference: Record | None = None, parting: Differen
     return render_page("inspect", title, context, scripts=_SCRIPTS, styles=("inspect",), data=spaces)
 
 
-def write_page(record: Record, reference: Record | None, parting: Difference | None, target: Path) -> None:
+def write_page(record: Record, reference: Record | None, divergence: Difference | None, target: Path) -> None:
     """Writes the page of one record, or of two beside each other with the first difference marked."""
-    write_out(target, page_html(record, reference, parting).encode("utf-8", "replace"))
+    write_out(target, page_html(record, reference, divergence).encode("utf-8", "replace"))

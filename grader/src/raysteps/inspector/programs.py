@@ -56,11 +56,11 @@ def _read(path: Path) -> Record | None:
     return record if is_record else None
 
 
-def inspect(program: Path, wish: InspectOptions, *, seconds: float = _SECONDS) -> InspectResult:
+def inspect(program: Path, options: InspectOptions, *, seconds: float = _SECONDS) -> InspectResult:
     """Runs the program once; bad input is a usage error, whatever the steps are like."""
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         file = Path(folder) / "record.json"
-        outcome = run([program, *wish.words(), "--json", file], seconds=seconds, cap=_MAX_BYTES)
+        outcome = run([program, *options.words(), "--json", file], seconds=seconds, cap=_MAX_BYTES)
         said = printable(outcome.stderr).strip()
         if outcome.code == _USAGE and not outcome.timed_out:
             raise UsageError(said.removeprefix("raysteps inspect: ") or "inspect gave up without a word")
@@ -71,10 +71,10 @@ def inspect(program: Path, wish: InspectOptions, *, seconds: float = _SECONDS) -
     return InspectResult(printable(outcome.stdout), record, said, problem)
 
 
-def last_good_step(program: Path, wish: InspectOptions, *, seconds: float = 10) -> int:
+def last_good_step(program: Path, options: InspectOptions, *, seconds: float = 10) -> int:
     """Up to which step the program comes to its end; 0: not even in the first."""
-    for step in range(1, wish.step):
-        outcome = run([program, *wish.words(step), "--quiet"], seconds=seconds)
+    for step in range(1, options.step):
+        outcome = run([program, *options.words(step), "--quiet"], seconds=seconds)
         if outcome.code != 0 or outcome.timed_out:
             return step - 1
-    return wish.step - 1
+    return options.step - 1

@@ -61,11 +61,11 @@ def _style(mine: Line | None, reference: Line | None, *, first: bool) -> str:
     return "" if mine.text == reference.text else "dim" if mine.cost else "yellow"
 
 
-def print_trees(console: Console, mine: Record, reference: Record, parting: Difference | None) -> None:
+def print_trees(console: Console, mine: Record, reference: Record, divergence: Difference | None) -> None:
     """Columns where there is room for them, else one tree under the other."""
     rows = list(_aligned(lines_of(mine), lines_of(reference)))
     keys = [line.key for row in rows for line in row if line is not None]
-    place = _marked(keys, parting.place if parting else None)
+    place = _marked(keys, divergence.place if divergence else None)
     if console.width >= _WIDE:
         _print_columns(console, rows, place)
         return
@@ -114,19 +114,19 @@ def cost_words(mine: Record, reference: Record) -> str:
 
 
 def print_verdict(
-    console: Console, steps: list[Step], mine: Record, reference: Record, parting: Difference | None
+    console: Console, steps: list[Step], mine: Record, reference: Record, divergence: Difference | None
 ) -> None:
     """The first difference and the function that it points to."""
     cost = cost_words(mine, reference)
-    if parting is None:
+    if divergence is None:
         console.print("[green]No difference[/green]: both come to the same colour in the same way.")
     else:
-        console.print(f"[bold red]First difference[/bold red]: {escape(parting.words)}.", highlight=False)
-        if parting.why:
-            console.print(f"  {escape(parting.why[:1].upper() + parting.why[1:])}.", highlight=False)
-        step = step_of(steps, parting.function)
+        console.print(f"[bold red]First difference[/bold red]: {escape(divergence.words)}.", highlight=False)
+        if divergence.why:
+            console.print(f"  {escape(divergence.why[:1].upper() + divergence.why[1:])}.", highlight=False)
+        step = step_of(steps, divergence.function)
         if step is not None:
-            place = f"[bold]{escape(parting.function)}[/bold] in steps/{escape(step.path.as_posix())}"
+            place = f"[bold]{escape(divergence.function)}[/bold] in steps/{escape(step.path.as_posix())}"
             console.print(f"  Look at {place} (step {step.number}).", highlight=False)
     if cost:
         console.print(cost, highlight=False, style="dim")

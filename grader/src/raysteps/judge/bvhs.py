@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from raysteps.judge.compare import Answer, TooLarge, TooMuchWork
+from raysteps.judge.answers import Answer, TooLarge, TooMuchWork
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, TokenReader
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 

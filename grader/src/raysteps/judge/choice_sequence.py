@@ -10,8 +10,7 @@ from itertools import permutations, product
 from typing import TypeAlias, TypeVar
 
 from raysteps.common.vectors import Vector, dot
-from raysteps.judge.numbers import Number, rounded, text
-from raysteps.judge.protocol import Inputs
+from raysteps.judge.protocol import Inputs, Number, rounded, text
 from raysteps.judge.random_source import RandomSource
 
 # Which numbers and inputs are simple, and what simpler ones there are.

@@ -23,8 +23,7 @@ from dataclasses import dataclass
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
-from raysteps.judge.cases import functions_of
-from raysteps.judge.functions import Function
+from raysteps.judge.functions import Function, functions_of
 from raysteps.judge.hidden_scenes import twin_name
 from raysteps.judge.plan import Plan
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult

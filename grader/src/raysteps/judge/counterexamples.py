@@ -2,18 +2,17 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
-from raysteps.judge.cases import functions_of
 from raysteps.judge.choice_sequence import Choice, Recorder
-from raysteps.judge.functions import FORMER_NAMES, Group, seed_of
+from raysteps.judge.functions import FORMER_NAMES, Group, functions_of, seed_of
 from raysteps.judge.shrink import CpuBudget, Shrinker
 from raysteps.judge.worker import Ask, JudgedCase
 from raysteps.results.store import FOLDER, place_of
@@ -58,12 +57,12 @@ def read_case(path: Path) -> CaseFile:
     except IsADirectoryError as error:
         raise _refuse(path, "a folder; name a file in it") from error
     except OSError as error:
-        raise _refuse(path, f"cannot be read ({error.strerror or error})") from error
+        raise _refuse(path, f"cannot be read ({reason(error)})") from error
     except (ValueError, RecursionError) as error:
         raise _refuse(path, f"not JSON ({error})") from error
     problem = complaint(document, read_schema("raysteps.judge", "case.schema.json"))
     if problem:
-        raise _refuse(path, problem)
+        raise _refuse(path, f"a case that somebody changed ({problem.removeprefix('$').lstrip('.: ')})")
     del document["schema"]
     texts = {key: printable(value) for key, value in document.items() if key != "seed"}
     for name, former in FORMER_NAMES.items():
@@ -73,7 +72,6 @@ def read_case(path: Path) -> CaseFile:
 
 
 LONGEST = 2000  # characters of an input or an answer in words
-_PATIENCE = 8.0  # seconds that a student's worker runs for the examples of a step
 
 
 def choices_of(group: Group, seed: str, place: int) -> list[Choice]:
@@ -86,17 +84,15 @@ def choices_of(group: Group, seed: str, place: int) -> list[Choice]:
     return draw.choices
 
 
+@dataclass
 class Examples:
     """Of one step. `reference` is asked without keeping what it says: the questions are about one submission."""
 
-    def __init__(
-        self, student: Ask, reference: Ask, folder: Path, say: Callable[[str], None] = lambda text: None
-    ) -> None:
-        self._student = student
-        self._reference = reference
-        self._folder = folder
-        self._say = say
-        self._patience = CpuBudget(_PATIENCE)
+    student: Ask
+    reference: Ask
+    folder: Path
+    say: Callable[[str], None] = lambda text: None
+    budget: CpuBudget = field(default_factory=CpuBudget)
 
     def smallest(self, step: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results.
@@ -104,18 +100,18 @@ class Examples:
         try:
             return self._smallest(step, found, place, seed)
         except (GraderFault, ArithmeticError, LookupError, OSError, TypeError, ValueError) as error:
-            self._say(f"no small case of {step.number} {found.case.function}: {error!r}")
+            self.say(f"no small case of {step.number} {found.case.function}: {error!r}")
             return found, ""
 
     def _smallest(self, step: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         function = functions_of(step.number)[found.case.function]
         kind = found.case.group
         choices = choices_of(function.by_name[kind], seed_of(step.id, function.name, kind, seed), place)
-        shrinker = Shrinker(function, self._student, self._reference, self._patience)
+        shrinker = Shrinker(function, self.student, self.reference, self.budget)
         found = shrinker.shrink(found, choices)
         verdict, given = found.verdict, shorten(found.case.given(), LONGEST)
         expected, actual = shorten(verdict.expected, LONGEST), shorten(verdict.actual, LONGEST)
         line, name = found.case.line(1), place_of(step.number, function.name)
         case = CaseFile(step.id, function.name, kind, seed, line, str(verdict.problem), given, expected, actual)
-        write_case(self._folder / name, case)
+        write_case(self.folder / name, case)
         return found, name

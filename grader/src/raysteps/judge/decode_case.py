@@ -5,7 +5,6 @@ from typing import Any
 
 from raysteps.common.vectors import Vector
 from raysteps.judge.functions import Function
-from raysteps.judge.numbers import f32
 from raysteps.judge.protocol import (
     Box,
     Camera,
@@ -21,6 +20,7 @@ from raysteps.judge.protocol import (
     TokenReader,
     Vec,
     Whole,
+    f32,
 )
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.scripted_tracer import Script, ScriptedHit

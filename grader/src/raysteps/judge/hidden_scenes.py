@@ -7,7 +7,7 @@ themselves cannot draw it.
 import math
 from dataclasses import dataclass
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
@@ -166,7 +166,7 @@ def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: 
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
-        raise GraderFault(f"{path}: cannot be read: {error.strerror}") from error
+        raise GraderFault(f"{path}: cannot be read: {reason(error)}") from error
     nff = perturbed_scene(text, draw, spheres=twin.moves == "camera and spheres")
     args = _with_size(image.args, twin.size)
     share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)

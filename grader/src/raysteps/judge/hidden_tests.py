@@ -6,10 +6,9 @@ from functools import lru_cache
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import count, shorten
 from raysteps.course.manifest import Step
-from raysteps.judge.cases import functions_of
 from raysteps.judge.choice_sequence import complexity
 from raysteps.judge.counterexamples import LONGEST, Examples
-from raysteps.judge.functions import Case, seed_of
+from raysteps.judge.functions import Case, functions_of, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector, add, length, minus, times
-from raysteps.judge.compare import (
+from raysteps.judge.answers import (
     LENGTHS,
     SMALL,
     Answer,

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.common.vectors import Vector, add
-from raysteps.judge.compare import Answer, TooLarge, TooMuchWork
+from raysteps.judge.answers import Answer, TooLarge, TooMuchWork
 from raysteps.judge.protocol import Inputs, ProtocolError, TokenReader
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle

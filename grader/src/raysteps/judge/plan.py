@@ -10,7 +10,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.schemas import parse_table, read_text
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.cases import functions_of
+from raysteps.judge.functions import functions_of
 
 Moves = Literal["camera", "camera and spheres"]
 

@@ -7,8 +7,7 @@ from typing import TypeVar
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Fill, Light, Ray
+from raysteps.judge.protocol import Fill, Light, Ray, f32, rounded
 from raysteps.judge.surfaces import Sphere, Triangle
 
 T = TypeVar("T")

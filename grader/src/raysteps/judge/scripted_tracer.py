@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector
-from raysteps.judge.numbers import Number, text
-from raysteps.judge.protocol import Ray, TokenReader, vector_words
+from raysteps.judge.protocol import Number, Ray, TokenReader, text, vector_words
 
 MOST_ASKED = 1000
 

@@ -4,10 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
-from raysteps.judge.compare import Answer, TooMuchWork, first
+from raysteps.judge.answers import Answer, TooMuchWork, first
 from raysteps.judge.hits import MaybeHit, found_problem, found_words, read_hit
-from raysteps.judge.numbers import Number, text
-from raysteps.judge.protocol import Inputs, ProtocolError, Ray, TokenReader
+from raysteps.judge.protocol import Inputs, Number, ProtocolError, Ray, TokenReader, text
 from raysteps.judge.surfaces import Surfaces
 
 _MAX_RAYS = 1000

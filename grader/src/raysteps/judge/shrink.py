@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import chain, islice
 
 from raysteps.common.errors import GraderFault
+from raysteps.judge.answers import TooLarge, TooMuchWork
 from raysteps.judge.choice_sequence import Choice
-from raysteps.judge.compare import TooLarge, TooMuchWork
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import (
@@ -29,23 +29,23 @@ from raysteps.judge.worker import Ask, JudgedCase, Reply, answers_until_trouble,
 _RUN_SECONDS = 2.0
 
 
+@dataclass
 class CpuBudget:
     """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
     not count, so that a busy machine shows the same examples; but a program that sleeps, and a judge that is slow, come
     to an end too: after `longest` seconds on the clock, from the first run on."""
 
-    def __init__(self, seconds: float, longest: float = 20.0) -> None:
-        self._left = seconds
-        self._longest = longest
-        self._end = math.inf
+    left: float = 8.0
+    longest: float = 20.0
+    end: float = math.inf
 
     def next_run(self) -> float:
         now = time.monotonic()
-        self._end = min(self._end, now + self._longest)
-        return _RUN_SECONDS if self._left > 0 and now < self._end else 0.0
+        self.end = min(self.end, now + self.longest)
+        return _RUN_SECONDS if self.left > 0 and now < self.end else 0.0
 
     def spend(self, seconds: float) -> None:
-        self._left -= seconds
+        self.left -= seconds
 
 
 # Which of many candidates are wrong in the same way as a known case, and which of these is beyond doubt.
@@ -78,11 +78,11 @@ def _same_way(one: JudgedCase, other: JudgedCase) -> bool:
 class ShrinkOracle:
     """Asks many candidates at once: one run of the student's worker and one of the reference's for each round."""
 
-    def __init__(self, function: Function, student: Ask, reference: Ask, patience: CpuBudget) -> None:
+    def __init__(self, function: Function, student: Ask, reference: Ask, budget: CpuBudget) -> None:
         self._function = function
         self._student = student
         self._reference = reference
-        self._patience = patience
+        self._budget = budget
 
     def wrong(self, found: JudgedCase, proposed: Sequence[tuple[Candidate, Change]], seconds: float) -> list[Wrong]:
         """Those that are wrong in the same way, the simplest first."""
@@ -103,8 +103,8 @@ class ShrinkOracle:
         runs = 3 if go_on else 1
         while len(replies) < len(cases) and runs > 0 and seconds > 0:
             part = answers_until_trouble(self._student, cases[len(replies) :], seconds)
-            self._patience.spend(part.seconds)
-            seconds, runs = self._patience.next_run(), runs - 1
+            self._budget.spend(part.seconds)
+            seconds, runs = self._budget.next_run(), runs - 1
             replies += part.replies
         return replies + [None] * (len(cases) - len(replies))
 
@@ -160,10 +160,10 @@ def _shape(candidate: Candidate) -> tuple[int, frozenset[Place]]:
 class Shrinker:
     """Goes from a wrong case to simpler ones, round by round."""
 
-    def __init__(self, function: Function, student: Ask, reference: Ask, patience: CpuBudget) -> None:
+    def __init__(self, function: Function, student: Ask, reference: Ask, budget: CpuBudget) -> None:
         self._function = function
-        self._trials = ShrinkOracle(function, student, reference, patience)
-        self._patience = patience
+        self._oracle = ShrinkOracle(function, student, reference, budget)
+        self._budget = budget
 
     def shrink(self, found: JudgedCase, choices: Sequence[Choice]) -> JudgedCase:
         """The simplest case that was found in a bounded number of rounds; the given one, if there is none."""
@@ -176,13 +176,13 @@ class Shrinker:
         good: list[Change] = []
         barren = 0
         for _ in range(_ROUNDS_OF_SILENCE if found.outcome == "timeout" else _ROUNDS):
-            seconds = self._patience.next_run()
+            seconds = self._budget.next_run()
             proposed = self._proposed(base, live, good, tried) if seconds and barren < _BARREN else []
             if not proposed:
                 break
-            wrong = self._trials.wrong(found, proposed, seconds)
+            wrong = self._oracle.wrong(found, proposed, seconds)
             simpler = [one for one in wrong if one.candidate.complexity < base.complexity]
-            best = self._trials.simplest_stable(simpler)
+            best = self._oracle.simplest_stable(simpler)
             good = [one.change for one in simpler if one is not best][:_BEST]
             barren += 1
             if best is not None:

@@ -19,8 +19,7 @@ from raysteps.judge.choice_sequence import (
     simpler_wholes,
 )
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.numbers import f32
-from raysteps.judge.protocol import Inputs, Lights, Real, Value
+from raysteps.judge.protocol import Inputs, Lights, Real, Value, f32
 from raysteps.judge.scripted_tracer import Script, ScriptedHit
 from raysteps.judge.searches import Rays, Reaches
 from raysteps.judge.surfaces import Surfaces

@@ -4,8 +4,7 @@ import math
 from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector, add, cross, dot, minus
-from raysteps.judge.numbers import Number, text
-from raysteps.judge.protocol import Fill, Ray, vector_words
+from raysteps.judge.protocol import Fill, Number, Ray, text, vector_words
 
 _MAX_IN_WORDS = 12
 

@@ -9,7 +9,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
 from raysteps.common.text import in_seconds
-from raysteps.judge.compare import Verdict
+from raysteps.judge.answers import Verdict
 from raysteps.judge.functions import Case, Function
 from raysteps.results.model import Termination
 from raysteps.sandbox.limits_only import LimitsOnly
@@ -110,12 +110,12 @@ def _trouble(ran: TaskResult, *, in_a_line: bool) -> Reply:
     return Reply("", "crashed", f"the program ended ({how})")
 
 
-def ask_once(
-    ask: Ask, cases: Sequence[Case], first: int, seconds: float
-) -> tuple[TaskResult, list[Reply], Reply | None]:
-    """How it ran, the answers that came, and what became of the next case; None where nobody knows."""
-    stdin = "".join(f"{case.line(i)}\n" for i, case in enumerate(cases[first:], first))
-    ran = ask(stdin.encode(), seconds)
+def _stdin(cases: Sequence[Case], first: int) -> bytes:
+    return "".join(f"{case.line(i)}\n" for i, case in enumerate(cases[first:], first)).encode()
+
+
+def _what_came(ran: TaskResult, cases: Sequence[Case], first: int) -> tuple[list[Reply], Reply | None]:
+    """The answers, and what became of the next case; None where nobody knows."""
     lines = ran.outcome.stdout.split("\n")
     rest = lines.pop()
     replies = _read(lines, first, len(cases) - 1)
@@ -123,7 +123,7 @@ def ask_once(
     # the next case, and will do so again when that is the first one.
     ended = f"end {len(cases) - first}" in lines[-1:]
     was_cut = ran.outcome.code == 0 and not _hung(ran) and not ran.stopped and not ended
-    return ran, replies, None if was_cut and replies else _trouble(ran, in_a_line=bool(rest))
+    return replies, None if was_cut and replies else _trouble(ran, in_a_line=bool(rest))
 
 
 def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
@@ -134,7 +134,8 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
     while len(replies) < len(cases):
         if not seconds:
             return _give_up(replies, cases, used, Reply("", "timeout", "there was no time left for it", asked=False))
-        ran, answers, trouble = ask_once(ask, cases, len(replies), seconds)
+        ran = ask(_stdin(cases, len(replies)), seconds)
+        answers, trouble = _what_came(ran, cases, len(replies))
         used += ran.outcome.seconds
         budget.spend(ran.outcome.seconds, hung=_hung(ran))
         seconds = budget.next_run()
@@ -159,7 +160,8 @@ def _give_up(replies: list[Reply], cases: Sequence[Case], seconds: float, rest: 
 def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Replies:
     """One run, and the seconds of a processor that it took. The last reply may be the trouble that ended it, if the
     function was called; the rest is not known."""
-    ran, replies, trouble = ask_once(ask, cases, 0, seconds)
+    ran = ask(_stdin(cases, 0), seconds)
+    replies, trouble = _what_came(ran, cases, 0)
     if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
         replies = [*replies, trouble]
     return Replies(replies[: len(cases)], ran.outcome.seconds if _hung(ran) else ran.cpu_seconds)

@@ -4,56 +4,18 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
-from raysteps.common.files import one_at_a_time, usable_folder
+from raysteps.common.files import one_at_a_time
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.self_check import self_check
+from raysteps.grading.step import clear
 from raysteps.progress.standing import remember
-from raysteps.report.student import REPORT, try_student_page
+from raysteps.report.student import try_student_page
 from raysteps.results.model import Results
-from raysteps.results.store import FOLDER as CASES
-from raysteps.results.store import place_of
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-
-
-def exit_code(results: Results) -> int:
-    """0 all passed (a bonus need not be started), 3 when building is the only trouble, else 1."""
-    open_steps = [
-        step for step in results.steps if step.status != "passed" and not (step.bonus and step.status == "not-started")
-    ]
-    if not open_steps:
-        return 0
-    return 3 if all(step.status == "does-not-build" for step in open_steps) else 1
-
-
-def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
-    """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any. Cases
-    stay for `replay` until their step is graded again."""
-    usable_folder(out)
-    try:
-        for name in ("results.json", REPORT):
-            (out / name).unlink(missing_ok=True)
-        for step in steps:
-            folder = out / "pictures" / step.id
-            if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
-                continue
-            for kind in ("mine", "reference", "difference"):
-                for picture in folder.glob(f"*-{kind}.png"):
-                    picture.unlink()
-            if not any(folder.iterdir()):
-                folder.rmdir()
-        if not (out / CASES).is_symlink():
-            for name in (place_of(step.number, function) for step in asked_again for function in step.functions):
-                (out / name).unlink(missing_ok=True)
-        for room in (out / "pictures", out / CASES):
-            if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
-                room.rmdir()
-    except OSError as error:
-        raise UsageError(f"{out}: old results cannot be removed: {error}") from error
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import content_hash, write_bytes
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, read_all_steps
@@ -28,7 +28,7 @@ def _is_as_released(path: Path, listed: ListedFile) -> bool:
     try:
         return listed.is_at(path)
     except OSError as error:
-        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UsageError(f"{path}: cannot be read: {reason(error)}") from error
 
 
 def usable(out: Path) -> None:
@@ -177,7 +177,7 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
             usable(out)
             swap(new, out)
     except OSError as error:
-        raise UsageError(f"{out}: cannot be written: {error.strerror or error}") from error
+        raise UsageError(f"{out}: cannot be written: {reason(error)}") from error
     return True
 
 

@@ -32,7 +32,6 @@ NEVER = (
     "raysteps.course.mutants",
     "raysteps.diagnosis",
     "raysteps.gallery",
-    "raysteps.grading.hidden",
     "raysteps.grading.options",
     "raysteps.grading.pipeline",
     "raysteps.inspector.blame",

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count, join_and
 from raysteps.release.secrets import Secrets, words_in
 from raysteps.updater.generated_files import CACHE, HISTORY, all_places
@@ -164,7 +164,7 @@ def pieces(place: str, data: bytes, depth: int = 0) -> Iterator[Piece]:
 
 
 def _refuse(error: OSError) -> None:
-    raise UsageError(f"{error.filename}: cannot be looked through: {error.strerror or error}") from error
+    raise UsageError(f"{error.filename}: cannot be looked through: {reason(error)}") from error
 
 
 def to_search(folder: Path, *, tried: bool) -> list[Path]:

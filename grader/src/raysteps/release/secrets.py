@@ -8,7 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import GraderFault
+from raysteps.common.errors import GraderFault, reason
 from raysteps.course.manifest import read_all_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import USUAL_SEED, read_course
@@ -179,7 +179,7 @@ def read_allowlist() -> list[Allowlist]:
         table = tomllib.loads(files(__package__).joinpath("shared.toml").read_text(encoding="utf-8"))
         return [Allowlist(tuple(one["files"]), str(one["origin"]), str(one["words"])) for one in table["shared"]]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise GraderFault(f"{FILE}: expected [[shared]] with files, origin and words: {error}") from error
+        raise GraderFault(f"{FILE}: expected [[shared]] with files, origin and words: {reason(error)}") from error
 
 
 # Words in a row, and how many a text must have to say anything by itself. Nobody writes so many alike by chance.

@@ -18,6 +18,7 @@ from markupsafe import Markup
 from PIL import Image
 
 from raysteps import __version__
+from raysteps.common.errors import reason
 
 _UNSAFE = {ord(sign): f"\\u{ord(sign):04x}" for sign in "<>&\u2028\u2029"}
 _ENDING = re.compile(r"</|<!--", re.IGNORECASE)
@@ -121,7 +122,7 @@ def picture_data(path: Path) -> PictureData:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise NotAPicture(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise NotAPicture(f"{path}: cannot be read: {reason(error)}") from error
     if not data.startswith(_MAGIC) or len(data) < _HEADER or data[12:16] != b"IHDR":
         raise NotAPicture(f"{path}: is not a PNG")
     return PictureData(_uri(data), int.from_bytes(data[16:20]), int.from_bytes(data[20:24]))

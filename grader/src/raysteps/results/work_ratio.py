@@ -4,7 +4,6 @@ A surface test and a box test weigh alike. Of a picture it is (surface tests + b
 reference's; of a step the geometric mean of its pictures that have a max_share.
 """
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,8 +12,6 @@ from typing import Any
 from raysteps.common.text import join_and
 
 # What a picture cost: tests that the program counted, and the structure that it built. No clock is involved.
-
-_MAX = 2**63  # a counter of the framework has 64 bits
 
 
 @dataclass(frozen=True)
@@ -42,36 +39,13 @@ class Work:
         return (self.surface_tests + self.box_tests) / self.rays if self.rays else 0.0
 
 
-def _count(value: Any) -> int:
-    if type(value) is not int or not 0 <= value < _MAX:
-        raise ValueError("not a counter")
-    return value
-
-
-def read_work(stats: bytes) -> Work | None:
-    """None when these are no statistics of raytrace: a student's program may have written anything."""
-    try:
-        told = json.loads(stats)
-        structure = told["structure"]
-        return Work(
-            rays=sum(_count(told["rays"][kind]) for kind in ("eye", "shadow", "reflect", "refract")),
-            surface_tests=_count(told["surface_tests"]),
-            box_tests=_count(told["box_tests"]),
-            boxes=_count(structure["boxes"]),
-            references=_count(structure["references"]),
-            bytes=_count(structure["bytes"]),
-        )
-    except (ValueError, KeyError, TypeError, RecursionError):
-        return None
-
-
 Document = Mapping[str, Any]
 _DIGITS = 6  # the same on every machine, whatever its logarithm does in the last place
 _NO_PICTURES = {"not-started": "not started", "does-not-build": "does not build"}
 
 
 @dataclass(frozen=True)
-class Effort:
+class WorkRatio:
     """Of one step of one submission."""
 
     relative: float  # 1 is the reference's
@@ -81,7 +55,7 @@ class Effort:
 
 
 @dataclass(frozen=True)
-class NoEffort:
+class NoWorkRatio:
     """Why there is nothing to compare."""
 
     reason: str
@@ -102,17 +76,17 @@ def _wrong(images: Sequence[Document]) -> str:
     return f"{_pictures_are(costly)} right, but the work that was counted did not pass" if costly else ""
 
 
-def _relative(image: Document) -> float | NoEffort:
+def _relative(image: Document) -> float | NoWorkRatio:
     name = image["name"]
     if "work" not in image or "reference_work" not in image:
-        return NoEffort("graded by an older kit, which kept no counters; grade it again")
+        return NoWorkRatio("graded by an older kit, which kept no counters; grade it again")
     if image["work"] is None or image["reference_work"] is None:
-        return NoEffort(f"picture {name} has no counters")
+        return NoWorkRatio(f"picture {name} has no counters")
     mine, reference = Work(**image["work"]), Work(**image["reference_work"])
     if not mine.rays or not mine.surface_tests or not reference.tests_per_ray:
-        return NoEffort(f"picture {name}: no test of a surface was counted")
+        return NoWorkRatio(f"picture {name}: no test of a surface was counted")
     if reference.box_tests and not mine.box_tests:
-        return NoEffort(f"picture {name}: no test of a box was counted, as when boxes are not asked by box.hit(ray)")
+        return NoWorkRatio(f"picture {name}: no test of a box was counted, as when boxes are not asked by box.hit(ray)")
     return mine.tests_per_ray / reference.tests_per_ray
 
 
@@ -121,26 +95,26 @@ def limited(result: Document) -> list[Document]:
     return [image for image in result["images"] if image["max_share"] is not None]
 
 
-def effort_of(result: Document, expected: Sequence[str] = ()) -> Effort | NoEffort:
+def work_ratio_of(result: Document, expected: Sequence[str] = ()) -> WorkRatio | NoWorkRatio:
     """Of one step in results.json. `expected` are the pictures that count and must be there; else all that have a
     max_share."""
     if result["status"] in _NO_PICTURES:
-        return NoEffort(_NO_PICTURES[result["status"]])
+        return NoWorkRatio(_NO_PICTURES[result["status"]])
     if result["inconsistent"]:
-        return NoEffort("inconsistent: the program claims what the judge did not see")
+        return NoWorkRatio("inconsistent: the program claims what the judge did not see")
     problem = _wrong(result["images"])
     if problem:
-        return NoEffort(problem)
+        return NoWorkRatio(problem)
     images = [image for image in limited(result) if not expected or image["name"] in expected]
     missing = [name for name in expected if name not in {image["name"] for image in images}]
     if missing or not images:
-        return NoEffort(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
+        return NoWorkRatio(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
     pictures: dict[str, float] = {}
     for image in images:
         relative = _relative(image)
-        if isinstance(relative, NoEffort):
+        if isinstance(relative, NoWorkRatio):
             return relative
         pictures[image["name"]] = round(relative, _DIGITS)
     mean = math.exp(math.fsum(math.log(max(value, 10**-_DIGITS)) for value in pictures.values()) / len(pictures))
     mine, reference = (sum(image[key]["bytes"] for image in images) for key in ("work", "reference_work"))
-    return Effort(round(mean, _DIGITS), mine, reference, pictures)
+    return WorkRatio(round(mean, _DIGITS), mine, reference, pictures)

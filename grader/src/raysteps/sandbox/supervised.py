@@ -26,7 +26,7 @@ from raysteps.sandbox.users import can_lend_users, lent_user
 
 _MEGABYTE = 1 << 20
 _KEEPER = Path(__file__).with_name("keeper.py")
-_PATIENCE_SECONDS = 1.0
+_GRACE_SECONDS = 1.0
 _LINUX = sys.platform == "linux"
 
 
@@ -49,7 +49,7 @@ class _Family:
         """Asks the keeper to end everything; if it does not, as when it was killed itself, does so in its place."""
         now = time.monotonic()
         self._asked_at = self._asked_at or now
-        if self._process.returncode is None and now < self._asked_at + _PATIENCE_SECONDS:
+        if self._process.returncode is None and now < self._asked_at + _GRACE_SECONDS:
             self._process.terminate()
             return
         if _LINUX:

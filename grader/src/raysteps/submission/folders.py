@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
+from raysteps.common.errors import reason
 from raysteps.submission import entries
 from raysteps.submission.entries import Entry, RejectedFile, check_size, is_out_of_sight, not_a_file, split
 
@@ -28,7 +29,7 @@ def _read(folder: int, name: str) -> bytes:
     try:
         handle = os.open(name, _FILE, dir_fd=folder)
     except OSError as error:
-        raise RejectedFile(f"cannot be read ({error.strerror}) and was not taken.") from error
+        raise RejectedFile(f"cannot be read ({reason(error)}) and was not taken.") from error
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
@@ -37,7 +38,7 @@ def _read(folder: int, name: str) -> bytes:
         try:
             data = file.read(entries.MAX_SOURCE + 1)
         except OSError as error:
-            raise RejectedFile(f"cannot be read ({error.strerror}) and was not taken.") from error
+            raise RejectedFile(f"cannot be read ({reason(error)}) and was not taken.") from error
     check_size(len(data))
     return data
 
@@ -107,7 +108,7 @@ def _read_by_path(path: Path) -> bytes:
             check_size(os.fstat(file.fileno()).st_size)
             data = file.read(entries.MAX_SOURCE + 1)
     except OSError as error:
-        raise RejectedFile(f"cannot be read ({error.strerror}) and was not taken.") from error
+        raise RejectedFile(f"cannot be read ({reason(error)}) and was not taken.") from error
     check_size(len(data))
     return data
 

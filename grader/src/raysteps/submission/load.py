@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, archive_entries
@@ -100,8 +100,8 @@ class _Collector:
             problem = found.problem
             try:
                 decoded = decode(found.data)
-            except RejectedFile as reason:
-                problem = problem or str(reason)
+            except RejectedFile as refused:
+                problem = problem or str(refused)
             if problem:
                 result.notes[step] = f"{found.path} {problem}"
                 continue
@@ -155,7 +155,7 @@ def load_submission(path: Path, steps: list[Step]) -> Submission:
         _collect(path, collector)
     except DAMAGED as error:
         why = "an archive may be damaged or cut off"
-        raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({error})") from error
+        raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({reason(error)})") from error
     submission = collector.submission(submission_name(path))
     if not submission.sources and not submission.notes:
         raise UsageError(f"{path}: holds no step; expected files like steps/{steps[0].path.as_posix()}")

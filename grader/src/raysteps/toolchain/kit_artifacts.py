@@ -9,8 +9,7 @@ from typing import Literal
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.toolchain.description import Description
-from raysteps.toolchain.link import library_name
+from raysteps.toolchain.link import Description, library_name
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import content_hash
 from raysteps.common.text import join_and
 from raysteps.updater.release_list import PLACE, ListedFile, Release, parse
@@ -94,7 +94,7 @@ def open_source(path: Path) -> Iterator[Source]:
         try:
             source = _in_folder(path)
         except OSError as error:
-            raise UsageError(f"{path}: cannot be read: {error.strerror or error}; {_EXPECTED}") from error
+            raise UsageError(f"{path}: cannot be read: {reason(error)}; {_EXPECTED}") from error
         yield source
         return
     try:

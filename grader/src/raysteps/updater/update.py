@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason_and_place
 from raysteps.common.files import content_hash
 from raysteps.updater import repository as unfinished
 from raysteps.updater.release_list import PLACE, ListedFile, Release
@@ -115,11 +115,8 @@ def _told(what_now: str) -> Iterator[None]:
     """Whatever goes wrong is said together with how things stand now."""
     try:
         yield
-    except UsageError as error:
-        raise UsageError(f"{error}. {what_now}") from error
-    except OSError as error:
-        where = f"{error.filename}: " if error.filename else ""
-        raise UsageError(f"{where}{error.strerror or error}. {what_now}") from error
+    except (UsageError, OSError) as error:
+        raise UsageError(f"{reason_and_place(error)}. {what_now}") from error
 
 
 def _refuse(obstacle: str) -> None:

@@ -22,7 +22,7 @@ from raysteps.watch.events import Post, WorkerEnded, WorkerMessage
 Kind = Literal["look", "check"]
 
 WORKER = (sys.executable, "-P", "-m", "raysteps.watch.worker")
-_PATIENCE_SECONDS = 2.0
+_GRACE_SECONDS = 2.0
 _MAX_ERRORS = 2000
 
 
@@ -47,7 +47,7 @@ class _Process:
         if self.popen.poll() is None:
             self.signal(signal.SIGTERM)
             with suppress(subprocess.TimeoutExpired):
-                self.popen.wait(_PATIENCE_SECONDS)
+                self.popen.wait(_GRACE_SECONDS)
         if self.popen.poll() is None:
             self.signal(getattr(signal, "SIGKILL", signal.SIGTERM))
             self.popen.wait()

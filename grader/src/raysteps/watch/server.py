@@ -10,7 +10,7 @@ from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlsplit
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import UsageError, reason
 from raysteps.watch.page_state import News, PageState
 
 _HOSTS = {"127.0.0.1", "localhost"}  # another name that leads here is an attack by DNS rebinding
@@ -23,7 +23,7 @@ _HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
 }
 _SIGN_OF_LIFE_SECONDS = 5.0
-_PATIENCE_SECONDS = 10.0
+_TIMEOUT_SECONDS = 10.0
 _FAREWELL_SECONDS = 0.5
 _MAX_LISTENERS = 16
 
@@ -47,7 +47,7 @@ class _Server(ThreadingHTTPServer):
 
 class _Handler(BaseHTTPRequestHandler):
     server: _Server
-    timeout = _PATIENCE_SECONDS
+    timeout = _TIMEOUT_SECONDS
     server_version = "raysteps"
     sys_version = ""
 
@@ -128,7 +128,9 @@ class PageServer:
         try:
             self._server = _Server(port, board, make_page)
         except (OSError, OverflowError) as error:
-            raise UsageError(f"--port {port}: the page cannot be served there: {error}; choose another port") from error
+            raise UsageError(
+                f"--port {port}: the page cannot be served there: {reason(error)}; choose another port"
+            ) from error
         self._board = board
         self._thread = threading.Thread(target=self._server.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()

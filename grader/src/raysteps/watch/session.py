@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import RaystepsError
+from raysteps.common.errors import RaystepsError, reason_and_place
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.images.compare import gaps, read_png, widest
@@ -96,7 +96,7 @@ class Actions:
             elif letter in self._keys:
                 self._keys[letter]()
         except (RaystepsError, OSError) as error:
-            self._session.showing.line(str(error), "red")
+            self._session.showing.line(reason_and_place(error), "red")
 
     def remind(self) -> None:
         """Of the keys, where there are any."""

@@ -13,7 +13,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import RaystepsError
+from raysteps.common.errors import RaystepsError, reason
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
@@ -47,7 +47,7 @@ def look(project: Project, name: str) -> None:
     try:
         source = own_source(project, step)
     except (OSError, RejectedFile) as error:
-        _tell(error=f"{step.file}: {error}")
+        _tell(error=f"{step.file}: {reason(error)}")
         return
     if source is None:
         _tell(error=f"{step.file} is not there")

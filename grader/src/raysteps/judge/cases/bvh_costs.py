@@ -3,11 +3,10 @@
 import math
 
 from raysteps.common.vectors import Vector, add
+from raysteps.judge.answers import Answer, real, words_of_number
 from raysteps.judge.cases.octree_boxes import any_box, far_box, flat_box, simple_box
-from raysteps.judge.compare import Answer, real, words_of_number
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Box, Inputs, Whole
+from raysteps.judge.protocol import Box, Inputs, Whole, rounded
 from raysteps.judge.random_source import RandomSource
 
 _AREA = Answer(lambda tokens: tokens.real(), words_of_number, lambda _inputs, *pair: real("the area", *pair))

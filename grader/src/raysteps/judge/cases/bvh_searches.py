@@ -30,8 +30,7 @@ from raysteps.judge.cases.search_cases import (
 )
 from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, any_scene, dense_scene, large_and_small, small_scene
 from raysteps.judge.functions import Function, Group, Make
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Ray
+from raysteps.judge.protocol import Ray, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import ANY_IN_BVH, CLOSEST_IN_BVH, WhoseBvh
 from raysteps.judge.surfaces import Scripted

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
-from raysteps.judge.compare import (
+from raysteps.judge.answers import (
     LENGTHS,
     Answer,
     direction,
@@ -19,8 +19,7 @@ from raysteps.judge.compare import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole
+from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole, f32, rounded
 from raysteps.judge.random_source import RandomSource
 
 # Cases of step 01: cameras of all kinds, and the view frame of each.

@@ -4,8 +4,7 @@ from raysteps.common.vectors import add, cross, times, unit
 from raysteps.judge.cases.triangles import TRIANGLE_INTERSECT
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Inputs, Ray
+from raysteps.judge.protocol import Inputs, Ray, rounded
 from raysteps.judge.random_source import RandomSource, next_axis, with_zeros
 from raysteps.judge.surfaces import Scripted, Sphere, Surfaces
 

@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector, add, unit
+from raysteps.judge.answers import LENGTHS, SMALL, Answer, first, real, vector
 from raysteps.judge.cases.tree_scenes import small_scene
-from raysteps.judge.compare import LENGTHS, SMALL, Answer, first, real, vector
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Box, Inputs, ProtocolError, Ray, TokenReader
+from raysteps.judge.protocol import Box, Inputs, ProtocolError, Ray, TokenReader, rounded
 from raysteps.judge.random_source import RandomSource, with_zeros
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 

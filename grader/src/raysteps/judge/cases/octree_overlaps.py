@@ -1,10 +1,9 @@
 """What the overlaps of step 06 share: the answer, and boxes around a point or far from it."""
 
 from raysteps.common.vectors import Vector, add, cross, times, unit
-from raysteps.judge.compare import Answer
+from raysteps.judge.answers import Answer
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Box, Inputs
+from raysteps.judge.protocol import Box, Inputs, f32, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Triangle
 

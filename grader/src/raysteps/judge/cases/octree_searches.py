@@ -24,8 +24,7 @@ from raysteps.judge.cases.search_cases import (
 )
 from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene
 from raysteps.judge.functions import Function, Group, Make
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Ray
+from raysteps.judge.protocol import Ray, f32, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import ANY_HITS, SEARCHES, WhoseTree
 from raysteps.judge.surfaces import Triangle

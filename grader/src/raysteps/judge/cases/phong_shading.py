@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 from raysteps.common.vectors import Vector, add, times, unit
-from raysteps.judge.compare import Answer, channels, read_vector, vector, words_of_vector
+from raysteps.judge.answers import Answer, channels, read_vector, vector, words_of_vector
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import mirrored, rounded
-from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec
+from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec, mirrored, rounded
 from raysteps.judge.random_source import RandomSource, next_axis
 
 # Cases of step 03: mirrored directions.

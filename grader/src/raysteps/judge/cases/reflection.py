@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 
 from raysteps.common.vectors import Vector, add, dot, length, minus, times
-from raysteps.judge.compare import Answer, angle, channels, first
+from raysteps.judge.answers import Answer, angle, channels, first
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import REFLECTED_RAY
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Hit, Inputs, Ray, Whole
+from raysteps.judge.protocol import Hit, Inputs, Ray, Whole, rounded
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import Script, ScriptedHit, TracedCall, read_traced, traced_words
 

@@ -4,11 +4,23 @@ import math
 from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, dot, length, minus, times
-from raysteps.judge.compare import Answer, channels, direction, first
+from raysteps.judge.answers import Answer, channels, direction, first
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import TRANSMITTED_RAY, hit_of
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Fill, Hit, Inputs, ProtocolError, Ray, Real, TokenReader, Vec, Whole, vector_words
+from raysteps.judge.protocol import (
+    Fill,
+    Hit,
+    Inputs,
+    ProtocolError,
+    Ray,
+    Real,
+    TokenReader,
+    Vec,
+    Whole,
+    f32,
+    rounded,
+    vector_words,
+)
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.scripted_tracer import MOST_ASKED
 

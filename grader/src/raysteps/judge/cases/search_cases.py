@@ -7,8 +7,7 @@ from typing import TypeAlias
 from raysteps.common.vectors import Vector, add, minus, times, unit
 from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene, any_scene, large_and_small, small_scene
 from raysteps.judge.functions import Make
-from raysteps.judge.numbers import f32, rounded
-from raysteps.judge.protocol import Inputs, Ray, Real
+from raysteps.judge.protocol import Inputs, Ray, Real, f32, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import Rays, Reach, Reaches, WhoseTree
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, first_distance

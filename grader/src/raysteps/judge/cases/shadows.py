@@ -3,11 +3,10 @@
 from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
-from raysteps.judge.compare import Answer
+from raysteps.judge.answers import Answer
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import SHADOW_RAY
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Hit, Inputs, Light, TokenReader
+from raysteps.judge.protocol import Hit, Inputs, Light, TokenReader, rounded
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 

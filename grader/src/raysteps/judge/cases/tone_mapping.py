@@ -3,7 +3,7 @@
 import math
 
 from raysteps.common.vectors import Vector
-from raysteps.judge.compare import (
+from raysteps.judge.answers import (
     Answer,
     Tolerance,
     channels,
@@ -13,8 +13,7 @@ from raysteps.judge.compare import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.numbers import f32
-from raysteps.judge.protocol import Inputs, Real, Vec
+from raysteps.judge.protocol import Inputs, Real, Vec, f32
 from raysteps.judge.random_source import RandomSource
 
 _CLOSE = Tolerance(1e-5, 1e-4)

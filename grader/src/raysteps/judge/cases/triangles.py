@@ -3,8 +3,7 @@
 from raysteps.common.vectors import Vector, add, cross, minus, times, unit
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import HIT
-from raysteps.judge.numbers import rounded
-from raysteps.judge.protocol import Inputs, Ray
+from raysteps.judge.protocol import Inputs, Ray, rounded
 from raysteps.judge.random_source import RandomSource, with_zeros
 from raysteps.judge.surfaces import Triangle
 

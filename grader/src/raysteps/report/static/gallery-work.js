@@ -8,11 +8,11 @@ function galleryCount(value) {
 /**
  * Maps of the work and its numbers, before a step and after it.
  * @param {HTMLElement} place
- * @param {{name: string, map: number, width: number, height: number, surfaces: number, boxes: number}[]} efforts
+ * @param {{name: string, map: number, width: number, height: number, surfaces: number, boxes: number}[]} maps
  * @param {string[]} pictures
  */
-function showGalleryWork(place, efforts, pictures) {
-  const figures = efforts.map(({ name, map, width, height, surfaces, boxes }) => {
+function showGalleryWork(place, maps, pictures) {
+  const figures = maps.map(({ name, map, width, height, surfaces, boxes }) => {
     const figure = document.createElement("figure");
     const image = Object.assign(new Image(width, height), {
       src: pictures[map],

@@ -10,7 +10,7 @@ from playwright.sync_api import Page
 from raysteps.course.manifest import Step
 from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
 from raysteps.gallery.scenes import GalleryScene
-from raysteps.gallery.shots import Effort, Shot
+from raysteps.gallery.shots import Shot, WorkMap
 from raysteps.images.compare import Pixels
 from raysteps.results.work_ratio import Work
 
@@ -23,17 +23,17 @@ def _picture(scene: int, step: int, *, mine: bool = False) -> Pixels:
     return np.full((9, 12, 3), (10 * step, 100 * scene, 200 * mine), np.uint8)
 
 
-def _effort(name: str, tests: int) -> Effort:
-    return Effort(name, np.full((9, 12, 3), tests % 256, np.uint8), Work(100, tests * 100, 0, 8, 9, 10))
+def _work_map(name: str, tests: int) -> WorkMap:
+    return WorkMap(name, np.full((9, 12, 3), tests % 256, np.uint8), Work(100, tests * 100, 0, 8, 9, 10))
 
 
 def _scene(number: int, title: str, steps: list[Step], *, mine: bool) -> GalleryEntry:
     reference = [Shot(_picture(number, _SAME.get(step, step))) for step in range(len(steps))]
     own = [Shot(_picture(number, step, mine=True), "Unfinished: shade.") for step in range(len(steps))]
     own[3] = Shot(None, f"It does not build: {_SCRIPT}")
-    efforts = {6: [_effort("every surface", 820), _effort("octree", 3)]}
+    work_maps = {6: [_work_map("every surface", 820), _work_map("octree", 3)]}
     return GalleryEntry(
-        GalleryScene(title, title, f"About {title}.", Path("a.nff")), reference, efforts, own if mine else []
+        GalleryScene(title, title, f"About {title}.", Path("a.nff")), reference, work_maps, own if mine else []
     )
 
 

@@ -6,7 +6,7 @@ import tracemalloc
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.compare import Verdict
+from raysteps.judge.answers import Verdict
 from raysteps.judge.octrees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle

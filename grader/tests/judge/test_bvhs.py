@@ -5,8 +5,8 @@ import time
 import pytest
 
 from raysteps.common.errors import GraderFault
+from raysteps.judge.answers import Verdict
 from raysteps.judge.bvhs import BVH, MOST_COST, MOST_LEVELS, MOST_NODES, Bvh, BvhNode, bvh_cost
-from raysteps.judge.compare import Verdict
 from raysteps.judge.protocol import Box, Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
 

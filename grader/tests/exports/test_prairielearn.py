@@ -12,8 +12,9 @@ from export_documents import HOSTILE, full, mixed
 from PIL import Image
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.files import encoded
 from raysteps.course.manifest import Step
-from raysteps.exports.formats import encoded, validate
+from raysteps.exports.formats import validate
 from raysteps.exports.hosted import by_id
 from raysteps.exports.prairielearn import MAX_BYTES, not_gradable, score, to_prairielearn
 

@@ -11,8 +11,8 @@ from raysteps.common.text import number
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.hidden_tests import run_hidden_tests
-from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
+from raysteps.judge.protocol import f32
 from raysteps.judge.worker import Ask, TimeBudget
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.task import TaskResult

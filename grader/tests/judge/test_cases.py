@@ -10,8 +10,8 @@ from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.hidden_tests import ORDINARY_SHARE, make_cases
-from raysteps.judge.numbers import f32, text
 from raysteps.judge.plan import Plan, read_plan
+from raysteps.judge.protocol import f32, text
 
 pytestmark = pytest.mark.portable
 

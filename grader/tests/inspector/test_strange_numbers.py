@@ -20,7 +20,7 @@ from raysteps.inspector.side_by_side import print_trees
 Change = Callable[[Record], None]
 
 
-def _no_image_plane(record: Record) -> None:
+def _no_window(record: Record) -> None:
     record["frame"] |= {"half_width": "nan", "forward": ["nan", "nan", "nan"]}
 
 
@@ -42,7 +42,7 @@ def _endless_ray(record: Record) -> None:
 @pytest.mark.parametrize(
     ("change", "function"),
     [
-        (_no_image_plane, "view_frame"),
+        (_no_window, "view_frame"),
         (_lost_hit, "Sphere::intersect"),
         (_normal_of_any_length, None),
         (_endless_ray, "reflected_ray"),
@@ -53,12 +53,12 @@ def test_it_is_compared_and_drawn_all_the_same(change: Change, function: str | N
     for record in (mine, reference):
         record["ray"]["hit"]["fill"]["shine"] = 300
     change(mine)
-    parting = find_divergence(mine, reference)
-    assert (parting.function if parting else None) == function
-    drawn = re.search(r'id="data">(.*?)</script>', page_html(mine, reference, parting), re.DOTALL)
+    divergence = find_divergence(mine, reference)
+    assert (divergence.function if divergence else None) == function
+    drawn = re.search(r'id="data">(.*?)</script>', page_html(mine, reference, divergence), re.DOTALL)
     assert drawn is not None
     assert json.loads(drawn[1], parse_constant=pytest.fail)["mine"]["rays"]
-    print_trees(Console(file=io.StringIO(), width=150), mine, reference, parting)
+    print_trees(Console(file=io.StringIO(), width=150), mine, reference, divergence)
 
 
 def test_a_scene_whose_name_is_no_text_can_be_inspected(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.watch.keyboard import letters
 
-_PATIENCE = 90
+_TIMEOUT = 90
 _FAKES = Path(watch_fakes.__file__)
 
 
@@ -148,7 +148,7 @@ def test_without_a_terminal_there_are_no_keys(course: Project, steps: list[Step]
     assert said[1].endswith("01 Camera rays: watching\n")
     assert said[2].startswith("✓ 2 tests right, 1 picture right.")
     process.send_signal(signal.SIGTERM)
-    rest, _ = process.communicate(timeout=_PATIENCE)
+    rest, _ = process.communicate(timeout=_TIMEOUT)
     assert process.returncode == 130
     assert rest.splitlines()[-1] == "Stopped watching."  # what was just being printed may come once more
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from conftest import MakeSubmission, Sources
 from export_documents import HOSTILE, mixed
-from test_export_github import ENVIRONMENT
+from test_github import ENVIRONMENT
 
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step

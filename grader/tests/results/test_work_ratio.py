@@ -10,9 +10,10 @@ from rich.console import Console
 
 from raysteps.common.text import mean, size
 from raysteps.course.manifest import Step
+from raysteps.images.render import read_work
 from raysteps.report.terminal import print_details
 from raysteps.results.model import Results
-from raysteps.results.work_ratio import Effort, NoEffort, Work, effort_of, read_work
+from raysteps.results.work_ratio import NoWorkRatio, Work, WorkRatio, work_ratio_of
 
 _STATS: dict[str, Any] = {
     "schema": "raysteps/stats/v1",
@@ -63,25 +64,25 @@ def _step(step: Step, *works: tuple[int, int]) -> dict[str, Any]:
 
 def test_surfaces_and_boxes_weigh_alike_and_pictures_are_averaged_as_factors(steps: list[Step]) -> None:
     octree = steps[5]
-    effort = effort_of(_step(octree, (1900, 100), (100, 1900), (250, 250), (1, 499)), octree.limited_pictures)
-    assert isinstance(effort, Effort)
-    assert list(effort.pictures.values()) == [2, 2, 0.5, 0.5]
-    assert effort.relative == 1
-    assert (effort.bytes, effort.reference_bytes) == (16000, 12000)
+    work_ratio = work_ratio_of(_step(octree, (1900, 100), (100, 1900), (250, 250), (1, 499)), octree.limited_pictures)
+    assert isinstance(work_ratio, WorkRatio)
+    assert list(work_ratio.pictures.values()) == [2, 2, 0.5, 0.5]
+    assert work_ratio.relative == 1
+    assert (work_ratio.bytes, work_ratio.reference_bytes) == (16000, 12000)
 
 
 def test_only_the_pictures_of_the_manifest_count(steps: list[Step]) -> None:
     made = _step(steps[5], (600, 400), (300, 200), (3000, 2000), (300, 200))
-    effort = effort_of(made, steps[5].limited_pictures[:2])
-    assert isinstance(effort, Effort)
-    assert effort.pictures == {"strands-octree": 1, "slivers-octree": 0.5}
-    assert effort.bytes == 8000
+    work_ratio = work_ratio_of(made, steps[5].limited_pictures[:2])
+    assert isinstance(work_ratio, WorkRatio)
+    assert work_ratio.pictures == {"strands-octree": 1, "slivers-octree": 0.5}
+    assert work_ratio.bytes == 8000
 
 
 def _why(result: dict[str, Any], *expected: str) -> str:
-    effort = effort_of(result, expected)
-    assert isinstance(effort, NoEffort)
-    return effort.reason
+    work_ratio = work_ratio_of(result, expected)
+    assert isinstance(work_ratio, NoWorkRatio)
+    return work_ratio.reason
 
 
 def test_why_there_is_nothing_to_compare(steps: list[Step]) -> None:

@@ -94,11 +94,11 @@ def test_what_a_scene_is_called_stays_text(page: "Page") -> None:
 @pytest.mark.parametrize(("width", "scheme"), [(360, "dark"), (1440, "light")])
 def test_two_trees_beside_each_other(tmp_path: Path, open_page: OpenPage, width: int, scheme: str) -> None:
     mine, reference = ball_record(lit=False), ball_record()
-    parting = find_divergence(mine, reference)
-    assert parting is not None
-    write_page(mine, reference, parting, tmp_path / "both.html")
+    divergence = find_divergence(mine, reference)
+    assert divergence is not None
+    write_page(mine, reference, divergence, tmp_path / "both.html")
     page = open_page(tmp_path / "both.html", width=width, scheme=scheme)
-    assert "First difference" in page.locator(".parting-note").inner_text()
+    assert "First difference" in page.locator(".divergence-note").inner_text()
     marked = page.locator(".ray.parts")
     assert [marked.nth(i).get_attribute("data-ray") for i in range(2)] == ["eye-light1", "eye-light1"]
     assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

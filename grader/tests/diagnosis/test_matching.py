@@ -12,8 +12,7 @@ from raysteps.diagnosis.evidence import Answers, Evidence, ObservedAnswers, Pict
 from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, pair_score
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
 from raysteps.images.compare import Pixels
-from raysteps.judge.cases import functions_of
-from raysteps.judge.functions import Case
+from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.random_source import RandomSource
 
 pytestmark = pytest.mark.portable

@@ -69,15 +69,15 @@ def test_the_place_of_a_mistake_is_marked(project: Project, steps: list[Step], w
             for at, program in enumerate((workshop.link("raytrace", step, built, name), workshop.reference("raytrace")))
         ]
         x, y = _worst_pixel(pictures[0], pictures[1])
-        wish = InspectOptions(scene, str(x), str(y), step.index, _SIZE)
-        mine = inspect(workshop.link("inspect", step, built, name), wish).record
-        reference = inspect(workshop.reference("inspect"), wish).record
+        options = InspectOptions(scene, str(x), str(y), step.index, _SIZE)
+        mine = inspect(workshop.link("inspect", step, built, name), options).record
+        reference = inspect(workshop.reference("inspect"), options).record
         assert mine is not None
         assert reference is not None
         assert mine["bytes"] == pictures[0][y, x].tolist()
-        parting = find_divergence(mine, reference)
-        assert parting is not None, name
-        return (number, mistake, lesson, parting.place, parting.function)
+        divergence = find_divergence(mine, reference)
+        assert divergence is not None, name
+        return (number, mistake, lesson, divergence.place, divergence.function)
 
     with ThreadPoolExecutor(2) as pool:
         assert list(pool.map(marked, _MISTAKES)) == _MISTAKES
@@ -93,8 +93,8 @@ def test_another_right_solution_is_no_difference(
     built = workshop.compile(step, alternative.source, f"right-{number}")
     program = workshop.link("inspect", step, built, f"right-{number}")
     for x, y in _PIXELS:
-        wish = InspectOptions(_scene(project, _ALTERNATIVES[number]), str(x), str(y), 8, _SIZE)
-        mine, reference = inspect(program, wish).record, inspect(workshop.reference("inspect"), wish).record
+        options = InspectOptions(_scene(project, _ALTERNATIVES[number]), str(x), str(y), 8, _SIZE)
+        mine, reference = inspect(program, options).record, inspect(workshop.reference("inspect"), options).record
         assert mine is not None
         assert reference is not None
         assert find_divergence(mine, reference) is None, (x, y)

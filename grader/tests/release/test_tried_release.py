@@ -89,7 +89,7 @@ def test_a_check_that_left_something_out_is_none(
 
 
 def test_a_folder_that_cannot_be_looked_through_is_told(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="gone: cannot be looked through: No such file"):
+    with pytest.raises(UsageError, match="gone: cannot be looked through: there is no such file or folder"):
         to_search(tmp_path / "gone", tried=True)
 
 
@@ -102,7 +102,7 @@ def test_one_number_is_said_to_begin_with_the_first_step(
     monkeypatch.setattr(release, "written_files", built)
     for text, words in (("3", "steps 1-3: a kit begins with step 01\n"), ("1-3", ""), ("1", ""), (None, "")):
         console = Console(width=200, record=True, file=StringIO())
-        wish = argparse.Namespace(check=None, out=tmp_path / "new", steps=text, course="Course")
+        arguments = argparse.Namespace(check=None, out=tmp_path / "new", steps=text, course="Course")
         with pytest.raises(KeyboardInterrupt):
-            release.run(project, wish, console)
+            release.run(project, arguments, console)
         assert console.export_text() == words

@@ -12,7 +12,6 @@ from judge_fakes import Ended, FakeWorker
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.cases import functions_of
 from raysteps.judge.choice_sequence import (
     InvalidChoice,
     Recorder,
@@ -24,10 +23,10 @@ from raysteps.judge.choice_sequence import (
 )
 from raysteps.judge.counterexamples import Examples, choices_of
 from raysteps.judge.decode_case import decode_inputs
-from raysteps.judge.functions import Case, Function
+from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.hidden_tests import run_hidden_tests
-from raysteps.judge.numbers import f32
 from raysteps.judge.plan import Plan, read_plan
+from raysteps.judge.protocol import f32
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import Change, Recipe, changes, live_choices, make
 from raysteps.judge.worker import Ask, ask_student, reference_unkept

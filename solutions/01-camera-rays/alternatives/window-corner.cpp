@@ -1,4 +1,4 @@
-// The image plane is spelled out: its upper left corner and the steps from pixel to pixel to the right and downwards.
+// The window is spelled out: its upper left corner and the steps from pixel to pixel to the right and downwards.
 // Vectors are normalised by hand, and half_height is the quotient of sine and cosine.
 #include "steps/01-camera-rays/camera_rays.hpp"
 

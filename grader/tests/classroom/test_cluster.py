@@ -21,7 +21,7 @@ from raysteps.classroom.session import without_times
 from raysteps.common.errors import GraderFault, UsageError
 
 pytest.importorskip("distributed")
-_PATIENCE = 90
+_TIMEOUT = 90
 _COUNT = 12
 
 
@@ -58,7 +58,7 @@ class _Cluster:
 
 
 def wait_for(what: Callable[[], bool]) -> None:
-    end = time.monotonic() + _PATIENCE
+    end = time.monotonic() + _TIMEOUT
     while not what():
         assert time.monotonic() < end, "it took too long"
         time.sleep(0.02)
@@ -101,7 +101,7 @@ def test_a_worker_is_lost(tmp_path: Path, cluster: _Cluster) -> None:
     wait_for(lambda: {"one", "two"} <= set(_log(tmp_path, "at")) and len(_log(tmp_path, "end")) >= 4)
     wait_for(lambda: len(_log(tmp_path, "begin")) > len(_log(tmp_path, "end")))
     victim.send_signal(signal.SIGKILL)
-    _, errors = head.communicate(timeout=_PATIENCE)
+    _, errors = head.communicate(timeout=_TIMEOUT)
     assert head.returncode == 0, errors
     begun = Counter(_log(tmp_path, "begin"))
     assert set(begun) == {f"s{number:02}" for number in range(_COUNT)}
@@ -150,7 +150,7 @@ def test_interrupted(tmp_path: Path, cluster: _Cluster) -> None:
     wait_for(lambda: bool(_log(tmp_path, "program")) and "a" in _results(tmp_path / "out"))
     (program,) = _log(tmp_path, "program")
     head.send_signal(signal.SIGINT)
-    printed, errors = head.communicate(timeout=_PATIENCE)
+    printed, errors = head.communicate(timeout=_TIMEOUT)
     assert head.returncode == 130, errors
     assert f"--scheduler {cluster.address} --resume" in printed
     wait_for(lambda: not Path(f"/proc/{program}").exists() or "Z" in Path(f"/proc/{program}/stat").read_text())

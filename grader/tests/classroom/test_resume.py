@@ -19,7 +19,7 @@ import raysteps.submission.load
 from raysteps.classroom.database import transaction
 from raysteps.classroom.jobs import Answer, Job
 from raysteps.classroom.local_pool import LocalPool
-from raysteps.cli.grade_class import add_arguments, line_to_go_on, read_order
+from raysteps.cli.grade_class import add_arguments, line_to_go_on, read_options
 
 
 @pytest.fixture(autouse=True)
@@ -175,10 +175,10 @@ def test_the_line_to_go_on_has_the_same_limits(tmp_path: Path) -> None:
     parser = argparse.ArgumentParser()
     add_arguments(parser)
     words = ["in", "--out", "out", "--limit", "seconds=0.00001234567", "--limit", "memory_mb=512"]
-    order = read_order(parser.parse_args(words), "")
-    line = line_to_go_on(order)
+    options = read_options(parser.parse_args(words), "")
+    line = line_to_go_on(options)
     assert "--limit seconds=0.00001234567 --limit memory_mb=512" in line
-    assert read_order(parser.parse_args(shlex.split(line)[2:]), "").limits == order.limits
+    assert read_options(parser.parse_args(shlex.split(line)[2:]), "").limits == options.limits
 
 
 def test_a_commit_that_fails_leaves_no_transaction_open() -> None:

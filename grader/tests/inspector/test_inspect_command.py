@@ -43,7 +43,7 @@ def raytrace(project: Project) -> Path:
     return tree.program("raytrace-reference")
 
 
-def wish(project: Project, scene: str, x: int, y: int, step: int = 8, *options: str) -> InspectOptions:
+def pixel_of(project: Project, scene: str, x: int, y: int, step: int = 8, *options: str) -> InspectOptions:
     path = project.scenes / "lessons" / f"{scene}.nff"
     return InspectOptions(str(path), str(x), str(y), step, (*SIZE, *options))
 
@@ -51,7 +51,7 @@ def wish(project: Project, scene: str, x: int, y: int, step: int = 8, *options: 
 @pytest.fixture(scope="session")
 def record(project: Project, program: Path) -> Record:
     """A pixel on a mirror, in which another ball is seen."""
-    found = inspect(program, wish(project, "three-spheres", 24, 15)).record
+    found = inspect(program, pixel_of(project, "three-spheres", 24, 15)).record
     assert found is not None
     return found
 
@@ -95,7 +95,7 @@ def test_a_pixel_that_is_not_two_numbers_is_said(words: list[str], capsys: pytes
 )
 def test_the_program_refuses_too(project: Project, program: Path, options: tuple[Any, ...], says: str) -> None:
     with pytest.raises(UsageError, match=says.replace(".", r"\.")):
-        inspect(program, wish(project, "three-spheres", *options))
+        inspect(program, pixel_of(project, "three-spheres", *options))
 
 
 def test_a_scene_that_is_none_is_named(project: Project, program: Path, tmp_path: Path) -> None:
@@ -133,7 +133,7 @@ def test_a_pixel_has_the_bytes_and_the_counts_of_the_picture(
     schema = read_schema("raysteps.inspector", "inspect.schema.json")
     for at, (step, accel) in enumerate(plan):
         x, y = (7 * at + 9) % 40, (11 * at + 13) % 30
-        found = inspect(program, wish(project, scene, x, y, step, "--accel", accel)).record
+        found = inspect(program, pixel_of(project, scene, x, y, step, "--accel", accel)).record
         assert found is not None
         assert at % 3 or complaint(found, schema) == ""
         words: list[str | Path] = [raytrace, project.scenes / "lessons" / f"{scene}.nff", *SIZE, "--step", str(step)]
@@ -173,7 +173,7 @@ def test_what_nobody_saw_is_no_difference(record: Record) -> None:
 
 def test_other_boxes_and_more_tests_are_no_difference(project: Project, program: Path, record: Record) -> None:
     for accel in ("none", "boxes", "bvh"):
-        other = inspect(program, wish(project, "three-spheres", 24, 15, 8, "--accel", accel)).record
+        other = inspect(program, pixel_of(project, "three-spheres", 24, 15, 8, "--accel", accel)).record
         assert other is not None
         assert other["counts"] != record["counts"]
         assert find_divergence(other, record) is None

@@ -19,7 +19,7 @@ from raysteps.classroom.jobs import Job
 from raysteps.classroom.session import without_times
 from raysteps.submission.load import Submission
 
-_PATIENCE = 60
+_TIMEOUT = 60
 
 
 @pytest.fixture(autouse=True)
@@ -32,7 +32,7 @@ def _fakes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def _wait_for(what: Callable[[], bool]) -> None:
-    end = time.monotonic() + _PATIENCE
+    end = time.monotonic() + _TIMEOUT
     while not what():
         assert time.monotonic() < end, "it took too long"
         time.sleep(0.02)
@@ -75,7 +75,7 @@ def test_interrupted(tmp_path: Path, number: signal.Signals) -> None:
     programs = [int(pid) for pid in _log(tmp_path, "program")]
     assert all(map(_runs, programs))
     os.kill(process.pid, number)
-    printed, errors = process.communicate(timeout=_PATIENCE)
+    printed, errors = process.communicate(timeout=_TIMEOUT)
     assert process.returncode == 130, errors
     assert f"./raysteps grade-class {folder} --out '{out}' --jobs 2 --seed 7 --resume" in printed
     _wait_for(lambda: not any(map(_runs, programs)))
@@ -94,7 +94,7 @@ def test_killed(tmp_path: Path) -> None:
     process = start_class(folder, "--out", out, "--jobs", "3")
     _wait_for(lambda: len(_log(tmp_path, "end")) >= 5)
     process.kill()
-    process.communicate(timeout=_PATIENCE)
+    process.communicate(timeout=_TIMEOUT)
     with closing(sqlite3.connect(out / "class.sqlite")) as connection:
         assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
         assert connection.execute("PRAGMA foreign_key_check").fetchall() == []
@@ -104,12 +104,12 @@ def test_killed(tmp_path: Path) -> None:
     _wait_for(lambda: not list((tmp_path / "scratch").iterdir()))  # its workers end by themselves
     (tmp_path / "log.txt").unlink()
     process = start_class(folder, "--out", out, "--jobs", "3", "--resume")
-    printed, errors = process.communicate(timeout=_PATIENCE)
+    printed, errors = process.communicate(timeout=_TIMEOUT)
     assert process.returncode == 0, errors
     assert len(_log(tmp_path, "begin")) == 12 - len(rows)
     assert f"{len(rows)} result" in printed
     process = start_class(folder, "--out", other, "--jobs", "3")
-    process.communicate(timeout=_PATIENCE)
+    process.communicate(timeout=_TIMEOUT)
     assert _results(out) == _results(other)
     assert len(_results(out)) == 12
     tables = [(folder / "results.csv").read_bytes() for folder in (out, other)]
@@ -135,7 +135,7 @@ def test_nobody_waits_for_the_answer(tmp_path: Path) -> None:
         with pytest.raises(subprocess.TimeoutExpired):
             process.wait(1)  # the answer has been given to nobody
         process.stdin.close()
-        process.wait(_PATIENCE)
+        process.wait(_TIMEOUT)
     _wait_for(lambda: not scratch.exists())
 
 
@@ -145,8 +145,8 @@ def test_two_at_once(tmp_path: Path) -> None:
     first = start_class(folder, "--out", out)
     _wait_for(lambda: bool(_log(tmp_path, "begin")))
     second = start_class(folder, "--out", out)
-    _, errors = second.communicate(timeout=_PATIENCE)
+    _, errors = second.communicate(timeout=_TIMEOUT)
     assert second.returncode == 2
     assert "another grade-class is writing there" in errors
-    first.communicate(timeout=_PATIENCE)
+    first.communicate(timeout=_TIMEOUT)
     assert first.returncode == 0

@@ -8,8 +8,7 @@ from typing import Generic, TypeVar
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import printable, shorten
 from raysteps.common.vectors import Vector, dot, length, minus
-from raysteps.judge.numbers import text
-from raysteps.judge.protocol import Frame, Inputs, ProtocolError, Ray, TokenReader, vector_words
+from raysteps.judge.protocol import Frame, Inputs, ProtocolError, Ray, TokenReader, text, vector_words
 
 T = TypeVar("T")
 

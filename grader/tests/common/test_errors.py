@@ -1,0 +1,24 @@
+"""What the system says of files, in words for people."""
+
+import errno
+import os
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import reason, reason_and_place
+
+pytestmark = pytest.mark.portable
+
+
+def test_a_reason_has_no_number_and_no_path(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="Errno") as caught:
+        (tmp_path / "none").read_text()
+    assert reason(caught.value) == "there is no such file or folder"
+    assert reason_and_place(caught.value) == f"{tmp_path / 'none'}: there is no such file or folder"
+
+
+def test_what_has_no_words_of_ours_keeps_those_of_the_system() -> None:
+    assert reason(OSError(errno.EXDEV, os.strerror(errno.EXDEV))) == os.strerror(errno.EXDEV)
+    assert reason(OSError("cannot identify it")) == "cannot identify it"
+    assert reason(UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid")) == "it is no text in UTF-8"
