@@ -8,6 +8,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from class_documents import without_times
 
 from raysteps.classroom.class_files import csv_bytes, safe_cell
 from raysteps.classroom.database import (
@@ -20,9 +21,10 @@ from raysteps.classroom.database import (
     transaction,
 )
 from raysteps.classroom.jobs import Answer, Job
-from raysteps.classroom.session import submission_key, without_times
+from raysteps.classroom.session import submission_key
 from raysteps.common.csv_safety import FORMULA_SIGNS
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.results.model import Results, StepResult
 from raysteps.submission.load import Submission
 
 _SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
@@ -38,9 +40,12 @@ def _begin(database: ClassDatabase, uid: str = "a") -> int:
     )
 
 
+def _results(points: float = 1.0) -> Results:
+    return Results.of("ann", [StepResult("01-camera-rays", "partial", points, 10.0, False)])
+
+
 def _answer(points: float, **pictures: bytes) -> Answer:
-    document = {"total": {"points": points, "max": 10}}
-    return Answer("ann", "graded", document, {f"pictures/{name}.png": data for name, data in pictures.items()})
+    return Answer("ann", "graded", _results(points), {f"pictures/{name}.png": data for name, data in pictures.items()})
 
 
 def _count(database: ClassDatabase, table: str) -> int:
@@ -69,7 +74,7 @@ def test_a_result_is_kept_once_per_run(tmp_path: Path) -> None:
 def test_half_a_result_is_none(tmp_path: Path) -> None:
     with closing(ClassDatabase(tmp_path)) as database:
         run = _begin(database)
-        broken = Answer("ann", "graded", {"total": {"points": 1, "max": 10}}, {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
+        broken = Answer("ann", "graded", _results(), {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
         with pytest.raises(TypeError):
             database.record(run, broken, "key")
         assert (_count(database, "results"), _count(database, "blobs"), _count(database, "pictures")) == (0, 0, 0)
@@ -183,7 +188,7 @@ def test_csv_reads_back() -> None:
 def test_messages_survive_the_way() -> None:
     job = Job(Submission("ann", {"01": b"\0\xff"}, {"02": "n"}, {"01": "r"}), _SETTINGS, "a.b:c", "kit", True, "run")
     assert Job.from_json(job.to_json()) == job
-    answer = Answer("ann", "graded", {"a": 1}, {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
+    answer = Answer("ann", "graded", _results(), {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
     assert Answer.from_json(answer.to_json()) == answer
 
 
@@ -201,6 +206,6 @@ def test_messages_survive_the_way() -> None:
     ],
 )
 def test_answers_that_break_the_schema(change: dict[str, object]) -> None:
-    good = Answer("ann", "graded", {"a": 1}).to_json()
+    good = Answer("ann", "graded", _results()).to_json()
     with pytest.raises(GraderFault, match="breaks its schema"):
         Answer.from_json({**good, **change})

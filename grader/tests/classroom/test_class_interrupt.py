@@ -13,10 +13,10 @@ from pathlib import Path
 
 import class_fakes
 import pytest
+from class_documents import without_times
 from class_fakes import FAKE, start_class, write_entry
 
 from raysteps.classroom.jobs import Job
-from raysteps.classroom.session import without_times
 from raysteps.submission.load import Submission
 
 _PATIENCE = 60

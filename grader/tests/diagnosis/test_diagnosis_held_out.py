@@ -68,7 +68,7 @@ def test_two_steps_have_a_mistake_each(kit: BuiltKit, tmp_path: Path, make_submi
     first, second = (step.diagnoses[0] for step in results.steps)
     assert (first.id, second.id) == ("far-end-of-sphere", "no-threshold")
     assert first.seen_in[0] == "Sphere::intersect"
-    said = step_text(results.to_json()["steps"][0])
+    said = step_text(results.steps[0])
     assert f"This is what you get when {first.title}." in said
     assert f"Hint: {first.hint}" in said
 

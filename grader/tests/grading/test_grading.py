@@ -22,7 +22,7 @@ def _grade(kit: BuiltKit, path: Path, out: Path, *only: str) -> Results:
 
 
 def _points(results: Results) -> float:
-    return float(results.to_json()["total"]["points"])
+    return float(results.total.points)
 
 
 def _status(results: Results) -> dict[str, str]:

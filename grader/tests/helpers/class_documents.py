@@ -153,3 +153,10 @@ def many(amount: int, seed: int = 1) -> Document:
         seconds = round(luck.uniform(4, 30), 1)
         submissions.append(submission(name, steps, students=who, mistakes=mistakes, seconds=seconds))
     return document(submissions)
+
+
+def without_times(document: Any) -> Any:
+    """A copy of a results.json without what a clock said: the rest is the same whenever it is graded."""
+    if isinstance(document, dict):
+        return {key: without_times(value) for key, value in document.items() if key not in ("timing", "seconds")}
+    return [without_times(value) for value in document] if isinstance(document, list) else document

@@ -22,7 +22,7 @@ from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
 from raysteps.results.model import ImageResult, Results, StepResult, Timing
-from raysteps.results.store import write_document
+from raysteps.results.store import write_results
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
 
@@ -95,10 +95,10 @@ class FakeGrader:
             if step.id in submission.notes:
                 result.messages = [submission.notes[step.id]]
             steps.append(result)
-        results = Results(
+        results = Results.of(
             submission.name, steps, settings["seed"], self.fingerprint, self.isolation, Timing(time.time(), 1.0)
         )
-        write_document(results.to_json(), out)
+        write_results(results, out)
         log(f"end {submission.name}")
 
 

@@ -13,36 +13,37 @@ from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
 from raysteps.common.errors import GraderFault
 from raysteps.common.schemas import complaint, read_schema
+from raysteps.results.model import Results, StepResult
+from raysteps.results.store import stored_results
 
 # How one submission stands.
 
 Document = dict[str, Any]
 
 
-def _step(step: Document) -> Document:
-    return {"points": step["points"], "max": step["max"], "status": step["status"]}
+def _step(step: StepResult) -> Document:
+    return {"points": step.points, "max": step.max, "status": step.status}
 
 
-def _mistakes(step: Document) -> list[str]:
+def _mistakes(step: StepResult) -> list[str]:
     """Titles of the known mistakes in a step of a result."""
-    return sorted({found["title"] for found in step.get("diagnoses", ()) if found["kind"] == "mistake"})
+    return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
 
 
-def _result(row: sqlite3.Row | None) -> Document:
+def _result(row: sqlite3.Row | None, results: Results | None) -> Document:
     """What a submission got."""
     if row is None:
         nothing: Document = {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}}
         return {**nothing, "inconsistent": {}, "mistakes": {}, "seconds": None}
-    empty: Document = {"total": {"max": None}, "steps": []}
-    document = json.loads(row["document"]) if row["document"] else empty
+    graded = results.steps if results is not None else []
     return {
         "status": row["status"],
         "points": row["points"],
-        "max": document["total"]["max"],
+        "max": results.total.max if results is not None else None,
         "run": row["run"],
-        "steps": {step["id"]: _step(step) for step in document["steps"]},
-        "inconsistent": {step["id"]: step["inconsistent"] for step in document["steps"] if step["inconsistent"]},
-        "mistakes": {step["id"]: titles for step in document["steps"] if (titles := _mistakes(step))},
+        "steps": {step.id: _step(step) for step in graded},
+        "inconsistent": {step.id: step.inconsistent for step in graded if step.inconsistent},
+        "mistakes": {step.id: titles for step in graded if (titles := _mistakes(step))},
         "seconds": round(row["seconds"], 2),
     }
 
@@ -101,7 +102,8 @@ class Standings:
     def of(self, row: sqlite3.Row) -> Document:
         current = self._database.current(row["name"])
         students = self._students(row["id"])
-        result = _result(current)
+        results = stored_results(current["document"]) if current is not None else None
+        result = _result(current, results)
         self._mistakes.update((step, title) for step, titles in result["mistakes"].items() for title in titles)
         late = None
         ids = self.extended(row, students)
@@ -119,9 +121,7 @@ class Standings:
             "submitted_from": row["submitted_from"],
             "outdated": self._is_outdated(row, result["run"]),
             "before": self._before(row["id"], result["run"]),
-            "isolation": json.loads(current["document"])["isolation"]["name"]
-            if current and current["document"]
-            else "",
+            "isolation": results.isolation.name if results is not None else "",
             "fault": current["fault"] if current is not None else "",
             "note": row["note"],
             "results": f"submissions/{row['name']}/results.json" if current and current["document"] else None,

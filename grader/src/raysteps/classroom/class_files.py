@@ -16,6 +16,7 @@ from raysteps.classroom.class_document import Document, class_document
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.common.csv_safety import escape_formula
+from raysteps.common.documents import as_text
 from raysteps.common.errors import UsageError
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.common.schemas import complaint, read_schema
@@ -26,7 +27,9 @@ from raysteps.grading.options import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
+from raysteps.results.model import Results
 from raysteps.results.store import FOLDER as CASES
+from raysteps.results.store import stored_results
 
 # CSV that a spreadsheet shows and never runs.
 
@@ -68,10 +71,9 @@ def _forget_files(folder: Path, kept: set[str]) -> None:
                 forget_unfinished(place)
 
 
-def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> set[str]:
+def _withheld_cases(results: Results | None, names: Iterable[str]) -> set[str]:
     """Cases that were kept, but that the results for students do not name."""
-    steps = document.get("steps", []) if document else []
-    named = {item.get("case", "") for step in steps for item in step["hidden"]}
+    named = {item.case for step in results.steps for item in step.hidden} if results is not None else set()
     return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
 
 
@@ -90,22 +92,25 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     folder = out / SUBMISSIONS / name
     if row is None:
         return
-    document = withhold(json.loads(row["document"]), database.feedback()) if row["document"] else None
+    stored = stored_results(row["document"])
+    if stored is None and row["document"]:
+        _warn(f"{name}: a kit of another form graded it, its files stay as they are; grade it again")
+        return
+    results = withhold(stored, database.feedback()) if stored is not None else None
     files = database.pictures(row["submission"], row["run"])
-    shown = set(files) - _withheld_cases(document, files)
+    shown = set(files) - _withheld_cases(results, files)
     _forget_files(folder, shown)
     forget_unfinished(folder)
     changed = [write_if_changed(folder / path, files[path]) for path in sorted(shown)]
-    if document is not None:
-        text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
-        changed.append(write_if_changed(folder / "results.json", text.encode()))
+    if results is not None:
+        changed.append(write_if_changed(folder / "results.json", as_text(results).encode()))
         if any(changed) or not (folder / REPORT).is_file():
             try_student_page(folder, _steps(), lambda words: _warn(f"{name}: {words}"))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
-        for result in ("results.json", REPORT):
-            (folder / result).unlink(missing_ok=True)
+        for left in ("results.json", REPORT):
+            (folder / left).unlink(missing_ok=True)
 
 
 _HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")

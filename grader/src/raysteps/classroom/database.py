@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.classroom.jobs import Answer
+from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.grading.options import Feedback
 
@@ -313,7 +314,7 @@ class ClassDatabase:
 
     def record(self, run: int, answer: Answer, key: str, *, unreadable: bool = False) -> bool:
         """Keeps an answer; False when the run already has a result of this submission, which then stays."""
-        document = answer.document
+        results = answer.results
         with transaction(self.connection):
             (submission,) = self.connection.execute(
                 "SELECT id FROM submissions WHERE name = ?", (answer.name,)
@@ -322,9 +323,9 @@ class ClassDatabase:
                 "submission": submission,
                 "run": run,
                 "key": key,
-                "status": "unreadable" if unreadable and document is not None else answer.status,
-                "points": None if document is None else document["total"]["points"],
-                "document": "" if document is None else json.dumps(document, ensure_ascii=False),
+                "status": "unreadable" if unreadable and results is not None else answer.status,
+                "points": None if results is None else results.total.points,
+                "document": "" if results is None else json.dumps(plain(results), ensure_ascii=False),
                 "fault": answer.fault,
                 "details": answer.details,
                 "worker": answer.worker,

@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, Protocol, cast
 
+from raysteps.common.documents import Malformed, convert, plain
 from raysteps.common.errors import GraderFault
 from raysteps.common.schemas import complaint, read_schema
+from raysteps.results.model import Results
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
 
@@ -58,11 +60,11 @@ class Job:
 
 @dataclass(frozen=True)
 class Answer:
-    """What became of a job. A fault has no document."""
+    """What became of a job. A fault has no results."""
 
     name: str
     status: Literal["graded", "fault"]
-    document: Document | None = None
+    results: Results | None = None
     pictures: Mapping[str, bytes] = field(default_factory=dict)  # and cases; by path below the folder of results.json
     fault: str = ""
     details: str = ""
@@ -75,7 +77,7 @@ class Answer:
             "schema": "raysteps/class-answer/v1",
             "name": self.name,
             "status": self.status,
-            "document": self.document,
+            "document": plain(self.results),
             "pictures": pictures,
             "fault": self.fault,
             "details": self.details,
@@ -88,7 +90,15 @@ class Answer:
         _check(document, "answer")
         pictures = {path: base64.b64decode(text, validate=True) for path, text in document["pictures"].items()}
         words = (document[key] for key in ("fault", "details", "seconds", "worker"))
-        return Answer(document["name"], document["status"], document["document"], pictures, *words)
+        try:
+            told = document["document"]
+            results = convert(told, Results, complete=True) if told is not None else None
+        except Malformed as error:
+            fault = f"results.json is not of its form: {error}"
+            return Answer(
+                document["name"], "fault", fault=fault, seconds=document["seconds"], worker=document["worker"]
+            )
+        return Answer(document["name"], document["status"], results, pictures, *words)
 
 
 def _check(document: Any, kind: str) -> None:

@@ -16,7 +16,8 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import count, printable, size
 from raysteps.course.manifest import Step
-from raysteps.results.store import read_results, validate
+from raysteps.results.model import Results
+from raysteps.results.store import read_results, stored_results
 from raysteps.results.work_ratio import Effort, NoEffort, effort_of
 
 Document = Mapping[str, Any]
@@ -33,10 +34,10 @@ _QUERY = (
 
 @dataclass(frozen=True)
 class LeaderboardEntry:
-    """One submission; without a document, why there is none."""
+    """One submission; without results, why there is none."""
 
     name: str
-    document: Document | None
+    results: Results | None
     why: str = ""
     source: str = ""
 
@@ -53,12 +54,9 @@ def _of_database(path: Path) -> list[LeaderboardEntry]:
             if row["status"] != "graded":
                 entered.append(_without(row["name"], row["status"]))
                 continue
-            document = json.loads(row["document"])
-            try:
-                validate(document)
-                entered.append(LeaderboardEntry(row["name"], document))
-            except GraderFault:
-                entered.append(LeaderboardEntry(row["name"], None, "graded by a kit of another form; grade it again"))
+            results = stored_results(row["document"])
+            why = "graded by a kit of another form; grade it again" if results is None else ""
+            entered.append(LeaderboardEntry(row["name"], results, why))
     return entered
 
 
@@ -103,8 +101,8 @@ def _of_place(place: Path) -> list[LeaderboardEntry]:
     facts = _is_class(path)
     if facts is not None:
         return _of_class(path, facts)
-    document = read_results(path)
-    return [LeaderboardEntry(document["submission"], document, source=str(place))]
+    results = read_results(path)
+    return [LeaderboardEntry(results.submission, results, source=str(place))]
 
 
 def read_entries(places: Sequence[Path]) -> list[LeaderboardEntry]:
@@ -151,9 +149,9 @@ class Board:
 
 
 def _effort(entered: LeaderboardEntry, step: Step) -> Effort | NoEffort:
-    if entered.document is None:
+    if entered.results is None:
         return NoEffort(entered.why)
-    result = next((result for result in entered.document["steps"] if result["id"] == step.id), None)
+    result = next((result for result in entered.results.steps if result.id == step.id), None)
     return NoEffort("the step was not graded") if result is None else effort_of(result, step.limited_pictures)
 
 
@@ -179,7 +177,7 @@ def rank(entered: Sequence[LeaderboardEntry], step: Step) -> Board:
             others.append(NotRanked(one.name, effort.reason))
             continue
         efforts.append((one.name, effort))
-        kits |= {one.document["kit"]} if one.document is not None else set()
+        kits |= {one.results.kit} if one.results is not None else set()
     others.sort(key=lambda other: (other.reason, other.name))
     return Board(step, _in_place(efforts), others, sorted(kits))
 

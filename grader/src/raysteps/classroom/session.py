@@ -18,12 +18,10 @@ from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
-from raysteps.results.store import validate
+from raysteps.results.store import stored_results
 from raysteps.submission.load import Submission
 
 # When two gradings are the same one.
-
-_TIMES = ("timing", "seconds")
 
 
 def submission_key(submission: Submission, kit: str, settings: Mapping[str, Any]) -> str:
@@ -32,13 +30,6 @@ def submission_key(submission: Submission, kit: str, settings: Mapping[str, Any]
     parts = [submission.name, sources, submission.notes, submission.remarks, kit, dict(settings)]
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True)
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def without_times(document: Any) -> Any:
-    """A copy of a results.json without what a clock said: the rest is the same whenever it is graded."""
-    if isinstance(document, dict):
-        return {key: without_times(value) for key, value in document.items() if key not in _TIMES}
-    return [without_times(value) for value in document] if isinstance(document, list) else document
 
 
 # What Ctrl-C and SIGTERM do while a class is graded.
@@ -129,22 +120,18 @@ class Session:
         current = self.database.current(name)
         if current is None or current["status"] == "fault" or current["key"] != key:
             return False
-        return not self.plan.order.require_sandbox or bool(json.loads(current["document"])["isolation"]["strong"])
+        results = stored_results(current["document"])
+        return results is not None and (results.isolation.strong or not self.plan.order.require_sandbox)
 
     def _record(self, answer: Answer, pending: _Pending) -> None:
-        if answer.document is not None:
-            try:
-                validate(answer.document)
-            except GraderFault as fault:
-                answer = Answer(answer.name, "fault", fault=str(fault), seconds=answer.seconds, worker=answer.worker)
         if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
             if not self.recorded:
                 withdraw_tables(self.plan.order.out)
             self.recorded.add(answer.name)
             write_submission(self.database, self.plan.order.out, answer.name)
-            total = answer.document["total"] if answer.document is not None else None
+            total = answer.results.total if answer.results is not None else None
             points = (
-                f"{number(total['points'])} of {number(total['max'])} points"
+                f"{number(total.points)} of {number(total.max)} points"
                 if total
                 else f"FAULT: {first_line(answer.fault)}"
             )

@@ -1,69 +1,65 @@
 """How an instructor wants a submission to be graded."""
 
-import copy
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from raysteps.results.model import HiddenResult, Results, StepResult
 
 # How much a student is told about the hidden part.
 
 Feedback = Literal["full", "diagnosis", "score"]
 
-_CASES = ("given", "expected", "actual", "case")
 _HIDDEN_ITEM = "hidden item"  # of the line that counts them
 
 
-def _without_cases(item: dict[str, Any]) -> dict[str, Any]:
+def _without_case(item: HiddenResult) -> HiddenResult:
     """A picture's message tells of single pixels."""
-    places = {"message": ""} if item["kind"] == "picture" and item["outcome"] == "wrong" else {}
-    return {**item, **dict.fromkeys(_CASES, ""), **places}
+    message = "" if item.kind == "picture" and item.outcome == "wrong" else item.message
+    return replace(item, message=message, given="", expected="", actual="", case="")
 
 
-def _share_only(items: list[dict[str, Any]], kind: str, name: str) -> list[dict[str, Any]]:
+def _share_only(items: list[HiddenResult], kind: str, name: str) -> list[HiddenResult]:
     """All items of a kind as one, that says nothing but how much was earned."""
-    mine = [item for item in items if item["kind"] == kind]
-    weight = sum(item["weight"] for item in mine)
+    mine = [item for item in items if item.kind == kind]
+    weight = sum(item.weight for item in mine)
     if not mine or weight <= 0:
         return []
-    share = sum(item["share"] * item["weight"] for item in mine) / weight
-    whole = all(item["share"] >= 1 for item in mine)
+    share = sum(item.share * item.weight for item in mine) / weight
+    whole = all(item.share >= 1 for item in mine)
     return [
-        {
-            **_without_cases(mine[0]),
-            "name": name,
-            "share": 1.0 if whole else min(round(share, 6), 0.999999),
-            "weight": round(weight, 6),
-            "wrong_share": None,
-            "groups": [],
-            "message": "",
-            "seconds": round(sum(item["seconds"] for item in mine), 3),
-            "outcome": "ok" if whole else "wrong",
-        }
+        HiddenResult(
+            name,
+            mine[0].kind,
+            share=1.0 if whole else min(round(share, 6), 0.999999),
+            weight=round(weight, 6),
+            seconds=round(sum(item.seconds for item in mine), 3),
+            outcome="ok" if whole else "wrong",
+        )
     ]
 
 
-def _withheld_step(step: dict[str, Any], feedback: Feedback) -> dict[str, Any]:
-    hidden = step["hidden"]
-    step = {**step, "inconsistent": []}  # that is for the instructor
+def _withheld_step(step: StepResult, feedback: Feedback) -> StepResult:
+    hidden = step.hidden
+    step = replace(step, inconsistent=[])  # that is for the instructor
     if feedback == "diagnosis":
-        return {**step, "hidden": [_without_cases(item) for item in hidden]}
-    texts = {item["message"] for item in hidden if item["message"]}
-    return {
-        **step,
-        "diagnoses": [],
-        "hidden": _share_only(hidden, "function", "hidden cases") + _share_only(hidden, "picture", "hidden pictures"),
-        "messages": [line for line in step["messages"] if line not in texts and _HIDDEN_ITEM not in line],
-    }
+        return replace(step, hidden=[_without_case(item) for item in hidden])
+    texts = {item.message for item in hidden if item.message}
+    return replace(
+        step,
+        diagnoses=[],
+        hidden=_share_only(hidden, "function", "hidden cases") + _share_only(hidden, "picture", "hidden pictures"),
+        messages=[line for line in step.messages if line not in texts and _HIDDEN_ITEM not in line],
+    )
 
 
-def withhold(document: dict[str, Any], feedback: Feedback) -> dict[str, Any]:
-    """A results.json document for the student: `full` as it is; `diagnosis` without the cases themselves; `score`
-    with nothing of the hidden part but its shares. The points stay the same."""
-    document = copy.deepcopy(document)
-    if feedback != "full":
-        document["steps"] = [_withheld_step(step, feedback) for step in document["steps"]]
-        document["seed"] = None  # whoever has it can make the cases
-    return document
+def withhold(results: Results, feedback: Feedback) -> Results:
+    """Results for the student: `full` as they are; `diagnosis` without the cases themselves; `score` with nothing of
+    the hidden part but its shares. The points stay the same."""
+    if feedback == "full":
+        return results
+    steps = [_withheld_step(step, feedback) for step in results.steps]
+    return replace(results, steps=steps, seed=None)  # whoever has the seed can make the cases
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from raysteps.grading.options import Settings, withhold
 from raysteps.grading.scoring import is_right
 from raysteps.grading.step import GradingContext, compile_steps
 from raysteps.results.model import Results, Timing
-from raysteps.results.store import write_document
+from raysteps.results.store import write_results
 from raysteps.sandbox.accounting import AccountingSandbox
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
@@ -49,9 +49,9 @@ def grade_submission(
             right = {result.id for result in pool.map(HiddenStepGrader.grade, graders) if is_right(result)}
             steps = list(pool.map(lambda grader: grader.finish(right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
-    results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+    results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:
-        write_document(withhold(results.to_json(), settings.feedback), out)
+        write_results(withhold(results, settings.feedback), out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {error}") from error
     return results

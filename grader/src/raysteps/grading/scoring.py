@@ -1,10 +1,13 @@
 """Turns what was seen of a step into points and a status."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from raysteps.common.text import count
 from raysteps.course.manifest import Step
-from raysteps.results.model import Status, StepResult
+
+if TYPE_CHECKING:
+    from raysteps.results.model import Status, StepResult
 
 
 def max_points(step: Step, *, judged: bool) -> float:
@@ -17,18 +20,18 @@ def _share(passed: Sequence[bool]) -> float:
     return sum(passed) / len(passed) if passed else 0.0
 
 
-def _hidden_share(result: StepResult) -> float:
+def _hidden_share(result: "StepResult") -> float:
     weight = sum(item.weight for item in result.hidden)
     return sum(item.share * item.weight for item in result.hidden) / weight if weight else 0.0
 
 
-def is_right(result: StepResult) -> bool:
+def is_right(result: "StepResult") -> bool:
     """Whether the step by itself, between steps of the reference, is all that it should be."""
     passed = [item.passed for items in (result.tests, result.images, result.hidden) for item in items]
     return bool(passed) and all(passed)
 
 
-def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
+def status_and_points(result: "StepResult", step: Step) -> tuple["Status", float]:
     """Visible tests and pictures by their share that passed, hidden items by what was earned of each, and whether the
     step works together with the steps before it."""
     tests, images = [test.passed for test in result.tests], [image.passed for image in result.images]
@@ -45,7 +48,7 @@ def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
     return ("partial" if points > 0 else "failed"), round(points, 2)
 
 
-def sum_up(result: StepResult) -> list[str]:
+def sum_up(result: "StepResult") -> list[str]:
     """What failed, in numbers, and the first crash or timeout."""
     messages = []
     failed = [test for test in result.tests if not test.passed]

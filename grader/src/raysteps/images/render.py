@@ -16,8 +16,8 @@ from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, Pixels, parse_ppm, read_png, read_ppm, write_png
-from raysteps.results.model import Termination
-from raysteps.results.work_ratio import Work, read_work
+from raysteps.results.model import Termination, Work
+from raysteps.results.work_ratio import read_work
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit

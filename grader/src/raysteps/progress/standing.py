@@ -5,7 +5,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from rich.console import Console
 from rich.markup import escape
@@ -18,9 +18,11 @@ from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
 from raysteps.grading.scoring import max_points
-from raysteps.results.model import Results, StepResult
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
+
+if TYPE_CHECKING:  # what checks the types of documents takes long to load
+    from raysteps.results.model import Results, StepResult
 
 # What the last check of each step said; `build/check` holds the last check only, perhaps of another step.
 
@@ -48,7 +50,7 @@ def _place(project: Project) -> Path:
     return project.build / "progress.json"
 
 
-def _summary(result: StepResult) -> str:
+def _summary(result: "StepResult") -> str:
     """How many of each kind are right, in a few words."""
     kinds = (("tests", result.tests), ("pictures", result.images), ("hidden", result.hidden))
     return ", ".join(f"{name} {sum(item.passed for item in items)}/{len(items)}" for name, items in kinds if items)
@@ -65,7 +67,7 @@ def recall(project: Project) -> dict[str, LastCheck]:
         return {}
 
 
-def remember(project: Project, results: Results, sources: Mapping[str, bytes]) -> None:
+def remember(project: Project, results: "Results", sources: Mapping[str, bytes]) -> None:
     """Keeps what came of a check, beside what is known of the other steps."""
     known = recall(project)
     for result in results.steps:

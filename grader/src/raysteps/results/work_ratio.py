@@ -8,41 +8,16 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from raysteps.common.text import join_and
+from raysteps.results.model import ImageResult, StepResult, Work
 
-# What a picture cost: tests that the program counted, and the structure that it built. No clock is involved.
+# What a picture cost, as the program counted it.
 
 _MAX = 2**63  # a counter of the framework has 64 bits
 
 
-@dataclass(frozen=True)
-class Work:
-    """The counters of one picture, as `raytrace --stats` writes them."""
-
-    rays: int
-    surface_tests: int
-    box_tests: int
-    boxes: int
-    references: int  # entries in the lists of the structure; a surface may stand in several
-    bytes: int
-
-    @property
-    def surfaces_per_ray(self) -> float:
-        return self.surface_tests / self.rays if self.rays else 0.0
-
-    @property
-    def boxes_per_ray(self) -> float:
-        return self.box_tests / self.rays if self.rays else 0.0
-
-    @property
-    def tests_per_ray(self) -> float:
-        """A test of a surface and a test of a box weigh alike."""
-        return (self.surface_tests + self.box_tests) / self.rays if self.rays else 0.0
-
-
-def _count(value: Any) -> int:
+def _count(value: object) -> int:
     if type(value) is not int or not 0 <= value < _MAX:
         raise ValueError("not a counter")
     return value
@@ -65,7 +40,6 @@ def read_work(stats: bytes) -> Work | None:
         return None
 
 
-Document = Mapping[str, Any]
 _DIGITS = 6  # the same on every machine, whatever its logarithm does in the last place
 _NO_PICTURES = {"not-started": "not started", "does-not-build": "does not build"}
 
@@ -91,24 +65,22 @@ def _pictures_are(names: Sequence[str]) -> str:
     return f"pictures {join_and(names)} are" if len(names) > 1 else f"picture {names[0]} is"
 
 
-def _wrong(images: Sequence[Document]) -> str:
+def _wrong(images: Sequence[ImageResult]) -> str:
     """What is not right; a right picture may also have cost too much, or the judge did not believe its counters."""
-    wrong = [image for image in images if not image["passed"]]
-    shown = [image["wrong_share"] is not None and image["wrong_share"] <= image["max_wrong"] for image in wrong]
-    costly = [image["name"] for image, right in zip(wrong, shown, strict=True) if right]
-    false = [image["name"] for image, right in zip(wrong, shown, strict=True) if not right]
+    wrong = [image for image in images if not image.passed]
+    shown = [image.wrong_share is not None and image.wrong_share <= image.max_wrong for image in wrong]
+    costly = [image.name for image, right in zip(wrong, shown, strict=True) if right]
+    false = [image.name for image, right in zip(wrong, shown, strict=True) if not right]
     if false:
         return f"{_pictures_are(false)} not right"
     return f"{_pictures_are(costly)} right, but the work that was counted did not pass" if costly else ""
 
 
-def _relative(image: Document) -> float | NoEffort:
-    name = image["name"]
-    if "work" not in image or "reference_work" not in image:
-        return NoEffort("graded by an older kit, which kept no counters; grade it again")
-    if image["work"] is None or image["reference_work"] is None:
-        return NoEffort(f"picture {name} has no counters")
-    mine, reference = Work(**image["work"]), Work(**image["reference_work"])
+def _relative(image: ImageResult) -> float | NoEffort:
+    name = image.name
+    mine, reference = image.work, image.reference_work
+    if mine is None or reference is None:
+        return NoEffort(f"picture {name} has no counters, as when an older kit graded it; grade it again")
     if not mine.rays or not mine.surface_tests or not reference.tests_per_ray:
         return NoEffort(f"picture {name}: no test of a surface was counted")
     if reference.box_tests and not mine.box_tests:
@@ -116,23 +88,23 @@ def _relative(image: Document) -> float | NoEffort:
     return mine.tests_per_ray / reference.tests_per_ray
 
 
-def limited(result: Document) -> list[Document]:
-    """The pictures of a step, as results.json has them, in which few objects may be tested."""
-    return [image for image in result["images"] if image["max_share"] is not None]
+def limited(result: StepResult) -> list[ImageResult]:
+    """The pictures of a step in which few objects may be tested."""
+    return [image for image in result.images if image.max_share is not None]
 
 
-def effort_of(result: Document, expected: Sequence[str] = ()) -> Effort | NoEffort:
-    """Of one step in results.json. `expected` are the pictures that count and must be there; else all that have a
+def effort_of(result: StepResult, expected: Sequence[str] = ()) -> Effort | NoEffort:
+    """Of one step. `expected` are the pictures that count and must be there; else all that have a
     max_share."""
-    if result["status"] in _NO_PICTURES:
-        return NoEffort(_NO_PICTURES[result["status"]])
-    if result["inconsistent"]:
+    if result.status in _NO_PICTURES:
+        return NoEffort(_NO_PICTURES[result.status])
+    if result.inconsistent:
         return NoEffort("inconsistent: the program claims what the judge did not see")
-    problem = _wrong(result["images"])
+    problem = _wrong(result.images)
     if problem:
         return NoEffort(problem)
-    images = [image for image in limited(result) if not expected or image["name"] in expected]
-    missing = [name for name in expected if name not in {image["name"] for image in images}]
+    images = [image for image in limited(result) if not expected or image.name in expected]
+    missing = [name for name in expected if name not in {image.name for image in images}]
     if missing or not images:
         return NoEffort(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
     pictures: dict[str, float] = {}
@@ -140,7 +112,8 @@ def effort_of(result: Document, expected: Sequence[str] = ()) -> Effort | NoEffo
         relative = _relative(image)
         if isinstance(relative, NoEffort):
             return relative
-        pictures[image["name"]] = round(relative, _DIGITS)
+        pictures[image.name] = round(relative, _DIGITS)
     mean = math.exp(math.fsum(math.log(max(value, 10**-_DIGITS)) for value in pictures.values()) / len(pictures))
-    mine, reference = (sum(image[key]["bytes"] for image in images) for key in ("work", "reference_work"))
+    mine = sum(image.work.bytes for image in images if image.work)
+    reference = sum(image.reference_work.bytes for image in images if image.reference_work)
     return Effort(round(mean, _DIGITS), mine, reference, pictures)
