@@ -2,6 +2,7 @@
 
 import csv
 import io
+import json
 import sqlite3
 import unicodedata
 from contextlib import closing
@@ -20,14 +21,15 @@ from raysteps.classroom.database import (
     open_database,
     transaction,
 )
-from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.jobs import Answer, Job, from_line, to_line
 from raysteps.classroom.session import submission_key
 from raysteps.common.csv_safety import FORMULA_SIGNS
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.results.model import Results, StepResult
+from raysteps.results.settings import Settings
 from raysteps.submission.load import Submission
 
-_SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
+_SETTINGS = Settings()
 
 
 def _facts(uid: str) -> RunFacts:
@@ -124,7 +126,7 @@ def test_a_transaction_is_all_or_nothing(tmp_path: Path) -> None:
 def test_keys_depend_on_all_that_a_grade_depends_on() -> None:
     submission = Submission("ann", {"01": b"x"}, {"02": "none"}, {})
     key = submission_key(submission, "kit", _SETTINGS)
-    assert key == submission_key(Submission("ann", {"01": b"x"}, {"02": "none"}, {}), "kit", dict(_SETTINGS))
+    assert key == submission_key(Submission("ann", {"01": b"x"}, {"02": "none"}, {}), "kit", Settings())
     others = [
         submission_key(Submission("ann", {"01": b"y"}, {"02": "none"}, {}), "kit", _SETTINGS),
         submission_key(Submission("ann", {"01": b"x"}, {"02": "other"}, {}), "kit", _SETTINGS),
@@ -132,8 +134,13 @@ def test_keys_depend_on_all_that_a_grade_depends_on() -> None:
         submission_key(Submission("bob", {"01": b"x"}, {"02": "none"}, {}), "kit", _SETTINGS),
         submission_key(submission, "kit2", _SETTINGS),
         *(
-            submission_key(submission, "kit", {**_SETTINGS, **change})
-            for change in ({"seed": 2}, {"only": ["01"]}, {"feedback": "score"}, {"limits": {"wall_seconds": 1}})
+            submission_key(submission, "kit", settings)
+            for settings in (
+                Settings(seed=2),
+                Settings(only=("01",)),
+                Settings("score"),
+                Settings(limits={"wall_seconds": 1}),
+            )
         ),
     ]
     assert len({key, *others}) == 10
@@ -187,9 +194,9 @@ def test_csv_reads_back() -> None:
 
 def test_messages_survive_the_way() -> None:
     job = Job(Submission("ann", {"01": b"\0\xff"}, {"02": "n"}, {"01": "r"}), _SETTINGS, "a.b:c", "kit", True, "run")
-    assert Job.from_json(job.to_json()) == job
+    assert from_line(to_line(job), Job) == job
     answer = Answer("ann", "graded", _results(), {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
-    assert Answer.from_json(answer.to_json()) == answer
+    assert from_line(to_line(answer), Answer) == answer
 
 
 @pytest.mark.parametrize(
@@ -199,13 +206,13 @@ def test_messages_survive_the_way() -> None:
         {"pictures": {"pictures/../../a.png": ""}},
         {"pictures": {"/pictures/a.png": ""}},
         {"status": "great"},
-        {"document": None},
+        {"results": None},
         {"fault": "and yet"},
         {"seconds": -1},
         {"more": 1},
     ],
 )
-def test_answers_that_break_the_schema(change: dict[str, object]) -> None:
-    good = Answer("ann", "graded", _results()).to_json()
-    with pytest.raises(GraderFault, match="breaks its schema"):
-        Answer.from_json({**good, **change})
+def test_what_is_no_answer(change: dict[str, object]) -> None:
+    good = json.loads(to_line(Answer("ann", "graded", _results())))
+    with pytest.raises(GraderFault, match="this is no answer: "):
+        from_line(json.dumps({**good, **change}).encode(), Answer)

@@ -27,6 +27,7 @@ from raysteps.common.schemas import complaint, read_schema
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.results.model import Results, StepResult, Work
+from raysteps.results.settings import Settings
 
 Document = dict[str, Any]
 
@@ -42,10 +43,9 @@ def _graded(steps: list[Step], name: str, tests: int = 1000, memory: int = 4000)
 def _class(folder: Path, results: Mapping[str, Results | str]) -> Path:
     """A graded class; a text is a fault, or `not graded`."""
     folder.mkdir()
-    settings = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
     with closing(ClassDatabase(folder)) as database:
         entries = [Registered(f"{name}.zip", name, "here") for name in results]
-        run = database.begin_run(RunFacts("a", "kit", "/in", "1/1", settings, [], "", []), entries, [])
+        run = database.begin_run(RunFacts("a", "kit", "/in", "1/1", Settings(), [], "", []), entries, [])
         for name, made in results.items():
             if isinstance(made, Results):
                 database.record(run, Answer(name, "graded", made), "key")

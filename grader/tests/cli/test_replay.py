@@ -14,7 +14,6 @@ from raysteps.cli.replay import replay
 from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.options import Feedback, Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.cases import functions_of
 from raysteps.judge.counterexamples import CaseFile, read_case, write_case
@@ -24,6 +23,7 @@ from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
 from raysteps.judge.protocol import ProtocolError
 from raysteps.progress.check import clear
+from raysteps.results.settings import Feedback, Settings
 from raysteps.results.store import place_of
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission

@@ -11,9 +11,9 @@ from conftest import MakeSubmission, Sources
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
 from raysteps.exports.items import step_text
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import Results
+from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

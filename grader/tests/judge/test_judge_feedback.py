@@ -2,8 +2,9 @@
 
 import pytest
 
-from raysteps.grading.options import Feedback, withhold
+from raysteps.grading.withhold import withhold
 from raysteps.results.model import CaseGroup, HiddenResult, Results, StepResult
+from raysteps.results.settings import Feedback
 from raysteps.results.store import validate
 
 pytestmark = pytest.mark.portable

@@ -9,9 +9,10 @@ from page_results import NASTY, document_of, idle_step, of_older_kit, passed_ste
 
 from raysteps.cli import app as cli
 from raysteps.course.manifest import Step
-from raysteps.grading.options import Feedback, withhold
+from raysteps.grading.withhold import withhold
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
 from raysteps.results.model import Results
+from raysteps.results.settings import Feedback
 from raysteps.results.store import write_results
 
 

@@ -23,7 +23,7 @@ from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import number
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import here
-from raysteps.grading.options import withhold
+from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page

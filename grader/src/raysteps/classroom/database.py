@@ -6,7 +6,7 @@ import os
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
@@ -14,7 +14,7 @@ from typing import Any, Literal
 from raysteps.classroom.jobs import Answer
 from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
-from raysteps.grading.options import Feedback
+from raysteps.results.settings import Feedback, Settings
 
 # The tables of class.sqlite, and how the file is opened.
 
@@ -209,7 +209,7 @@ class RunFacts:
     kit: str
     folder: str
     shard: str
-    settings: Mapping[str, Any]
+    settings: Settings
     steps: list[dict[str, Any]]
     late_policy: str
     ignored: list[str]
@@ -249,7 +249,7 @@ class ClassDatabase:
                 "kit": facts.kit,
                 "folder": facts.folder,
                 "shard": facts.shard,
-                "settings": json.dumps(dict(facts.settings), sort_keys=True),
+                "settings": json.dumps(asdict(facts.settings), sort_keys=True),
                 "steps": json.dumps(facts.steps),
                 "late_policy": facts.late_policy,
                 "ignored": json.dumps(facts.ignored),

@@ -4,11 +4,11 @@ import hashlib
 import json
 import signal
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from types import FrameType
-from typing import Any, Protocol
+from typing import Protocol
 
 from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
@@ -18,16 +18,17 @@ from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
+from raysteps.results.settings import Settings
 from raysteps.results.store import stored_results
 from raysteps.submission.load import Submission
 
 # When two gradings are the same one.
 
 
-def submission_key(submission: Submission, kit: str, settings: Mapping[str, Any]) -> str:
+def submission_key(submission: Submission, kit: str, settings: Settings) -> str:
     """Of everything that a result depends on: what was handed in, the kit, and how it was asked to grade."""
     sources = {step: hashlib.sha256(data).hexdigest() for step, data in submission.sources.items()}
-    parts = [submission.name, sources, submission.notes, submission.remarks, kit, dict(settings)]
+    parts = [submission.name, sources, submission.notes, submission.remarks, kit, asdict(settings)]
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True)
     return hashlib.sha256(text.encode()).hexdigest()
 

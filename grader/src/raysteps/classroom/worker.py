@@ -1,7 +1,6 @@
 """A process that grades: a job per line on stdin, an answer per line on stdout. It ends when stdin does."""
 
 import contextlib
-import json
 import os
 import platform
 import queue
@@ -16,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NoReturn
 
-from raysteps.classroom.jobs import Answer, Grader, Job, ProgressCallback, make_grader
+from raysteps.classroom.jobs import Answer, Grader, Job, ProgressCallback, from_line, make_grader, to_line
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.results.model import Results
 from raysteps.results.store import read_results
@@ -112,8 +111,8 @@ class _Worker:
     def _answer_all(self, answers: BinaryIO) -> NoReturn:
         desk = JobRunner(_say)
         while True:
-            answer = desk.grade(Job.from_json(json.loads(self._jobs.get())))
-            answers.write(json.dumps(answer.to_json()).encode() + b"\n")
+            answer = desk.grade(from_line(self._jobs.get(), Job))
+            answers.write(to_line(answer))
             answers.flush()
 
     def run(self, answers: BinaryIO) -> None:

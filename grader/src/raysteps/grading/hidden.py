@@ -9,7 +9,6 @@ from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.grading.build_messages import link_message
 from raysteps.grading.images import ImageGrader, grade_integration, too_many_tests, trouble
-from raysteps.grading.options import Settings
 from raysteps.grading.scoring import status_and_points
 from raysteps.grading.step import GradingContext, Programs, StepGrader
 from raysteps.images.compare import compare
@@ -21,6 +20,7 @@ from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, StepResult
+from raysteps.results.settings import Settings
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import ProgressCallback

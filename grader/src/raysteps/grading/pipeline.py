@@ -9,10 +9,11 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
 from raysteps.grading.hidden import HiddenStepGrader
-from raysteps.grading.options import Settings, withhold
 from raysteps.grading.scoring import is_right
 from raysteps.grading.step import GradingContext, compile_steps
+from raysteps.grading.withhold import withhold
 from raysteps.results.model import Results, Timing
+from raysteps.results.settings import Settings
 from raysteps.results.store import write_results
 from raysteps.sandbox.accounting import AccountingSandbox
 from raysteps.sandbox.task import Sandbox
@@ -32,14 +33,17 @@ def grade_submission(
     sandbox: Sandbox,
     out: Path,
     say: Callable[[str], None] = lambda text: None,
+    *,
+    jobs: int = 1,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only."""
+    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only. So many `jobs` are
+    done at a time; that changes a grade only where a step is near its time limit."""
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
-        with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
+        with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
             say("building the steps")
             compiled = compile_steps(work, chosen, pool, settings.limits)
 

@@ -33,7 +33,7 @@ NEVER = (
     "raysteps.diagnosis",
     "raysteps.gallery",
     "raysteps.grading.hidden",
-    "raysteps.grading.options",
+    "raysteps.grading.withhold",
     "raysteps.grading.pipeline",
     "raysteps.inspector.blame",
     "raysteps.inspector.divergence",

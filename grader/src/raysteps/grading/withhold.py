@@ -1,14 +1,9 @@
-"""How an instructor wants a submission to be graded."""
+"""What of the results a student is told about the hidden part."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Literal
+from dataclasses import replace
 
 from raysteps.results.model import HiddenResult, Results, StepResult
-
-# How much a student is told about the hidden part.
-
-Feedback = Literal["full", "diagnosis", "score"]
+from raysteps.results.settings import Feedback
 
 _HIDDEN_ITEM = "hidden item"  # of the line that counts them
 
@@ -60,14 +55,3 @@ def withhold(results: Results, feedback: Feedback) -> Results:
         return results
     steps = [_withheld_step(step, feedback) for step in results.steps]
     return replace(results, steps=steps, seed=None)  # whoever has the seed can make the cases
-
-
-@dataclass(frozen=True)
-class Settings:
-    """Together with the kit and the submission this fixes a grade."""
-
-    seed: int = 1
-    only: tuple[str, ...] = ()  # step ids; all steps when there are none
-    feedback: Feedback = "full"
-    limits: Mapping[str, float] = field(default_factory=dict)  # changes by name, see programs.limits
-    jobs: int = 1  # steps at a time; changes a grade only where a step is near its time limit
