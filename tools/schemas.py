@@ -6,9 +6,10 @@ from pathlib import Path
 import msgspec
 
 from raysteps.common.files import write_json
+from raysteps.results.class_model import ClassResults
 from raysteps.results.model import Results
 
-DOCUMENTS: Mapping[str, type] = {"results": Results}
+DOCUMENTS: Mapping[str, type] = {"results": Results, "class": ClassResults}
 
 
 def schema_of(kind: type) -> dict[str, object]:

@@ -2,7 +2,7 @@
 
 import json
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from raysteps.classroom.class_document import read_class_document
 from raysteps.classroom.database import FILE, LATEST, open_readonly
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.schemas import complaint, read_schema
@@ -20,7 +21,6 @@ from raysteps.results.model import Results
 from raysteps.results.store import read_results, stored_results
 from raysteps.results.work_ratio import Effort, NoEffort, effort_of
 
-Document = Mapping[str, Any]
 _WANTED = "expected the folder of a graded class, its class.json or class.sqlite, or a results.json"
 _WHY_NOT = {
     "fault": "not graded, because of a fault of the grader",
@@ -60,31 +60,28 @@ def _of_database(path: Path) -> list[LeaderboardEntry]:
     return entered
 
 
-def _of_class(path: Path, facts: Document) -> list[LeaderboardEntry]:
+def _of_class(path: Path) -> list[LeaderboardEntry]:
     """class.json, and the results.json files that it names."""
-    problem = complaint(facts, read_schema("raysteps.classroom", "class.schema.json"))
-    if problem:
-        raise UsageError(f"{path}: is not a class.json of this kit: {problem}")
     home = path.parent.resolve()
     entered = []
-    for one in facts["submissions"]:
-        if one["status"] != "graded":
-            entered.append(_without(one["name"], one["status"]))
+    for one in read_class_document(path).submissions:
+        if one.status != "graded" or one.results is None:
+            entered.append(_without(one.name, one.status))
             continue
-        place = (home / one["results"]).resolve()
+        place = (home / one.results).resolve()
         if not place.is_relative_to(home):
-            raise UsageError(f"{path}: names {one['results']}, which lies outside of its folder")
-        entered.append(LeaderboardEntry(one["name"], read_results(place)))
+            raise UsageError(f"{path}: names {one.results}, which lies outside of its folder")
+        entered.append(LeaderboardEntry(one.name, read_results(place)))
     return entered
 
 
-def _is_class(path: Path) -> Document | None:
-    """What a file holds, when that is a class.json."""
+def _is_class(path: Path) -> bool:
+    """Whether a file holds a class.json."""
     try:
         facts = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
-        return None  # read_results says what is wrong
-    return facts if isinstance(facts, dict) and facts.get("schema") == "raysteps/class/v1" else None
+        return False  # read_results says what is wrong
+    return isinstance(facts, dict) and facts.get("schema") == "raysteps/class/v1"
 
 
 def _of_place(place: Path) -> list[LeaderboardEntry]:
@@ -98,9 +95,8 @@ def _of_place(place: Path) -> list[LeaderboardEntry]:
         raise UsageError(f"{place}: is not there; {_WANTED}")
     if path.suffix == Path(FILE).suffix:
         return _of_database(path)
-    facts = _is_class(path)
-    if facts is not None:
-        return _of_class(path, facts)
+    if _is_class(path):
+        return _of_class(path)
     results = read_results(path)
     return [LeaderboardEntry(results.submission, results, source=str(place))]
 
