@@ -5,11 +5,18 @@ from pathlib import Path
 
 import msgspec
 
+from raysteps.classroom.leaderboard import Leaderboard
 from raysteps.common.files import write_json
+from raysteps.judge.counterexamples import CaseFile
 from raysteps.results.class_model import ClassResults
 from raysteps.results.model import Results
 
-DOCUMENTS: Mapping[str, type] = {"results": Results, "class": ClassResults}
+DOCUMENTS: Mapping[str, type] = {
+    "results": Results,
+    "class": ClassResults,
+    "leaderboard": Leaderboard,
+    "case": CaseFile,
+}
 
 
 def schema_of(kind: type) -> dict[str, object]:

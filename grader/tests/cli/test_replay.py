@@ -16,7 +16,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.cases import functions_of
-from raysteps.judge.counterexamples import CaseFile, read_case, write_case
+from raysteps.judge.counterexamples import SCHEMA, CaseFile, read_case, write_case
 from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case
 from raysteps.judge.hidden_tests import make_cases
@@ -31,7 +31,16 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _LINE = "1 Sphere::intersect 0 0 0 1 1 1 1 1 1 2 0 1 0 0 2 0 0 -1"
 _CASE = CaseFile(
-    "02-intersection", "Sphere::intersect", "origin inside", 1, _LINE, "the distance is wrong", "given", "one", "other"
+    SCHEMA,
+    "02-intersection",
+    "Sphere::intersect",
+    "origin inside",
+    1,
+    _LINE,
+    "the distance is wrong",
+    "given",
+    "one",
+    "other",
 )
 _NEARER = "nearer > 0.0F ? nearer : to_closest + half_chord"
 
@@ -78,9 +87,9 @@ def test_names_of_files(steps: list[Step]) -> None:
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"line": 5}, r"\$\.line: 5 is not of type 'string'"),
-        ({"line": None}, "'line' is a required property"),
-        ({"schema": "raysteps/case/v9"}, r"\$\.schema: 'raysteps/case/v1' was expected"),
+        ({"line": 5}, r"\$\.line: expected str, got int"),
+        ({"line": None}, "missing required field line"),
+        ({"schema": "raysteps/case/v9"}, r"\$\.schema: invalid enum value 'raysteps/case/v9'"),
         ({"colour": 1}, "colour"),
         ({"step": "09-none"}, "step: expected one of 01-camera-rays, .*found '09-none'"),
         ({"function": "trace"}, "function: expected one of Triangle::intersect, .*found 'trace'"),

@@ -5,16 +5,17 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Literal
 
+from msgspec import Meta
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from raysteps.classroom.class_document import read_class_document
 from raysteps.classroom.database import FILE, LATEST, open_readonly
+from raysteps.common.documents import Amount, Count, Malformed, Text, convert, plain
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import count, printable, size
 from raysteps.course.manifest import Step
 from raysteps.results.model import Results
@@ -240,37 +241,83 @@ def print_caption(console: Console) -> None:
     console.print(_COUNTED, style="dim", highlight=False)
 
 
-def _board(board: Board, *, anonymous: bool) -> dict[str, Any]:
-    return {
-        "id": board.step.id,
-        "title": board.step.title,
-        "pictures": list(board.step.limited_pictures),
-        "kits": list(board.kits),
-        "reference_bytes": board.reference_bytes,
-        "ranked": [
-            {
-                "rank": one.rank,
-                "name": None if anonymous else one.name,
-                "work": one.effort.relative,
-                "bytes": one.effort.bytes,
-                "pictures": dict(one.effort.pictures),
-            }
+# The form raysteps/leaderboard/v1; a name is None where they are hidden.
+
+
+@dataclass(frozen=True)
+class RankedEntry:
+    """A submission in its place; `work` is a multiple of the reference's."""
+
+    rank: Annotated[int, Meta(ge=1)]
+    name: Text | None
+    work: Amount
+    bytes: Count
+    pictures: dict[str, Amount]
+
+
+@dataclass(frozen=True)
+class UnrankedEntry:
+    """A submission without a place."""
+
+    name: Text | None
+    reason: Text
+
+
+@dataclass(frozen=True)
+class RankedStep:
+    """One step; the bytes are None where nobody is ranked, or references differ."""
+
+    id: Annotated[str, Meta(pattern="^[0-9]{2}-[a-z0-9-]+$")]
+    title: str
+    pictures: Annotated[Sequence[str], Meta(min_length=1)]
+    kits: Sequence[str]
+    reference_bytes: Count | None
+    ranked: Sequence[RankedEntry]
+    not_ranked: Sequence[UnrankedEntry]
+
+
+@dataclass(frozen=True)
+class Leaderboard:
+    """All steps."""
+
+    schema: Literal["raysteps/leaderboard/v1"]
+    anonymous: bool
+    steps: Sequence[RankedStep]
+
+    def __post_init__(self) -> None:
+        names = [one.name for step in self.steps for one in step.ranked]
+        names += [one.name for step in self.steps for one in step.not_ranked]
+        if self.anonymous and any(name is not None for name in names):
+            raise ValueError("names where they are hidden")
+
+
+def _ranked_step(board: Board, *, anonymous: bool) -> RankedStep:
+    return RankedStep(
+        board.step.id,
+        board.step.title,
+        board.step.limited_pictures,
+        board.kits,
+        board.reference_bytes,
+        [
+            RankedEntry(
+                one.rank,
+                None if anonymous else one.name,
+                one.effort.relative,
+                one.effort.bytes,
+                dict(one.effort.pictures),
+            )
             for one in board.ranked
         ],
-        "not_ranked": [
-            {"name": None if anonymous else other.name, "reason": other.reason} for other in board.not_ranked
-        ],
-    }
+        [UnrankedEntry(None if anonymous else other.name, other.reason) for other in board.not_ranked],
+    )
 
 
-def to_json(boards: Sequence[Board], *, anonymous: bool) -> dict[str, Any]:
-    """Checked against its schema."""
-    document = {
-        "schema": "raysteps/leaderboard/v1",
-        "anonymous": anonymous,
-        "steps": [_board(board, anonymous=anonymous) for board in boards],
-    }
-    problem = complaint(document, read_schema("raysteps.classroom", "leaderboard.schema.json"))
-    if problem:
-        raise GraderFault(f"the leaderboard would break its schema: {problem}")
-    return document
+def leaderboard(boards: Sequence[Board], *, anonymous: bool) -> Leaderboard:
+    """Checked: what is not of its form is the kit's fault."""
+    made = Leaderboard(
+        "raysteps/leaderboard/v1", anonymous, [_ranked_step(board, anonymous=anonymous) for board in boards]
+    )
+    try:
+        return convert(plain(made), Leaderboard)
+    except Malformed as error:
+        raise GraderFault(f"the leaderboard would not be of its form: {error}") from error

@@ -3,12 +3,16 @@
 import codecs
 import json
 import re
+import tomllib
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
+from pathlib import Path
 from typing import Annotated, TypeVar
 
 import msgspec
 from msgspec import Meta
+
+from raysteps.common.errors import GraderFault
 
 T = TypeVar("T")
 
@@ -88,3 +92,22 @@ def plain(document: object) -> object:
 def as_text(document: object) -> str:
     """The document as it is written to a file."""
     return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+# Tables of the kit in TOML. A bad one is the kit's fault.
+
+
+def read_text(path: Path) -> str:
+    """The file as text."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraderFault(f"{path}: cannot be read: {error}") from error
+
+
+def parse_table(text: str, path: Path, what: str, kind: type[T]) -> T:
+    """`what` the file should be, such as `a plan of hidden cases`."""
+    try:
+        return convert(tomllib.loads(text), kind)
+    except ValueError as error:
+        raise GraderFault(f"{path}: not {what}: {error}") from error
