@@ -18,6 +18,7 @@ from tools.calibration.calibrate import calibrate
 from tools.grade_audit import check_truth
 from tools.lint import LANGUAGES, TIDY, lint_checks, reformat
 from tools.new_step import new_step
+from tools.schemas import write_schemas
 from tools.selftest.checks import run_checks
 from tools.selftest.stamps import Stamps
 from tools.test_submissions import outdated_samples, write_samples
@@ -88,6 +89,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
     add.add_argument("--pairs", type=int, default=0, metavar="N", help="also random pairs of mistakes in two steps")
     add.add_argument("--seed", type=int, default=1, metavar="N", help="of the hidden cases and of the pairs (1)")
+    commands.add_parser("schemas", help="write JSON schemas of the kit's documents to build/schemas/")
     for name, said in (
         ("lint", "ask the linters and formatters what they would change"),
         ("format", "format the kit's own code, and mend what linters mend by themselves"),
@@ -120,6 +122,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         case "mistakes":
             with console.status("starting") as status:
                 return mistakes(project, progress(console, status), check=arguments.check)
+        case "schemas":
+            for path in write_schemas(project.build / "schemas"):
+                print(f"{path.relative_to(project.root).as_posix()} written")
+            return 0
         case "calibrate":
             with console.status("starting") as status:
                 say = progress(console, status)

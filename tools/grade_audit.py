@@ -17,10 +17,10 @@ from raysteps.course.manifest import Step, choose
 from raysteps.course.mutants import read_mutants
 from raysteps.course.project import Project
 from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.plan import read_plan
 from raysteps.results.model import StepResult
+from raysteps.results.settings import Settings
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit
@@ -153,7 +153,7 @@ def grade_round(
     if not graded:
         return []
     sources = {entrant.step: entrant.source.encode() for entrant in handed_in.entrants}
-    settings = Settings(seed=seed, only=graded, feedback="diagnosis", jobs=1)
+    settings = Settings(seed=seed, only=graded, feedback="diagnosis")
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         submission = Submission("truth", sources, {})
         results = {

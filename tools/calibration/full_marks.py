@@ -13,9 +13,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.course.manifest import Step
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
+from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
@@ -52,7 +52,7 @@ class Mark:
 def mark(kit: BuiltKit, step: Step, candidate: Entrant, setting: Setting, seed: int = 1) -> Mark:
     """As a submission of this one step would be graded."""
     submission = Submission(candidate.name, {step.id: candidate.source.encode()}, {})
-    wished = Settings(seed, (step.id,), limits={"seconds": _SECONDS})
+    wished = Settings(seed=seed, only=(step.id,), limits={"seconds": _SECONDS})
     with tempfile.TemporaryDirectory(prefix="raysteps-") as out:
         results = grade_submission(setting.applied(kit), submission, wished, LimitsOnly(), Path(out))
     return Mark(step, candidate, setting, results.steps[0])

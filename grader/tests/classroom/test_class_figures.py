@@ -3,6 +3,7 @@
 import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 import class_fakes
 import pytest
@@ -10,10 +11,12 @@ from class_documents import STEPS, document, missing, result, student, submissio
 from class_fakes import grade_class, write_entry
 
 from raysteps.classroom.class_files import class_source, remake_class_page
+from raysteps.common.documents import convert, plain
 from raysteps.common.errors import UsageError
 from raysteps.report.class_attention import common_mistakes, groups, marks
 from raysteps.report.class_page import aliases, class_page, table_rows
 from raysteps.report.class_statistics import divided, histogram, share_bars, span, step_figures, times, total_bars
+from raysteps.results.class_model import ClassResults
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
 
@@ -91,8 +94,9 @@ def test_common_mistakes_know_who_made_them() -> None:
 
 
 def test_a_class_of_an_older_kit_tells_how_many_made_a_mistake_but_not_who() -> None:
-    facts = document([submission("ann", mistakes={_SECOND: ["too bright"]})])
-    del facts["submissions"][0]["mistakes"], facts["submissions"][0]["seconds"]
+    told: Any = plain(document([submission("ann", mistakes={_SECOND: ["too bright"]})]))
+    del told["submissions"][0]["mistakes"], told["submissions"][0]["seconds"]
+    facts = convert(told, ClassResults, complete=True)
     assert [(one.submissions, list(one.rows)) for one in common_mistakes(facts)] == [(1, [])]
     assert "too bright" in class_page(facts, lambda name: None)
 

@@ -14,10 +14,10 @@ from pathlib import Path
 
 import class_fakes
 import pytest
+from class_documents import without_times
 from class_fakes import grade_class, start_class, write_entry
 
 import raysteps.classroom.cluster
-from raysteps.classroom.session import without_times
 from raysteps.common.errors import GraderFault, UsageError
 
 pytest.importorskip("distributed")

@@ -2,12 +2,14 @@
 
 import csv
 import io
+import json
 import sqlite3
 import unicodedata
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from class_documents import without_times
 
 from raysteps.classroom.class_files import csv_bytes, safe_cell
 from raysteps.classroom.database import (
@@ -19,13 +21,15 @@ from raysteps.classroom.database import (
     open_database,
     transaction,
 )
-from raysteps.classroom.jobs import Answer, Job
-from raysteps.classroom.session import submission_key, without_times
+from raysteps.classroom.jobs import Answer, Job, from_line, to_line
+from raysteps.classroom.session import submission_key
 from raysteps.common.csv_safety import FORMULA_SIGNS
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.results.model import Results, StepResult
+from raysteps.results.settings import Settings
 from raysteps.submission.load import Submission
 
-_SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
+_SETTINGS = Settings()
 
 
 def _facts(uid: str) -> RunFacts:
@@ -38,9 +42,12 @@ def _begin(database: ClassDatabase, uid: str = "a") -> int:
     )
 
 
+def _results(points: float = 1.0) -> Results:
+    return Results.of("ann", [StepResult("01-camera-rays", "partial", points, 10.0, False)])
+
+
 def _answer(points: float, **pictures: bytes) -> Answer:
-    document = {"total": {"points": points, "max": 10}}
-    return Answer("ann", "graded", document, {f"pictures/{name}.png": data for name, data in pictures.items()})
+    return Answer("ann", "graded", _results(points), {f"pictures/{name}.png": data for name, data in pictures.items()})
 
 
 def _count(database: ClassDatabase, table: str) -> int:
@@ -69,7 +76,7 @@ def test_a_result_is_kept_once_per_run(tmp_path: Path) -> None:
 def test_half_a_result_is_none(tmp_path: Path) -> None:
     with closing(ClassDatabase(tmp_path)) as database:
         run = _begin(database)
-        broken = Answer("ann", "graded", {"total": {"points": 1, "max": 10}}, {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
+        broken = Answer("ann", "graded", _results(), {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
         with pytest.raises(TypeError):
             database.record(run, broken, "key")
         assert (_count(database, "results"), _count(database, "blobs"), _count(database, "pictures")) == (0, 0, 0)
@@ -119,7 +126,7 @@ def test_a_transaction_is_all_or_nothing(tmp_path: Path) -> None:
 def test_keys_depend_on_all_that_a_grade_depends_on() -> None:
     submission = Submission("ann", {"01": b"x"}, {"02": "none"}, {})
     key = submission_key(submission, "kit", _SETTINGS)
-    assert key == submission_key(Submission("ann", {"01": b"x"}, {"02": "none"}, {}), "kit", dict(_SETTINGS))
+    assert key == submission_key(Submission("ann", {"01": b"x"}, {"02": "none"}, {}), "kit", Settings())
     others = [
         submission_key(Submission("ann", {"01": b"y"}, {"02": "none"}, {}), "kit", _SETTINGS),
         submission_key(Submission("ann", {"01": b"x"}, {"02": "other"}, {}), "kit", _SETTINGS),
@@ -127,8 +134,13 @@ def test_keys_depend_on_all_that_a_grade_depends_on() -> None:
         submission_key(Submission("bob", {"01": b"x"}, {"02": "none"}, {}), "kit", _SETTINGS),
         submission_key(submission, "kit2", _SETTINGS),
         *(
-            submission_key(submission, "kit", {**_SETTINGS, **change})
-            for change in ({"seed": 2}, {"only": ["01"]}, {"feedback": "score"}, {"limits": {"wall_seconds": 1}})
+            submission_key(submission, "kit", settings)
+            for settings in (
+                Settings(seed=2),
+                Settings(only=("01",)),
+                Settings("score"),
+                Settings(limits={"wall_seconds": 1}),
+            )
         ),
     ]
     assert len({key, *others}) == 10
@@ -182,9 +194,9 @@ def test_csv_reads_back() -> None:
 
 def test_messages_survive_the_way() -> None:
     job = Job(Submission("ann", {"01": b"\0\xff"}, {"02": "n"}, {"01": "r"}), _SETTINGS, "a.b:c", "kit", True, "run")
-    assert Job.from_json(job.to_json()) == job
-    answer = Answer("ann", "graded", {"a": 1}, {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
-    assert Answer.from_json(answer.to_json()) == answer
+    assert from_line(to_line(job), Job) == job
+    answer = Answer("ann", "graded", _results(), {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
+    assert from_line(to_line(answer), Answer) == answer
 
 
 @pytest.mark.parametrize(
@@ -194,13 +206,13 @@ def test_messages_survive_the_way() -> None:
         {"pictures": {"pictures/../../a.png": ""}},
         {"pictures": {"/pictures/a.png": ""}},
         {"status": "great"},
-        {"document": None},
+        {"results": None},
         {"fault": "and yet"},
         {"seconds": -1},
         {"more": 1},
     ],
 )
-def test_answers_that_break_the_schema(change: dict[str, object]) -> None:
-    good = Answer("ann", "graded", {"a": 1}).to_json()
-    with pytest.raises(GraderFault, match="breaks its schema"):
-        Answer.from_json({**good, **change})
+def test_what_is_no_answer(change: dict[str, object]) -> None:
+    good = json.loads(to_line(Answer("ann", "graded", _results())))
+    with pytest.raises(GraderFault, match="this is no answer: "):
+        from_line(json.dumps({**good, **change}).encode(), Answer)

@@ -12,10 +12,10 @@ from typing import Any
 
 import class_fakes
 import pytest
+from class_documents import without_times
 from class_fakes import FIRST, grade_class, write_entry
 from rich.console import Console
 
-from raysteps.classroom.session import without_times
 from raysteps.common.errors import UsageError
 from raysteps.results.store import validate
 

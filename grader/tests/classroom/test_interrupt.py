@@ -13,10 +13,11 @@ from pathlib import Path
 
 import class_fakes
 import pytest
+from class_documents import without_times
 from class_fakes import FAKE, start_class, write_entry
 
-from raysteps.classroom.jobs import Job
-from raysteps.classroom.session import without_times
+from raysteps.classroom.jobs import Job, to_line
+from raysteps.results.settings import Settings
 from raysteps.submission.load import Submission
 
 _TIMEOUT = 60
@@ -122,14 +123,13 @@ def test_nobody_waits_for_the_answer(tmp_path: Path) -> None:
     """As when the class is killed just before it: the process of a worker still ends with all that it left."""
     scratch = tmp_path / "scratch" / "of a worker"
     scratch.mkdir()
-    settings = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
-    job = Job(Submission("a", {}, {}, {}), settings, FAKE, "fake-kit")
+    job = Job(Submission("a", {}, {}, {}), Settings(), FAKE, "fake-kit")
     command = [sys.executable, "-P", "-m", "raysteps.classroom.worker", str(scratch)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True) as process:
         assert process.stdin is not None
         assert process.stdout is not None
         process.stdout.close()
-        process.stdin.write(json.dumps(job.to_json()).encode() + b"\n")
+        process.stdin.write(to_line(job))
         process.stdin.flush()
         _wait_for(lambda: _log(tmp_path, "end") == ["a"])
         with pytest.raises(subprocess.TimeoutExpired):

@@ -4,9 +4,9 @@ import argparse
 import json
 from pathlib import Path
 
+from class_documents import without_times
 from rich.console import Console
 
-from raysteps.classroom.session import without_times
 from raysteps.cli.grade_class import add_arguments, run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project

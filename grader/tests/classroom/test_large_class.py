@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from class_documents import without_times
 
-from raysteps.classroom.session import without_times
 from raysteps.course.project import Project
 from tools.sample_class import make_class
 

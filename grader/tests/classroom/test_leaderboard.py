@@ -5,31 +5,33 @@ import json
 import random
 from collections.abc import Mapping
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from export_documents import document, step_result
+from page_results import of_older_kit
 from rich.console import Console
 
 from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import write_class
 from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
 from raysteps.classroom.jobs import Answer
-from raysteps.classroom.leaderboard import print_board, rank, read_entries
+from raysteps.classroom.leaderboard import Leaderboard, print_board, rank, read_entries
 from raysteps.cli.app import main
 from raysteps.cli.leaderboard import add_arguments, run
+from raysteps.common.documents import Malformed, as_text, convert
 from raysteps.common.errors import UsageError
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.results.model import StepResult
-from raysteps.results.work_ratio import Work
+from raysteps.results.model import Results, StepResult, Work
+from raysteps.results.settings import Settings
 
 Document = dict[str, Any]
 
 
-def _graded(steps: list[Step], name: str, tests: int = 1000, memory: int = 4000) -> Document:
+def _graded(steps: list[Step], name: str, tests: int = 1000, memory: int = 4000) -> Results:
     """Steps 06 and 09, with so many tests by 100 rays in each picture; the reference has 1000."""
     results = [step_result(step) for step in steps if step.limited_pictures]
     for image in (image for result in results for image in result.images):
@@ -37,15 +39,14 @@ def _graded(steps: list[Step], name: str, tests: int = 1000, memory: int = 4000)
     return document(results, name)
 
 
-def _class(folder: Path, results: Mapping[str, Document | str]) -> Path:
+def _class(folder: Path, results: Mapping[str, Results | str]) -> Path:
     """A graded class; a text is a fault, or `not graded`."""
     folder.mkdir()
-    settings = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
     with closing(ClassDatabase(folder)) as database:
         entries = [Registered(f"{name}.zip", name, "here") for name in results]
-        run = database.begin_run(RunFacts("a", "kit", "/in", "1/1", settings, [], "", []), entries, [])
+        run = database.begin_run(RunFacts("a", "kit", "/in", "1/1", Settings(), [], "", []), entries, [])
         for name, made in results.items():
-            if isinstance(made, dict):
+            if isinstance(made, Results):
                 database.record(run, Answer(name, "graded", made), "key")
             elif made != "not graded":
                 database.record(run, Answer(name, "fault", None, fault=made), "key")
@@ -87,14 +88,12 @@ def test_only_right_pictures_are_ranked(
     tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]
 ) -> None:
     wrong = _graded(steps, "wrong", 10)
-    wrong["steps"][0]["images"][1].update(passed=False, wrong_share=0.2, outcome="wrong")
-    older = _graded(steps, "older", 10)
-    for result in older["steps"]:
-        for image in result["images"]:
-            del image["work"], image["reference_work"]
+    image = wrong.steps[0].images[1]
+    image.passed, image.wrong_share, image.outcome = False, 0.2, "wrong"
+    older = of_older_kit(_graded(steps, "older", 10))
     stub = document([StepResult(step.id, "not-started", 0.0, step.points, step.bonus) for step in steps], "stub")
-    strange = {**_graded(steps, "strange"), "schema": "raysteps/results/v0"}
-    results: dict[str, Document | str] = {
+    strange = replace(_graded(steps, "strange"), schema="raysteps/results/v0")  # type: ignore[arg-type]
+    results: dict[str, Results | str] = {
         "wrong": wrong,
         "right": _graded(steps, "right"),
         "older": older,
@@ -107,7 +106,7 @@ def test_only_right_pictures_are_ranked(
     octree, bvh = _ranking(project, tmp_path, folder)["steps"]
     reasons = {
         "wrong": "picture slivers-octree is not right",
-        "older": "graded by an older kit, which kept no counters; grade it again",
+        "older": "picture strands-octree has no counters, as when an older kit graded it; grade it again",
         "stub": "not started",
         "first": "the step was not graded",
         "fault": "not graded, because of a fault of the grader",
@@ -124,7 +123,7 @@ def test_only_right_pictures_are_ranked(
 
 
 def test_every_form_of_a_class_gives_the_same(tmp_path: Path, project: Project, steps: list[Step]) -> None:
-    results: dict[str, Document | str] = {
+    results: dict[str, Results | str] = {
         "ann": _graded(steps, "ann", 700),
         "bob": _graded(steps, "bob", 600),
         "cid": "oops",
@@ -142,7 +141,7 @@ def test_results_in_any_order_give_the_same(tmp_path: Path, project: Project, st
     for name, tests in (("ann", 700), ("bob", 600), ("cid", 700)):
         paths.append(tmp_path / name / "results.json")
         paths[-1].parent.mkdir()
-        paths[-1].write_text(json.dumps(_graded(steps, name, tests)))
+        paths[-1].write_text(as_text(_graded(steps, name, tests)))
     expected = _ranking(project, tmp_path, *paths, "--step", "6")
     assert [_places(board) for board in expected["steps"]] == [[(1, "bob"), (2, "ann"), (2, "cid")]]
     for seed in range(3):
@@ -154,13 +153,13 @@ def test_results_in_any_order_give_the_same(tmp_path: Path, project: Project, st
 
 def test_names_that_occur_twice_are_told_apart(tmp_path: Path, project: Project, steps: list[Step]) -> None:
     for name, tests in (("a.json", 700), ("b.json", 600)):
-        (tmp_path / name).write_text(json.dumps(_graded(steps, "steps", tests)))
+        (tmp_path / name).write_text(as_text(_graded(steps, "steps", tests)))
     board = _ranking(project, tmp_path, tmp_path / "a.json", tmp_path / "b.json")["steps"][0]
     assert [name for _, name in _places(board)] == [f"steps ({tmp_path / name})" for name in ("b.json", "a.json")]
 
 
 def test_anonymous(tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]) -> None:
-    results: dict[str, Document | str] = {
+    results: dict[str, Results | str] = {
         "ann": _graded(steps, "ann", 700),
         "bob": _graded(steps, "bob", 600),
         "cid": "oops",
@@ -193,7 +192,7 @@ def test_a_narrow_terminal_has_room_for_what_decides(
 def test_kits_that_differ_are_named(
     tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    results = {"ann": _graded(steps, "ann"), "bob": {**_graded(steps, "bob"), "kit": "other"}}
+    results = {"ann": _graded(steps, "ann"), "bob": replace(_graded(steps, "bob"), kit="other")}
     assert _ranking(project, tmp_path, _class(tmp_path / "class", results))["steps"][0]["kits"] == ["abc123", "other"]
     assert "Graded by 2 kits (abc123, other)" in capsys.readouterr().out
 
@@ -201,9 +200,9 @@ def test_kits_that_differ_are_named(
 def test_the_example_in_the_documents_is_one(project: Project) -> None:
     text = (project.root / "docs" / "formats.md").read_text(encoding="utf-8")
     example = json.loads(text.split("## Leaderboard")[1].split("```json")[1].split("```")[0])
-    assert not complaint(example, read_schema("raysteps.classroom", "leaderboard.schema.json"))
-    named = {**example, "anonymous": True}
-    assert complaint(named, read_schema("raysteps.classroom", "leaderboard.schema.json"))
+    assert convert(example, Leaderboard).steps[0].ranked[0].name == "ann"
+    with pytest.raises(Malformed, match="names where they are hidden"):
+        convert({**example, "anonymous": True}, Leaderboard)
 
 
 def test_usage(tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,10 +6,10 @@ from typing import Any
 
 import class_fakes
 import pytest
+from class_documents import without_times
 from class_fakes import grade_class, write_entry
 
 from raysteps.classroom.entries import Shard
-from raysteps.classroom.session import without_times
 from raysteps.common.errors import UsageError
 
 

@@ -2,15 +2,13 @@
 
 import threading
 import time
-from typing import Any
 
 import pytest
 
 from raysteps.classroom import cluster as cluster_task
-from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.jobs import Answer, Job, to_line
+from raysteps.results.settings import Settings
 from raysteps.submission.load import Submission
-
-_SETTINGS = {"seed": 1, "only": [], "feedback": "full", "limits": {}}
 
 
 class _Slot:
@@ -44,8 +42,8 @@ def _slots(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster_task, "_busy", {})
 
 
-def _job(run: str) -> dict[str, Any]:
-    return Job(Submission("a", {}, {}, {}), _SETTINGS, "a:b", "kit", False, run).to_json()
+def _job(run: str) -> bytes:
+    return to_line(Job(Submission("a", {}, {}, {}), Settings(), "a:b", "kit", False, run))
 
 
 def test_a_slot_that_was_stopped_is_not_used_again() -> None:

@@ -47,9 +47,9 @@ def test_it_lies_in_the_kit_or_where_the_environment_says(tmp_path: Path, place:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("sed = 5", "'sed' was unexpected"),
-        ("seed = -1", "minimum"),
-        ('seed = "5"', "not of type 'integer'"),
+        ("sed = 5", "unknown key 'sed'; known are seed, late_policy"),
+        ("seed = -1", "$.seed: expected int >= 0"),
+        ('seed = "5"', "$.seed: expected int | null, got str"),
         ("seed = ", "cannot be read as TOML"),
     ],
 )

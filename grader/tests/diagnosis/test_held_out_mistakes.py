@@ -11,9 +11,9 @@ from conftest import MakeSubmission, Sources
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
 from raysteps.exports.items import step_text
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import Results
+from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -68,7 +68,7 @@ def test_two_steps_have_a_mistake_each(kit: BuiltKit, tmp_path: Path, make_submi
     first, second = (step.diagnoses[0] for step in results.steps)
     assert (first.id, second.id) == ("far-end-of-sphere", "no-threshold")
     assert first.seen_in[0] == "Sphere::intersect"
-    said = step_text(results.to_json()["steps"][0])
+    said = step_text(results.steps[0])
     assert f"This is what you get when {first.title}." in said
     assert f"Hint: {first.hint}" in said
 

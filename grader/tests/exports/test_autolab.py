@@ -21,8 +21,8 @@ def test_the_last_line_holds_the_scores(steps: list[Step]) -> None:
     text = as_lines(lines)
     assert text.count("\n") == 2
     feedback, scores = (json.loads(line) for line in text.splitlines())
-    assert scores["scores"] == {result["id"]: result["points"] for result in made["steps"]}
-    assert scores["scoreboard"] == [made["total"]["points"], 2.5]
+    assert scores["scores"] == {result.id: result.points for result in made.steps}
+    assert scores["scoreboard"] == [made.total.points, 2.5]
     assert feedback["stages"] == [step.id for step in steps]
     assert set(feedback) == {"_presentation", "stages", *feedback["stages"]}
     stage = feedback["02-intersection"]
@@ -34,14 +34,14 @@ def test_the_last_line_holds_the_scores(steps: list[Step]) -> None:
 
 def test_without_an_octree_a_ray_tests_everything(steps: list[Step]) -> None:
     made = full(steps)
-    made["steps"][5]["images"][0]["passed"] = False
+    made.steps[5].images[0].passed = False
     assert to_autolab(made, by_id(steps))[1]["scoreboard"] == [120.0, 100.0]
 
 
 def test_checks_of_one_name_are_all_shown(steps: list[Step]) -> None:
     made = full(steps)
-    for test in made["steps"][0]["tests"]:
-        test["name"] = "same"
+    for test in made.steps[0].tests:
+        test.name = "same"
     assert len(to_autolab(made, by_id(steps))[0]["01-camera-rays"]) == 7 + 2 + 3 + 1
 
 

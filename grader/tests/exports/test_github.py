@@ -39,7 +39,7 @@ def test_classroom50(steps: list[Step]) -> None:
     assert result["datetime"] == "2026-10-01T14:00:00Z"
     assert result["review"] == ENVIRONMENT["COMMIT_URL"]
     assert (result["owner"], result["assignment_type"]) == ("ann", "individual")
-    assert result["score"] == sum(test["score"] for test in result["tests"]) == round(made["total"]["points"])
+    assert result["score"] == sum(test["score"] for test in result["tests"]) == round(made.total.points)
     assert result["max-score"] == sum(test["max-score"] for test in result["tests"]) == 120
     assert [test["passed"] for test in result["tests"]] == [True, *[False] * 4, True, *[False] * 3]
 
@@ -48,11 +48,11 @@ def test_classroom50(steps: list[Step]) -> None:
 def test_whole_points(steps: list[Step], share: float) -> None:
     made = document([step_result(step, share=share) for step in steps])
     pairs = whole_points(made)
-    assert sum(points for points, _ in pairs) == int(made["total"]["points"] + 0.5)
+    assert sum(points for points, _ in pairs) == int(made.total.points + 0.5)
     assert [most for _, most in pairs] == [10, 20, 15, 10, 15, 20, 10, 10, 10]
-    for (points, most), result in zip(pairs, made["steps"], strict=True):
+    for (points, most), result in zip(pairs, made.steps, strict=True):
         assert 0 <= points <= most
-        assert abs(points - result["points"]) < 1
+        assert abs(points - result.points) < 1
 
 
 def test_what_the_runner_did_not_set_is_named(steps: list[Step]) -> None:
@@ -85,7 +85,7 @@ def test_legacy_output(steps: list[Step], tmp_path: Path, monkeypatch: pytest.Mo
 
 def test_legacy_status(steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = full(steps)
-    made["steps"][7] |= {"status": "not-started", "points": 0.0}
+    made.steps[7].status, made.steps[7].points = "not-started", 0.0
     assert to_legacy(made, by_id(steps))["status"] == "pass", "a bonus need not be started"
     assert output_line({"version": 1}).count("\n") == 1
     monkeypatch.delenv("GITHUB_OUTPUT", raising=False)

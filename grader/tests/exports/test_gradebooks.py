@@ -3,18 +3,18 @@
 import argparse
 import csv
 import io
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from export_documents import HOSTILE, mixed
 from rich.console import Console
 
 from raysteps.cli.export import add_arguments, run
+from raysteps.common.documents import as_text
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.results.model import Results, StepResult
 
 CANVAS = (
     "Student,ID,SIS User ID,SIS Login ID,Section,Essay (11),Raysteps (12),Final Score\r\n"
@@ -149,8 +149,8 @@ def test_moodle_changes_grades_and_feedback_only(
     folder = case.graded / "submissions" / "one"
     folder.mkdir(parents=True)
     document = mixed(steps, HOSTILE)
-    document["total"]["points"] = 87.5
-    (folder / "results.json").write_text(json.dumps(document))
+    document.total.points = 87.5
+    (folder / "results.json").write_text(as_text(document))
     case.results("one,S1,Ann,,87.5,100,70,\ntwo,,,jose@uni.edu,110,100,,\nthree,103,,,10,100,,\n")
     filled = case.run("moodle", MOODLE)
     before, after = (list(csv.reader(io.StringIO(text, newline=""))) for text in (MOODLE, filled))
@@ -216,7 +216,7 @@ def test_odd_points_are_refused(case: Case, points: str) -> None:
 
 
 def test_a_submission_cannot_point_out_of_the_folder(case: Case, steps: list[Step], tmp_path: Path) -> None:
-    (tmp_path / "results.json").write_text(json.dumps(mixed(steps)))
+    (tmp_path / "results.json").write_text(as_text(mixed(steps)))
     case.results("../..,101,,,5,100,,\n")
     filled = case.run("moodle", MOODLE)
     assert list(csv.reader(io.StringIO(filled)))[1][10] == ""
@@ -277,8 +277,8 @@ def test_results_of_two_runs_are_not_mixed(case: Case, steps: list[Step], system
     folder = case.graded / "submissions" / "x"
     folder.mkdir(parents=True)
     document = mixed(steps)
-    (folder / "results.json").write_text(json.dumps(document))
-    points = document["total"]["points"]
+    (folder / "results.json").write_text(as_text(document))
+    points = document.total.points
     words = ["--assignment", "12"] if system == "canvas" else []
     for wrong in (points + 0.01, ""):
         case.results(f"x,101,,,{wrong},100,,\n")
@@ -298,42 +298,42 @@ def test_entities_begin_no_formula(case: Case, steps: list[Step]) -> None:
     folder = case.graded / "submissions" / "x"
     folder.mkdir(parents=True)
     document = mixed(steps, "0 < -1 and 'a'=+@b")
-    (folder / "results.json").write_text(json.dumps(document))
-    case.results(f"x,101,,,{document['total']['points']},100,,\n")
+    (folder / "results.json").write_text(as_text(document))
+    case.results(f"x,101,,,{document.total.points},100,,\n")
     cell = list(csv.reader(io.StringIO(case.run("moodle", MOODLE))))[1][10]
     assert "0 &lt; &#45;1 and &#x27;a&#x27;&#61;&#43;&#64;b" in cell
 
 
-def _comment(case: Case, document: dict[str, Any]) -> str:
+def _comment(case: Case, document: Results) -> str:
     folder = case.graded / "submissions" / "x"
     folder.mkdir(parents=True)
-    (folder / "results.json").write_text(json.dumps(document))
-    case.results(f"x,101,,,{document['total']['points']},100,,\n")
+    (folder / "results.json").write_text(as_text(document))
+    case.results(f"x,101,,,{document.total.points},100,,\n")
     return list(csv.reader(io.StringIO(case.run("moodle", MOODLE))))[1][10]
 
 
 def test_how_to_repeat_a_test_is_not_why_it_failed(case: Case, steps: list[Step]) -> None:
     document = mixed(steps)
     repeat = "to repeat these random inputs, set RAYSTEPS_SEED=2026"
-    failed = [test for step in document["steps"] for test in step["tests"] if not test["passed"]]
+    failed = [test for step in document.steps for test in step.tests if not test.passed]
     assert len(failed) > 1
-    failed[0]["message"] = f"{repeat}\nthe ray comes from inside"
+    failed[0].message = f"{repeat}\nthe ray comes from inside"
     for test in failed[1:]:
-        test["message"] = repeat
+        test.message = repeat
     cell = _comment(case, document)
     assert "RAYSTEPS_SEED" not in cell
-    assert f"  - test {failed[0]['name']}: the ray comes from inside<br>" in cell
-    assert f"  - test {failed[1]['name']}: expected: a == b, actual: 1 == 2<br>".replace("=", "&#61;") in cell.replace(
+    assert f"  - test {failed[0].name}: the ray comes from inside<br>" in cell
+    assert f"  - test {failed[1].name}: expected: a == b, actual: 1 == 2<br>".replace("=", "&#61;") in cell.replace(
         "=", "&#61;"
     )
 
 
 def test_one_reason_for_all_steps_is_said_once(case: Case, steps: list[Step]) -> None:
     document = mixed(steps)
-    for step in document["steps"]:
-        step.update(status="not-started", points=0.0, build_log="", tests=[], images=[], hidden=[])
-        step["messages"] = ["Nothing was taken from this submission: is no zip"]
-    document["total"]["points"] = 0.0
+    for at, step in enumerate(document.steps):
+        said = ["Nothing was taken from this submission: is no zip"]
+        document.steps[at] = StepResult(step.id, "not-started", 0.0, step.max, step.bonus, messages=said)
+    document.total.points = 0.0
     cell = _comment(case, document)
     assert cell.count("is no zip") == 1
     assert cell.count("not-started") == len(steps)

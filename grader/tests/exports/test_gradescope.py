@@ -12,10 +12,10 @@ from raysteps.course.manifest import Step
 from raysteps.exports.formats import validate, write
 from raysteps.exports.gradescope import VISIBILITIES, not_graded, submitters, to_gradescope
 from raysteps.exports.hosted import by_id
-from raysteps.results.model import StepResult
+from raysteps.results.model import Results, StepResult
 
 
-def _converted(made: dict[str, Any], steps: list[Step], **options: Any) -> dict[str, Any]:
+def _converted(made: Results, steps: list[Step], **options: Any) -> dict[str, Any]:
     results = to_gradescope(made, by_id(steps), **options)
     validate(results, "gradescope")
     return results
@@ -25,11 +25,11 @@ def _converted(made: dict[str, Any], steps: list[Step], **options: Any) -> dict[
 def test_scores_sum_to_the_points(steps: list[Step], hidden: Any) -> None:
     made = mixed(steps)
     tests = _converted(made, steps, hidden=hidden)["tests"]
-    for result in made["steps"]:
-        mine = [test for test in tests if test["number"].startswith(f"{int(result['id'][:2])}.")]
-        assert round(sum(test["score"] for test in mine), 9) == result["points"]
-        assert round(sum(test["max_score"] for test in mine), 9) == result["max"]
-    assert round(sum(test["score"] for test in tests), 9) == made["total"]["points"]
+    for result in made.steps:
+        mine = [test for test in tests if test["number"].startswith(f"{int(result.id[:2])}.")]
+        assert round(sum(test["score"] for test in mine), 9) == result.points
+        assert round(sum(test["max_score"] for test in mine), 9) == result.max
+    assert round(sum(test["score"] for test in tests), 9) == made.total.points
 
 
 def test_numbers_and_names(steps: list[Step]) -> None:
@@ -64,7 +64,7 @@ def test_hidden_entries_tell_all_and_the_rest_tells_no_points(steps: list[Step],
     assert any("input: secret input\nexpected: secret answer\nactual: its answer" in test["output"] for test in entries)
     shown = json.dumps([results["output"], [test for test in results["tests"] if test["visibility"] == "visible"]])
     assert "secret" not in shown
-    assert str(made["total"]["points"]) not in results["output"]
+    assert str(made.total.points) not in results["output"]
     assert "partial" not in results["output"]
 
 
@@ -89,8 +89,8 @@ def test_leaderboard(steps: list[Step]) -> None:
 
 def test_a_leaderboard_needs_counters(steps: list[Step]) -> None:
     older = document([step_result(steps[5])])
-    for image in older["steps"][0]["images"]:
-        del image["work"], image["reference_work"]
+    for image in older.steps[0].images:
+        image.work = image.reference_work = None
     assert "leaderboard" not in _converted(older, steps)
 
 

@@ -6,6 +6,7 @@ import pytest
 from export_documents import HOSTILE, document, full, step_result
 
 from raysteps.course.manifest import Step
+from raysteps.results.model import PointSum, Total
 
 pytestmark = pytest.mark.portable
 
@@ -14,5 +15,5 @@ pytestmark = pytest.mark.portable
 def test_the_grader_would_accept_them(steps: list[Step], seed: int) -> None:
     share = random.Random(seed).random()
     made = document([step_result(step, share=share, text=HOSTILE) for step in steps])
-    assert 0 < made["total"]["points"] < made["total"]["max"]
-    assert full(steps)["total"] == {"points": 120.0, "max": 100.0, "bonus": {"points": 20.0, "max": 20.0}}
+    assert 0 < made.total.points < made.total.max
+    assert full(steps).total == Total(120.0, 100.0, PointSum(20.0, 20.0))

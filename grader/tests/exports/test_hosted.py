@@ -14,6 +14,7 @@ from conftest import MakeSubmission, Sources
 from export_documents import HOSTILE, mixed
 from test_github import ENVIRONMENT
 
+from raysteps.common.documents import as_text
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -22,6 +23,7 @@ from raysteps.exports import hosted as running
 from raysteps.exports.autograders import classroom50_autograder
 from raysteps.exports.formats import validate
 from raysteps.exports.hosted import Options
+from raysteps.results.model import Results
 
 _OPTIONS = Options(60.0, words=("--seed", "7"))
 
@@ -29,8 +31,8 @@ _OPTIONS = Options(60.0, words=("--seed", "7"))
 class Grade:
     """Stands in for the process that runs `grade`."""
 
-    def __init__(self, document: dict[str, Any]) -> None:
-        self.document: Any = document
+    def __init__(self, document: Results | None) -> None:
+        self.document = document
         self.code = 1
         self.timed_out = False
         self.stderr = "raysteps: checking 01\n"
@@ -41,7 +43,7 @@ class Grade:
         self.cwd = cwd
         if self.document is not None:
             out = Path(self.words[self.words.index("--out") + 1])
-            (out / "results.json").write_text(json.dumps(self.document))
+            (out / "results.json").write_text(as_text(self.document))
         return Outcome(self.code, self.timed_out, "secret table\n", self.stderr, 1.0)
 
 

@@ -1,7 +1,6 @@
 """What is uploaded to other systems: archives, scripts, and which files of the kit are in them."""
 
 import io
-import json
 import os
 import shutil
 import stat
@@ -15,6 +14,7 @@ from export_documents import mixed
 from rich.console import Console
 
 from raysteps.cli.export import add_arguments, run
+from raysteps.common.documents import as_text
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -241,7 +241,7 @@ def test_what_is_graded_already_takes_no_options_of_grading(
 
 def test_feedback_holds_for_what_is_converted(project: Project, steps: list[Step], tmp_path: Path) -> None:
     path, out = tmp_path / "results.json", tmp_path / "out.json"
-    path.write_text(json.dumps(mixed(steps)))
+    path.write_text(as_text(mixed(steps)))
     said = {}
     for feedback in ("full", "diagnosis", "score"):
         words = ("--results", path, "--out", out, "--hidden", "after_published", "--feedback", feedback)

@@ -1,13 +1,13 @@
 """How a step's points are shared out among its checks."""
 
 import random
-from typing import Any
 
 import pytest
 from export_documents import mixed, step_result
 
 from raysteps.course.manifest import Step
 from raysteps.exports.items import apportion, entries_of
+from raysteps.results.model import StepResult
 
 pytestmark = pytest.mark.portable
 
@@ -17,10 +17,10 @@ def _hundredths(value: float) -> int:
     return round(value * 100)
 
 
-def _check(result: dict[str, Any], step: Step | None) -> None:
+def _check(result: StepResult, step: Step | None) -> None:
     entries = entries_of(result, step)
-    assert sum(_hundredths(entry.points) for entry in entries) == _hundredths(result["points"])
-    assert sum(_hundredths(entry.most) for entry in entries) == _hundredths(result["max"])
+    assert sum(_hundredths(entry.points) for entry in entries) == _hundredths(result.points)
+    assert sum(_hundredths(entry.most) for entry in entries) == _hundredths(result.max)
     for entry in entries:
         assert 0 <= entry.points <= entry.most
         if entry.item.share in (0.0, 1.0):
@@ -32,26 +32,23 @@ def test_sums_are_exact(steps: list[Step], seed: int) -> None:
     chance = random.Random(seed)
     step = chance.choice(steps)
     result = step_result(step, share=chance.choice([0.0, 1.0, chance.random()]))
-    document: dict[str, Any] = vars(result) | {
-        "tests": [vars(one) for one in result.tests[: chance.randrange(8)]],
-        "images": [vars(one) for one in result.images[: chance.randrange(4)]],
-        "hidden": [vars(one) | {"groups": []} for one in result.hidden[: chance.randrange(4)]],
-        "cumulative": vars(result.cumulative),
-    }
+    del result.tests[chance.randrange(8) :]
+    del result.images[chance.randrange(4) :]
+    del result.hidden[chance.randrange(4) :]
     # Whatever the grader says counts, also where the checks that are shown do not account for it.
-    document["points"] = chance.choice([result.points, 0.0, step.points, round(chance.random() * step.points, 2)])
-    _check(document, chance.choice([step, step, None]))
+    result.points = chance.choice([result.points, 0.0, step.points, round(chance.random() * step.points, 2)])
+    _check(result, chance.choice([step, step, None]))
 
 
 def test_the_usual_case_needs_no_entry_for_a_rest(steps: list[Step]) -> None:
-    for result, step in zip(mixed(steps)["steps"], steps, strict=True):
+    for result, step in zip(mixed(steps).steps, steps, strict=True):
         kinds = [entry.item.kind for entry in entries_of(result, step)]
         expected = ["test"] * 7 + ["picture"] * len(step.images) + ["hidden"] * 3 + ["together"]
-        assert kinds == (expected if result["tests"] else ["step"])
+        assert kinds == (expected if result.tests else ["step"])
 
 
 def test_points_are_near_their_weights(steps: list[Step]) -> None:
-    result = mixed(steps)["steps"][1]
+    result = mixed(steps).steps[1]
     entries = entries_of(result, steps[1])
     for entry in entries:
         share = entry.item.weight * steps[1].points
@@ -59,8 +56,8 @@ def test_points_are_near_their_weights(steps: list[Step]) -> None:
 
 
 def test_points_that_no_check_explains_are_named(steps: list[Step]) -> None:
-    result = mixed(steps)["steps"][0]
-    result |= {"points": 6.0, "inconsistent": ["The tests passed, but the judge saw wrong answers."]}
+    result = mixed(steps).steps[0]
+    result.points, result.inconsistent = 6.0, ["The tests passed, but the judge saw wrong answers."]
     rest = entries_of(result, steps[0])[-1]
     assert (rest.item.kind, rest.points, rest.most) == ("step", 0.0, 4.0)
     assert "the judge saw wrong answers" in rest.item.text

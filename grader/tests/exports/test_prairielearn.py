@@ -17,17 +17,18 @@ from raysteps.course.manifest import Step
 from raysteps.exports.formats import validate
 from raysteps.exports.hosted import by_id
 from raysteps.exports.prairielearn import MAX_BYTES, not_gradable, score, to_prairielearn
+from raysteps.results.model import PointSum, Results, Total
 
 pytestmark = pytest.mark.portable
 
 
-def _with_pictures(made: dict[str, Any], folder: Path, size: tuple[int, int], *, noisy: bool) -> None:
+def _with_pictures(made: Results, folder: Path, size: tuple[int, int], *, noisy: bool) -> None:
     chance = np.random.default_rng(3)
-    for result in made["steps"]:
-        for image in result["images"]:
+    for result in made.steps:
+        for image in result.images:
             for kind in ("mine", "reference", "difference"):
-                image[kind] = f"pictures/{result['id']}/{image['name']}-{kind}.png"
-                path = folder / image[kind]
+                setattr(image, kind, f"pictures/{result.id}/{image.name}-{kind}.png")
+                path = folder / getattr(image, kind)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 shape = (size[1], size[0], 3)
                 pixels = chance.integers(0, 255, shape) if noisy else np.full(shape, 120)
@@ -43,8 +44,8 @@ def test_score_and_points(steps: list[Step], tmp_path: Path) -> None:
     made = mixed(steps)
     results = to_prairielearn(made, by_id(steps), tmp_path)
     validate(results, "prairielearn")
-    assert results["score"] == round(made["total"]["points"] / 100, 6)
-    assert round(sum(test["points"] for test in results["tests"]), 9) == made["total"]["points"]
+    assert results["score"] == round(made.total.points / 100, 6)
+    assert round(sum(test["points"] for test in results["tests"]), 9) == made.total.points
     assert "secret" not in str(results)
 
 
@@ -52,8 +53,7 @@ def test_the_bonus_is_clipped_and_said(steps: list[Step], tmp_path: Path) -> Non
     results = to_prairielearn(full(steps), by_id(steps), tmp_path)
     assert results["score"] == 1.0
     assert results["message"].startswith("The bonus leads above 100 %")
-    only = {"points": 5.0, "max": 0.0, "bonus": {"points": 5.0, "max": 10.0}}
-    assert score({"total": only}) == (0.5, "")
+    assert score(Total(5.0, 0.0, PointSum(5.0, 10.0))) == (0.5, "")
 
 
 def test_small_pictures_come_along_whole(steps: list[Step], tmp_path: Path) -> None:
@@ -62,7 +62,7 @@ def test_small_pictures_come_along_whole(steps: list[Step], tmp_path: Path) -> N
     results = to_prairielearn(made, by_id(steps), tmp_path)
     validate(results, "prairielearn")
     pictures = _pictures(results)
-    assert len(pictures) == 3 * sum(len(result["images"]) for result in made["steps"])
+    assert len(pictures) == 3 * sum(len(result.images) for result in made.steps)
     assert {picture.size for picture in pictures} == {(160, 120)}
 
 
@@ -90,8 +90,8 @@ def test_what_does_not_fit_is_left_out_those_that_passed_first(steps: list[Step]
 
 def test_long_texts_are_cut_before_the_limit_breaks(steps: list[Step], tmp_path: Path) -> None:
     made = mixed(steps, "x" * 50_000)
-    for result in made["steps"]:
-        result["tests"] = [dict(test) for test in result["tests"] for _ in range(40)]
+    for result in made.steps:
+        result.tests *= 40
     results = to_prairielearn(made, by_id(steps), tmp_path)
     assert len(encoded(results)) <= MAX_BYTES
 
@@ -103,7 +103,7 @@ def test_odd_pictures_are_ignored(steps: list[Step], tmp_path: Path, place: str)
     folder.mkdir()
     (folder / "text.png").write_text("not a picture")
     made = mixed(steps)
-    made["steps"][1]["images"][0]["mine"] = place
+    made.steps[1].images[0].mine = place
     assert _pictures(to_prairielearn(made, by_id(steps), folder)) == []
 
 

@@ -12,7 +12,7 @@ from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
 from raysteps.gallery.scenes import GalleryScene
 from raysteps.gallery.shots import Shot, WorkMap
 from raysteps.images.compare import Pixels
-from raysteps.results.work_ratio import Work
+from raysteps.results.model import Work
 
 _SCRIPT = "<script>alert(1)</script>"
 _SAME = {8: 7, 5: 4}  # steps that change nothing, counted from 0

@@ -7,22 +7,22 @@ from conftest import MakeSubmission, Sources
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import Results
+from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
 def _grade(kit: BuiltKit, path: Path, out: Path, *only: str) -> Results:
-    results = grade_submission(kit, load_submission(path, kit.steps), Settings(only=only, jobs=2), find_sandbox(), out)
+    results = grade_submission(kit, load_submission(path, kit.steps), Settings(only=only), find_sandbox(), out, jobs=2)
     assert (out / "results.json").is_file()
     return results
 
 
 def _points(results: Results) -> float:
-    return float(results.to_json()["total"]["points"])
+    return float(results.total.points)
 
 
 def _status(results: Results) -> dict[str, str]:

@@ -22,6 +22,7 @@ from hostile.running import Graded, Range
 from hostile.traces import Traces
 from PIL import Image
 
+from raysteps.common.documents import as_text
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.sandbox import users
@@ -224,7 +225,7 @@ def _check_attack(attack: Attack, seen: Graded, place: Range) -> None:
     _check_words(seen.out)
     for results in seen.results:
         result = next(step for step in results.steps if step.id == attack.step)
-        report = json.dumps(results.to_json(), indent=1)
+        report = as_text(results)
         assert attack.least <= result.points <= attack.most, report
         assert result.status in (attack.status or _USUAL), report
         assert attack.note in " ".join(result.messages), report

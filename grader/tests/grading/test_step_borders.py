@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from conftest import MakeSubmission, Sources
 
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
+from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -3,7 +3,8 @@
 import random
 from typing import Any
 
-from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.documents import convert
+from raysteps.results.class_model import ClassResults
 
 Document = dict[str, Any]
 
@@ -78,7 +79,7 @@ def missing(name: str, status: str, **more: Any) -> Document:
     return submission(name, status=status, **{**nothing, "seconds": None, **more})
 
 
-def document(submissions: list[Document], **more: Any) -> Document:
+def document(submissions: list[Document], **more: Any) -> ClassResults:
     """A class of these, checked as class.json is."""
     mistakes: dict[tuple[str, str], int] = {}
     for one in submissions:
@@ -118,9 +119,7 @@ def document(submissions: list[Document], **more: Any) -> Document:
         },
         **more,
     }
-    problem = complaint(made, read_schema("raysteps.classroom", "class.schema.json"))
-    assert not problem, problem
-    return made
+    return convert(made, ClassResults, complete=True)
 
 
 _TITLES = {
@@ -130,7 +129,7 @@ _TITLES = {
 }
 
 
-def many(amount: int, seed: int = 1) -> Document:
+def many(amount: int, seed: int = 1) -> ClassResults:
     """A class of that size, in which the earlier steps went better than the later ones."""
     luck = random.Random(seed)
     submissions = []
@@ -153,3 +152,10 @@ def many(amount: int, seed: int = 1) -> Document:
         seconds = round(luck.uniform(4, 30), 1)
         submissions.append(submission(name, steps, students=who, mistakes=mistakes, seconds=seconds))
     return document(submissions)
+
+
+def without_times(document: Any) -> Any:
+    """A copy of a results.json without what a clock said: the rest is the same whenever it is graded."""
+    if isinstance(document, dict):
+        return {key: without_times(value) for key, value in document.items() if key not in ("timing", "seconds")}
+    return [without_times(value) for value in document] if isinstance(document, list) else document

@@ -10,9 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
@@ -22,7 +20,8 @@ from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
 from raysteps.results.model import ImageResult, Results, StepResult, Timing
-from raysteps.results.store import write_document
+from raysteps.results.settings import Settings
+from raysteps.results.store import write_results
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
 
@@ -66,7 +65,7 @@ class FakeGrader:
             log(f"program {program.pid}")
             program.wait()
 
-    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: ProgressCallback) -> None:
+    def grade(self, submission: Submission, settings: Settings, out: Path, say: ProgressCallback) -> None:
         source = next(iter(submission.sources.values()), b"").decode()
         log(f"begin {submission.name}")
         log(f"at {os.environ.get('FAKE_WORKER', 'here')}")
@@ -75,7 +74,7 @@ class FakeGrader:
         points = _number("points", source) or 0.0
         steps = []
         for step in read_steps(here()):
-            if settings["only"] and step.id not in settings["only"]:
+            if settings.only and step.id not in settings.only:
                 continue
             started = step.id in submission.sources
             mine = f"pictures/{step.id}/a-mine.png"
@@ -95,10 +94,10 @@ class FakeGrader:
             if step.id in submission.notes:
                 result.messages = [submission.notes[step.id]]
             steps.append(result)
-        results = Results(
-            submission.name, steps, settings["seed"], self.fingerprint, self.isolation, Timing(time.time(), 1.0)
+        results = Results.of(
+            submission.name, steps, settings.seed, self.fingerprint, self.isolation, Timing(time.time(), 1.0)
         )
-        write_document(results.to_json(), out)
+        write_results(results, out)
         log(f"end {submission.name}")
 
 

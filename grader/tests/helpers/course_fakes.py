@@ -43,4 +43,4 @@ def checked(step: Step, status: str, points: float) -> Results:
     """What a check of one step came to."""
     result = StepResult(step.id, "passed", points, step.points, step.bonus)
     result.status = status  # type: ignore[assignment]
-    return Results("ann", [result])
+    return Results.of("ann", [result])

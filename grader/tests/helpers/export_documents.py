@@ -1,7 +1,5 @@
 """Hand-made results for the tests of the exports."""
 
-from typing import Any
-
 from raysteps.course.manifest import Step
 from raysteps.results.model import (
     CaseGroup,
@@ -12,9 +10,9 @@ from raysteps.results.model import (
     StepResult,
     TestResult,
     Timing,
+    Work,
 )
 from raysteps.results.store import validate
-from raysteps.results.work_ratio import Work
 
 HOSTILE = "<script>alert(1)</script>\x1b[31m\x00\u202eevil\n::error::done\nfine ##[error]done"
 
@@ -53,14 +51,14 @@ def step_result(step: Step, *, share: float = 1.0, text: str = "is wrong") -> St
     return result
 
 
-def document(results: list[StepResult], name: str = "ann") -> dict[str, Any]:
-    """A results.json."""
-    made = Results(name, results, seed=7, kit="abc123", timing=Timing(12.4, 20.0)).to_json()
+def document(results: list[StepResult], name: str = "ann") -> Results:
+    """As `grade` makes them."""
+    made = Results.of(name, results, seed=7, kit="abc123", timing=Timing(12.4, 20.0))
     validate(made)
     return made
 
 
-def mixed(steps: list[Step], text: str = "is wrong") -> dict[str, Any]:
+def mixed(steps: list[Step], text: str = "is wrong") -> Results:
     """Some steps right, some in part, one that does not build, and one that was not started."""
     results = [step_result(step, share=1.0 if step.index in (1, 6) else 0.37, text=text) for step in steps]
     results[6] = StepResult(steps[6].id, "does-not-build", 0.0, steps[6].points, False, build_log=text)
@@ -69,5 +67,5 @@ def mixed(steps: list[Step], text: str = "is wrong") -> dict[str, Any]:
     return document(results)
 
 
-def full(steps: list[Step]) -> dict[str, Any]:
+def full(steps: list[Step]) -> Results:
     return document([step_result(step) for step in steps])

@@ -12,10 +12,10 @@ from hostile.build import Attack, Facts, lay_out
 from hostile.planting import Listener, Planted
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.images.render import reference_picture
 from raysteps.results.model import Results
+from raysteps.results.settings import Settings
 from raysteps.sandbox.task import Isolation, Sandbox, Task, TaskResult
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -1,11 +1,10 @@
 """What a student is told of the hidden part."""
 
-from typing import Any
-
 import pytest
 
-from raysteps.grading.options import Feedback, withhold
+from raysteps.grading.withhold import withhold
 from raysteps.results.model import CaseGroup, HiddenResult, Results, StepResult
+from raysteps.results.settings import Feedback
 from raysteps.results.store import validate
 
 pytestmark = pytest.mark.portable
@@ -14,7 +13,7 @@ _SECRETS = ("given-secret", "expected-secret", "actual-secret")
 _DIAGNOSIS = ("message-secret", "group-secret", "name-secret")
 
 
-def _document() -> dict[str, Any]:
+def _document() -> Results:
     wrong = HiddenResult("name-secret", "function", 0.5, weight=3.0, groups=[CaseGroup("group-secret", 10, 5)])
     wrong.message, wrong.given, wrong.expected, wrong.actual = "message-secret", *_SECRETS
     wrong.outcome = "wrong"
@@ -22,7 +21,7 @@ def _document() -> dict[str, Any]:
     picture = HiddenResult("name-secret-twin", "picture", 1.0, weight=2.0, wrong_share=0.001)
     step = StepResult("03-phong-shading", "partial", 7.5, 15, False, hidden=[wrong, right, picture])
     step.messages = ["1 of 12 tests failed.", "1 of 3 hidden items lost points.", "message-secret"]
-    return Results("ada", [step], seed=3).to_json()
+    return Results.of("ada", [step], seed=3)
 
 
 def test_full_is_all() -> None:
@@ -42,10 +41,10 @@ def test_score_keeps_only_shares() -> None:
     validate(document)
     text = str(document)
     assert all(word not in text for word in (*_SECRETS, *_DIAGNOSIS))
-    cases, pictures = document["steps"][0]["hidden"]
-    assert (cases["share"], cases["weight"], cases["outcome"]) == (0.625, 4.0, "wrong")
-    assert (pictures["share"], pictures["weight"], pictures["outcome"]) == (1.0, 2.0, "ok")
-    assert document["steps"][0]["messages"] == ["1 of 12 tests failed."]
+    cases, pictures = document.steps[0].hidden
+    assert (cases.share, cases.weight, cases.outcome) == (0.625, 4.0, "wrong")
+    assert (pictures.share, pictures.weight, pictures.outcome) == (1.0, 2.0, "ok")
+    assert document.steps[0].messages == ["1 of 12 tests failed."]
 
 
 @pytest.mark.parametrize("feedback", ["full", "diagnosis", "score"])
@@ -53,5 +52,5 @@ def test_points_stay_and_the_document_is_not_touched(feedback: Feedback) -> None
     document = _document()
     withheld = withhold(document, feedback)
     assert document == _document()
-    assert withheld["total"] == document["total"]
-    assert withheld["steps"][0]["points"] == 7.5
+    assert withheld.total == document.total
+    assert withheld.steps[0].points == 7.5

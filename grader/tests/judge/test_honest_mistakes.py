@@ -6,9 +6,9 @@ import pytest
 from conftest import MakeSubmission, Sources
 
 from raysteps.course.manifest import Step
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
+from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -1,23 +1,22 @@
 """report.html: what it says, what it keeps to itself, and that it is safe to open."""
 
-import copy
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling
-from page_results import NASTY, document_of, idle_step, passed_step, wrong_step
+from page_results import NASTY, document_of, idle_step, of_older_kit, passed_step, wrong_step
 
 from raysteps.cli import app as cli
-from raysteps.common.files import write_json
 from raysteps.course.manifest import Step
-from raysteps.grading.options import Feedback, withhold
+from raysteps.grading.withhold import withhold
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
-from raysteps.results.store import validate
+from raysteps.results.model import Results
+from raysteps.results.settings import Feedback
+from raysteps.results.store import write_results
 
 
-def _mixed(steps: list[Step], folder: Path, name: str = "ann") -> dict[str, Any]:
+def _mixed(steps: list[Step], folder: Path, name: str = "ann") -> Results:
     """Two steps right, step 03 and the bonus 08 wrong, the others not started."""
     known = {step.number: step for step in steps}
     results = [passed_step(known[number], folder) for number in ("01", "02")]
@@ -69,10 +68,10 @@ def test_it_tells_what_to_do_next_and_how_the_points_come_about(
     strip = page.get_by_role("navigation", name="Steps").get_by_role("link")
     assert strip.count() == len(steps)
     assert "partly right" in strip.nth(2).inner_text()
-    total = document["total"]
-    assert page.get_by_role("img", name=f"{total['points']} of 100 points").count() == 1
+    total = document.total
+    assert page.get_by_role("img", name=f"{total.points} of 100 points").count() == 1
     sums = page.locator(".arithmetic tfoot td").all_inner_texts()
-    assert sum(float(text) for text in sums[:-1]) == pytest.approx(total["points"], abs=0.05)
+    assert sum(float(text) for text in sums[:-1]) == pytest.approx(total.points, abs=0.05)
     assert "× 30 % of 15" in page.locator("#step-03 .parts").inner_text()  # noqa: RUF001
     assert [page.locator(f"#step-0{at}").evaluate("step => step.open") for at in (1, 3, 4)] == [False, True, False]
     strip.nth(3).click()
@@ -131,13 +130,8 @@ def test_it_stays_below_5_mb_and_right_pictures_are_left_out_first(steps: list[S
 
 def test_results_of_an_older_kit_still_make_a_page(steps: list[Step], tmp_path: Path) -> None:
     document = document_of([wrong_step(step, tmp_path) for step in steps])
-    for result in document["steps"]:
-        for image in result["images"]:
-            del image["work"], image["reference_work"]
-        for item in result["hidden"]:
-            for group in item["groups"]:
-                del group["undecided"], group["wasteful"]
-    validate(document)
+    document = of_older_kit(document)
+    assert document.version == ""
     assert "06 Octree" in student_page(document, tmp_path, steps)
     assert "03 phong shading" in student_page(document, tmp_path, [])
 
@@ -145,31 +139,33 @@ def test_results_of_an_older_kit_still_make_a_page(steps: list[Step], tmp_path: 
 def test_only_png_files_of_the_folder_are_shown(steps: list[Step], tmp_path: Path) -> None:
     folder = tmp_path / "results"
     document = document_of([wrong_step(steps[0], folder)])
-    first, second = document["steps"][0]["images"][:2]
+    first, second = document.steps[0].images[:2]
+    assert first.mine is not None
+    assert second.mine is not None
     secret = tmp_path / "secret.png"
-    secret.write_bytes((folder / first["mine"]).read_bytes())
+    secret.write_bytes((folder / first.mine).read_bytes())
     shown = student_page(document, folder, steps).count("data:image/png")
-    first["mine"] = "../secret.png"
-    (folder / second["mine"]).write_text("<svg onload='alert(1)'>", encoding="utf-8")
+    first.mine = "../secret.png"
+    (folder / second.mine).write_text("<svg onload='alert(1)'>", encoding="utf-8")
     assert student_page(document, folder, steps).count("data:image/png") == shown - 4  # two pictures and their maps
 
 
 def test_a_student_kit_without_a_judge_has_no_hidden_part(steps: list[Step], tmp_path: Path) -> None:
     step = steps[2]
-    result = copy.deepcopy(document_of([passed_step(step, tmp_path)])["steps"][0])
+    result = passed_step(step, tmp_path)
     assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "hidden", "together"]
     assert rest_of(result, parts_of(result, step)) == 0
-    result.update(max=9.75, points=9.75, hidden=[])
+    result.max, result.points, result.hidden = 9.75, 9.75, []
     assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "together"]
     assert rest_of(result, parts_of(result, step)) == 0
-    result["points"] = 9.0
+    result.points = 9.0
     assert rest_of(result, parts_of(result, step)) == -0.75
 
 
 def test_the_command_makes_the_page_of_a_folder(
     steps: list[Step], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    write_json(tmp_path / "results.json", _mixed(steps, tmp_path))
+    write_results(_mixed(steps, tmp_path), tmp_path)
     assert cli.main(["report", str(tmp_path)]) == 0
     made = (tmp_path / "report.html").read_text(encoding="utf-8")
     (tmp_path / "report.html").unlink()

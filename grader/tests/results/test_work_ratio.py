@@ -1,19 +1,21 @@
 """What a picture cost, and how it compares with the reference."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from export_documents import document, step_result
+from page_results import of_older_kit
 from rich.console import Console
 
 from raysteps.common.text import mean, size
 from raysteps.course.manifest import Step
 from raysteps.images.render import read_work
 from raysteps.report.terminal import print_details
-from raysteps.results.model import Results
-from raysteps.results.work_ratio import NoWorkRatio, Work, WorkRatio, work_ratio_of
+from raysteps.results.model import Results, StepResult, Work
+from raysteps.results.work_ratio import NoWorkRatio, WorkRatio, work_ratio_of
 
 _STATS: dict[str, Any] = {
     "schema": "raysteps/stats/v1",
@@ -53,13 +55,12 @@ def test_nor_is_what_cannot_be_read(text: bytes) -> None:
     assert read_work(text) is None
 
 
-def _step(step: Step, *works: tuple[int, int]) -> dict[str, Any]:
-    """A step of results.json; of each picture surface and box tests. The reference has 10 tests per ray."""
+def _step(step: Step, *works: tuple[int, int]) -> StepResult:
+    """A step; of each picture surface and box tests. The reference has 10 tests per ray."""
     result = step_result(step)
     for image, (surfaces, boxes) in zip(result.images, works, strict=True):
         image.work = Work(100, surfaces, boxes, 9, 20, 4000)
-    made: dict[str, Any] = document([result])["steps"][0]
-    return made
+    return result
 
 
 def test_surfaces_and_boxes_weigh_alike_and_pictures_are_averaged_as_factors(steps: list[Step]) -> None:
@@ -79,7 +80,7 @@ def test_only_the_pictures_of_the_manifest_count(steps: list[Step]) -> None:
     assert work_ratio.bytes == 8000
 
 
-def _why(result: dict[str, Any], *expected: str) -> str:
+def _why(result: StepResult, *expected: str) -> str:
     work_ratio = work_ratio_of(result, expected)
     assert isinstance(work_ratio, NoWorkRatio)
     return work_ratio.reason
@@ -88,33 +89,31 @@ def _why(result: dict[str, Any], *expected: str) -> str:
 def test_why_there_is_nothing_to_compare(steps: list[Step]) -> None:
     octree = steps[5]
     right = [(300, 700)] * 4
-    half = document([step_result(octree, share=0.5)])["steps"][0]
+    half = step_result(octree, share=0.5)
     assert _why(half) == "pictures inside-octree and tetrahedra-octree are not right"
     assert _why(_step(octree, *right[1:], (0, 5))) == "picture tetrahedra-octree: no test of a surface was counted"
     assert _why(_step(octree, (9, 0), *right[1:])).startswith("picture strands-octree: no test of a box was counted")
     assert _why(_step(octree, *right), "other") == "picture other is not in the results"
-    assert _why({**_step(octree, *right), "status": "not-started"}) == "not started"
-    assert _why({**_step(octree, *right), "inconsistent": ["It says so."]}).startswith("inconsistent")
-    assert _why(document([step_result(steps[0])])["steps"][0]) == "no picture has counters"
+    assert _why(replace(_step(octree, *right), status="not-started")) == "not started"
+    assert _why(replace(_step(octree, *right), inconsistent=["It says so."])).startswith("inconsistent")
+    assert _why(step_result(steps[0])) == "no picture has counters"
 
 
 def test_a_right_picture_that_cost_too_much_is_not_called_wrong(steps: list[Step]) -> None:
     result = _step(steps[5], *[(300, 700)] * 4)
-    result["images"][1].update(passed=False, wrong_share=0.0)
+    result.images[1].passed, result.images[1].wrong_share = False, 0.0
     assert _why(result) == "picture slivers-octree is right, but the work that was counted did not pass"
 
 
 def test_results_of_older_kits_have_no_counters(steps: list[Step]) -> None:
     result = _step(steps[5], *[(300, 700)] * 4)
-    result["images"][2]["work"] = None
-    assert _why(result) == "picture inside-octree has no counters"
-    for image in result["images"]:
-        del image["work"], image["reference_work"]
-    assert _why(result) == "graded by an older kit, which kept no counters; grade it again"
+    result.images[2].work = None
+    assert _why(result) == "picture inside-octree has no counters, as when an older kit graded it; grade it again"
+    assert of_older_kit(document([result])).steps[0].images[0].work is None
 
 
 def test_the_report_says_what_the_pictures_cost(steps: list[Step], capsys: pytest.CaptureFixture[str]) -> None:
-    results = Results("ann", [step_result(steps[0]), step_result(steps[5])])
+    results = Results.of("ann", [step_result(steps[0]), step_result(steps[5])])
     print_details(Console(width=200), results, steps, Path("out"), lambda case: case)
     first, octree = capsys.readouterr().out.split("06-octree")
     assert "per ray" not in first

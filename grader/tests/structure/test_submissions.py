@@ -52,7 +52,7 @@ def test_a_folder_that_cannot_be_written_is_a_usage_error(tmp_path: Path) -> Non
 
 
 def test_the_demo_checks_its_samples(steps: list[Step]) -> None:
-    results = Results("a", [StepResult(step.id, "passed", step.points, step.points, step.bonus) for step in steps])
+    results = Results.of("a", [StepResult(step.id, "passed", step.points, step.points, step.bonus) for step in steps])
     complain_about("complete", results)
     with pytest.raises(GraderFault, match="partial got 120"):
         complain_about("partial", results)

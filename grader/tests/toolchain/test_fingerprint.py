@@ -20,7 +20,7 @@ FILES = {
     "solutions/01-camera-rays/cases.toml": "x = 1",
     "scenes/lessons/a.nff": "b 0 0 0",
     "grader/src/raysteps/cli.py": "pass",
-    "grader/src/raysteps/results/results.schema.json": "{}",
+    "grader/src/raysteps/results/model.py": "pass",
 }
 
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -36,7 +35,7 @@ class LentKeyboard:
 
 def _press(project: Project, step: Step, source: str, out: Path, log: list[str]) -> str:
     """What is printed."""
-    view = StepView(step, "idle", result=asdict(result_of(step, source, out, full=False)), out=out, complete=True)
+    view = StepView(step, "idle", result=result_of(step, source, out, full=False), out=out, complete=True)
     session: Any = SimpleNamespace(
         project=project, view=view, showing=TerminalView(printed()), keyboard=LentKeyboard(log)
     )

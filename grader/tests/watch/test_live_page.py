@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,7 +31,7 @@ class Live:
         self.server = PageServer(self.board, page_of)
 
     def view(self, source: str, *, full: bool = False) -> StepView:
-        result = asdict(result_of(self.step, source, self.out, full=full))
+        result = result_of(self.step, source, self.out, full=full)
         return StepView(self.step, "idle", "", "12:00:00", 0.8, result, self.out, complete=True, full=full)
 
     def show(self, view: StepView) -> None:
@@ -62,7 +62,7 @@ def _failing(live: Live) -> StepView:
     found = Diagnosis(
         "mistake", "left-right", "left and right <i>change places</i>", "It is a mirror image.", "A cross product."
     )
-    view.result["diagnoses"] = [asdict(found)]
+    view.result.diagnoses = [found]
     view.hints = [Hint(1, 3, "across  = 2 (x + 0.5) / width - 1\nupwards = 1")]
     return view
 
@@ -105,15 +105,15 @@ def test_before_there_is_a_picture_the_reference_is_shown(live: Live, pages: Wat
     page = pages.open(live.server.address)
     view = live.view("int right;")
     assert view.result is not None
-    view.result |= {"status": "not-started", "tests": []}
-    mine, view.result["images"][0]["mine"] = view.result["images"][0]["mine"], None
-    view.result["images"][0]["passed"] = False
+    view.result.status, view.result.tests = "not-started", []
+    image = view.result.images[0]
+    mine, image.mine, image.passed = image.mine, None, False
     live.show(view)
     _says(page, "#watch-pictures", "This is what it shall look like.")
     goal, compared = page.locator("img.watch-goal"), page.locator("compare-pictures")
     assert goal.is_visible()
     assert not compared.is_visible()
-    view.result["images"][0] |= {"mine": mine, "passed": True}
+    image.mine, image.passed = mine, True
     live.show(view)
     compared.wait_for()
     assert compared.evaluate("element => element.view") == "slider"

@@ -1,8 +1,9 @@
 """What the page is told, and which command looks into a pixel."""
 
 import json
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ _TALLY = "1 of 2 tests right, 0 of 1 picture right"
 
 
 def _view(step: Step, source: str, out: Path, *, full: bool = False) -> StepView:
-    result = asdict(result_of(step, source, out, full=full))
+    result = result_of(step, source, out, full=full)
     return StepView(step, "idle", result=result, out=out, complete=True, full=full, seconds=0.8, saved="12:00:00")
 
 
@@ -45,7 +46,7 @@ def test_the_line_that_matters(
 
 
 def test_the_state_holds_what_went_wrong(steps: list[Step], tmp_path: Path) -> None:
-    state = state_of(_view(steps[0], "// wrong", tmp_path, full=True))
+    state: Any = state_of(_view(steps[0], "// wrong", tmp_path, full=True))
     assert state["tests"]["passed"] == 1
     assert state["tests"]["failed"][0]["actual"] == "2 == 1"
     assert state["hidden"]["failed"][0]["message"] == "half is wrong"
@@ -60,7 +61,8 @@ def test_pictures_that_are_gone_are_left_out(steps: list[Step], tmp_path: Path) 
     view = _view(steps[0], "// wrong", tmp_path)
     (tmp_path / "mine.png").unlink()
     (tmp_path / "reference.png").write_text("no picture")
-    (picture,) = state_of(view)["pictures"]
+    state: Any = state_of(view)
+    (picture,) = state["pictures"]
     assert (picture["mine"], picture["reference"], picture["flip"]) == (None, None, None)
 
 
@@ -69,7 +71,7 @@ def test_numbers_that_the_page_shows_are_not_said_twice(steps: list[Step], tmp_p
     assert view.result is not None
     left = "RAYSTEPS_TODO is still in: a."
     numbers = ["1 of 2 tests failed.", "1 of 1 picture did not pass.", "3 of 5 hidden items lost points."]
-    view.result["messages"] = [*numbers, left]
+    view.result.messages = [*numbers, left]
     assert state_of(view)["messages"] == [left]
 
 
@@ -107,8 +109,8 @@ def test_the_worst_pixel_is_where_it_was_planted(tmp_path: Path) -> None:
 def test_odd_names_are_quoted_and_what_inspect_does_not_know_is_left_out(steps: list[Step]) -> None:
     case = replace(steps[0].images[0], name="odd", scene="a b.nff", args=("--step", "1", "--threads", "2"))
     odd = replace(steps[0], images=(case,))
-    assert inspect_command({"name": "odd"}, odd) == "./raysteps inspect 'a b.nff' {x} {y} --step 1 --against reference"
-    assert inspect_command({"name": "other"}, odd) is None
+    assert inspect_command("odd", odd) == "./raysteps inspect 'a b.nff' {x} {y} --step 1 --against reference"
+    assert inspect_command("other", odd) is None
 
 
 @pytest.mark.parametrize(

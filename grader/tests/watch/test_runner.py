@@ -62,11 +62,12 @@ def test_a_job_tells_and_ends(runner: Runner, course: Project, events: "Queue[Ev
     run = runner.start("look", steps[0])
     told, ended = _until_ended(events, run)
     assert ended.code == 0
-    assert [event.words["complete"] for event in told if isinstance(event, WorkerMessage)] == [False, True]
+    assert [event.line.complete for event in told if isinstance(event, WorkerMessage)] == [False, True]
     runner.finished()
     told, _ = _until_ended(events, runner.start("check", steps[0]))
     assert isinstance(told[0], WorkerMessage)
-    assert told[0].words["result"]["points"] == 2.5
+    assert told[0].line.result is not None
+    assert told[0].line.result.points == 2.5
 
 
 def test_a_new_job_stops_the_old_one_with_its_programs(

@@ -5,46 +5,38 @@ import sqlite3
 import statistics
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
+from pathlib import Path
 
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
-from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import complaint, read_schema
+from raysteps.common.documents import Malformed, convert, parse, plain
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.results.class_model import (
+    ClassResults,
+    ClassRun,
+    ClassStatistics,
+    EarlierResult,
+    GradedStep,
+    GradedSubmission,
+    MistakeCount,
+    NotedStudent,
+    PointsChange,
+    RunCounts,
+    StepPoints,
+    Student,
+)
+from raysteps.results.model import StepResult
+from raysteps.results.settings import Settings
+from raysteps.results.store import stored_results
 
 # How one submission stands.
 
-Document = dict[str, Any]
 
-
-def _step(step: Document) -> Document:
-    return {"points": step["points"], "max": step["max"], "status": step["status"]}
-
-
-def _mistakes(step: Document) -> list[str]:
+def _mistakes(step: StepResult) -> list[str]:
     """Titles of the known mistakes in a step of a result."""
-    return sorted({found["title"] for found in step.get("diagnoses", ()) if found["kind"] == "mistake"})
-
-
-def _result(row: sqlite3.Row | None) -> Document:
-    """What a submission got."""
-    if row is None:
-        nothing: Document = {"status": "not-graded", "points": None, "max": None, "run": None, "steps": {}}
-        return {**nothing, "inconsistent": {}, "mistakes": {}, "seconds": None}
-    empty: Document = {"total": {"max": None}, "steps": []}
-    document = json.loads(row["document"]) if row["document"] else empty
-    return {
-        "status": row["status"],
-        "points": row["points"],
-        "max": document["total"]["max"],
-        "run": row["run"],
-        "steps": {step["id"]: _step(step) for step in document["steps"]},
-        "inconsistent": {step["id"]: step["inconsistent"] for step in document["steps"] if step["inconsistent"]},
-        "mistakes": {step["id"]: titles for step in document["steps"] if (titles := _mistakes(step))},
-        "seconds": round(row["seconds"], 2),
-    }
+    return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
 
 
 class Standings:
@@ -59,15 +51,15 @@ class Standings:
         self._mistakes: Counter[tuple[str, str]] = Counter()
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
 
-    def _students(self, submission: int) -> list[Document]:
+    def _students(self, submission: int) -> list[Student]:
         rows = self._query(
             "SELECT id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
             "WHERE submission = ? ORDER BY id, name, email",
             (submission,),
         )
-        return [dict(row) for row in rows]
+        return [Student(**row) for row in rows]
 
-    def _before(self, submission: int, run: int | None) -> Document | None:
+    def _before(self, submission: int, run: int | None) -> EarlierResult | None:
         """The result that counted until the last run gave another one."""
         if run not in self._runs:
             return None
@@ -75,12 +67,12 @@ class Standings:
             "SELECT run, status, points FROM results WHERE submission = ? AND run < ? ORDER BY run DESC LIMIT 1",
             (submission, run),
         ).fetchone()
-        return dict(row) if row is not None else None
+        return EarlierResult(**row) if row is not None else None
 
-    def extended(self, row: sqlite3.Row, students: list[Document]) -> list[str]:
+    def extended(self, row: sqlite3.Row, students: list[Student]) -> list[str]:
         """By what names an extension may be given: also that of the submission, unless it is what another one on the
         roster is called."""
-        words = [word for student in students for word in (student["id"], student["email"]) if word]
+        words = [word for student in students for word in (student.id, student.email) if word]
         names = (row["name"], stem(row["entry"]), row["entry"])
         return words + [name for name in names if folded(name) not in self._people]
 
@@ -93,39 +85,47 @@ class Standings:
         query = f"SELECT 1 FROM reused WHERE submission = ? AND run IN ({marks})"  # noqa: S608
         return self._query(query, (row["id"], *mine)).fetchone() is None
 
-    def mistakes(self) -> list[Document]:
+    def mistakes(self) -> list[MistakeCount]:
         """Of all submissions whose standing was asked for; what most of them did comes first."""
         found = sorted(self._mistakes.items(), key=lambda item: (-item[1], item[0]))
-        return [{"step": step, "title": title, "submissions": amount} for (step, title), amount in found]
+        return [MistakeCount(step, title, amount) for (step, title), amount in found]
 
-    def of(self, row: sqlite3.Row) -> Document:
+    def of(self, row: sqlite3.Row) -> GradedSubmission:
         current = self._database.current(row["name"])
+        results = stored_results(current["document"]) if current is not None else None
+        steps = results.steps if results is not None else []
+        mistakes = {step.id: titles for step in steps if (titles := _mistakes(step))}
+        self._mistakes.update((step, title) for step, titles in mistakes.items() for title in titles)
         students = self._students(row["id"])
-        result = _result(current)
-        self._mistakes.update((step, title) for step, titles in result["mistakes"].items() for title in titles)
-        late = None
         ids = self.extended(row, students)
-        if self._policy is not None and result["points"] is not None:
+        run, points = (current["run"], current["points"]) if current is not None else (None, None)
+        late = None
+        if self._policy is not None and points is not None:
             by_file = row["submitted_from"] == "files"
-            late = vars(apply_policy(self._policy, ids, row["submitted_at"], result["points"], by_file=by_file))
-        return {
-            "name": row["name"],
-            "entry": row["entry"],
-            "students": students,
-            **result,
-            "final": late["points"] if late is not None else result["points"],
-            "late": late,
-            "submitted_at": with_zone(self._policy, ids, row["submitted_at"]),
-            "submitted_from": row["submitted_from"],
-            "outdated": self._is_outdated(row, result["run"]),
-            "before": self._before(row["id"], result["run"]),
-            "isolation": json.loads(current["document"])["isolation"]["name"]
-            if current and current["document"]
-            else "",
-            "fault": current["fault"] if current is not None else "",
-            "note": row["note"],
-            "results": f"submissions/{row['name']}/results.json" if current and current["document"] else None,
-        }
+            late = apply_policy(self._policy, ids, row["submitted_at"], points, by_file=by_file)
+        return GradedSubmission(
+            name=row["name"],
+            entry=row["entry"],
+            students=students,
+            status=current["status"] if current is not None else "not-graded",
+            points=points,
+            max=results.total.max if results is not None else None,
+            run=run,
+            steps={step.id: StepPoints(step.points, step.max, step.status) for step in steps},
+            inconsistent={step.id: step.inconsistent for step in steps if step.inconsistent},
+            mistakes=mistakes,
+            seconds=round(current["seconds"], 2) if current is not None else None,
+            final=late.points if late is not None else points,
+            late=late,
+            submitted_at=with_zone(self._policy, ids, row["submitted_at"]),
+            submitted_from=row["submitted_from"],
+            outdated=self._is_outdated(row, run),
+            before=self._before(row["id"], run),
+            isolation=results.isolation.name if results is not None else "",
+            fault=current["fault"] if current is not None else "",
+            note=row["note"],
+            results=f"submissions/{row['name']}/results.json" if current and current["document"] else None,
+        )
 
 
 def _last_runs(runs: Sequence[sqlite3.Row]) -> list[sqlite3.Row]:
@@ -145,15 +145,15 @@ class _Report:
         text = self._last["late_policy"]
         self._policy = parse_late_policy(text, "the late policy of the run") if text else None
 
-    def _run(self, row: sqlite3.Row) -> Document:
-        counts = {"graded": 0, "unreadable": 0, "fault": 0}
+    def _run(self, row: sqlite3.Row) -> ClassRun:
         query = "SELECT status, count(*) AS amount FROM results WHERE run = ? GROUP BY status"
-        counts |= {found["status"]: found["amount"] for found in self._query(query, (row["number"],))}
+        counts = RunCounts(**{found["status"]: found["amount"] for found in self._query(query, (row["number"],))})
         words = ("number", "started_at", "ended_at", "state", "kit", "folder", "shard", "reused")
-        return {**{word: row[word] for word in words}, "settings": json.loads(row["settings"]), "results": counts}
+        settings = convert(json.loads(row["settings"]), Settings)
+        return ClassRun(**{word: row[word] for word in words}, settings=settings, results=counts)
 
-    def _unknown_extensions(self, submissions: list[Document]) -> list[str]:
-        known = {folded(name) for one in submissions for name in (one["name"], one["entry"], stem(one["entry"]))}
+    def _unknown_extensions(self, submissions: list[GradedSubmission]) -> list[str]:
+        known = {folded(name) for one in submissions for name in (one.name, one.entry, stem(one.entry))}
         for row in self._query("SELECT id, email FROM students"):
             known |= {folded(row["id"]), folded(row["email"])}
         extensions = self._policy.extensions if self._policy is not None else {}
@@ -163,7 +163,7 @@ class _Report:
         rows = self._query("SELECT name FROM submissions WHERE scope = ? ORDER BY entry", (scope,))
         return [row["name"] for row in rows]
 
-    def document(self) -> Document:
+    def document(self) -> ClassResults:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
         standings = Standings(self._database, self._policy, _last_runs(self._runs))
         submissions = [standings.of(row) for row in rows]
@@ -176,43 +176,54 @@ class _Report:
             "(SELECT student FROM handed_in GROUP BY student HAVING count(*) > 1) ORDER BY id, name, email"
         )
         students = self._query("SELECT count(*) AS amount FROM students").fetchone()["amount"]
-        finals = [one["final"] for one in submissions if one["status"] == "graded"]
-        return {
-            "schema": "raysteps/class/v1",
-            "run": self._run(self._last),
-            "runs": [self._run(row) for row in self._runs],
-            "steps": json.loads(self._last["steps"]),
-            "late_policy": self._last["late_policy"] or None,
-            "submissions": submissions,
-            "students_without_submission": [dict(row) for row in absent],
-            "students_with_several": [dict(row) for row in several],
-            "submissions_without_student": [one["name"] for one in submissions if students and not one["students"]],
-            "not_graded": [one["name"] for one in submissions if one["status"] == "not-graded"],
-            "faults": [one["name"] for one in submissions if one["status"] == "fault"],
-            "unreadable": [one["name"] for one in submissions if one["status"] == "unreadable"],
-            "inconsistent": [one["name"] for one in submissions if one["inconsistent"]],
-            "changed": [
-                {"name": one["name"], "before": one["before"]["points"], "after": one["points"]}
+        finals = [one.final for one in submissions if one.status == "graded" and one.final is not None]
+        return ClassResults(
+            schema="raysteps/class/v1",
+            run=self._run(self._last),
+            runs=[self._run(row) for row in self._runs],
+            steps=[GradedStep(**step) for step in json.loads(self._last["steps"])],
+            late_policy=self._last["late_policy"] or None,
+            submissions=submissions,
+            students_without_submission=[NotedStudent(**row) for row in absent],
+            students_with_several=[NotedStudent(**row) for row in several],
+            submissions_without_student=[one.name for one in submissions if students and not one.students],
+            not_graded=[one.name for one in submissions if one.status == "not-graded"],
+            faults=[one.name for one in submissions if one.status == "fault"],
+            unreadable=[one.name for one in submissions if one.status == "unreadable"],
+            inconsistent=[one.name for one in submissions if one.inconsistent],
+            changed=[
+                PointsChange(one.name, one.before.points, one.points)
                 for one in submissions
-                if one["before"] is not None and one["before"]["points"] != one["points"]
+                if one.before is not None and one.before.points != one.points
             ],
-            "outdated": [one["name"] for one in submissions if one["outdated"]],
-            "mistakes": standings.mistakes(),
-            "gone": self._names("gone"),
-            "ignored": json.loads(self._last["ignored"]),
-            "unknown_extensions": self._unknown_extensions(submissions),
-            "statistics": {
-                "graded": len(finals),
-                "mean": round(statistics.fmean(finals), 2) if finals else None,
-                "median": round(statistics.median(finals), 2) if finals else None,
-            },
-        }
+            outdated=[one.name for one in submissions if one.outdated],
+            mistakes=standings.mistakes(),
+            gone=self._names("gone"),
+            ignored=json.loads(self._last["ignored"]),
+            unknown_extensions=self._unknown_extensions(submissions),
+            statistics=ClassStatistics(
+                len(finals),
+                round(statistics.fmean(finals), 2) if finals else None,
+                round(statistics.median(finals), 2) if finals else None,
+            ),
+        )
 
 
-def class_document(database: ClassDatabase) -> Document:
-    """Checked against its schema."""
+def class_document(database: ClassDatabase) -> ClassResults:
+    """Checked: what is not of its form is the kit's fault."""
     document = _Report(database).document()
-    problem = complaint(document, read_schema("raysteps.classroom", "class.schema.json"))
-    if problem:
-        raise GraderFault(f"class.json would break its schema: {problem}")
+    try:
+        convert(plain(document), ClassResults)
+    except Malformed as error:
+        raise GraderFault(f"class.json would not be of its form: {error}") from error
     return document
+
+
+def read_class_document(path: Path) -> ClassResults:
+    """The class.json of a graded class."""
+    try:
+        return parse(path.read_bytes(), ClassResults, complete=True)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror}") from error
+    except Malformed as error:
+        raise UsageError(f"{path}: is not a class.json of this kit: {error}") from error

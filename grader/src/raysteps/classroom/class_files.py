@@ -4,29 +4,30 @@ class two tables and a page.
 
 import csv
 import io
-import json
 import sqlite3
 import sys
 from collections.abc import Container, Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
 
-from raysteps.classroom.class_document import Document, class_document
+from raysteps.classroom.class_document import class_document, read_class_document
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.common.csv_safety import escape_formula
+from raysteps.common.documents import as_text, plain
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import number
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import here
-from raysteps.grading.options import withhold
+from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
+from raysteps.results.class_model import ClassResults, GradedSubmission, Student
+from raysteps.results.model import Results
 from raysteps.results.store import FOLDER as CASES
+from raysteps.results.store import stored_results
 
 # CSV that a spreadsheet shows and never runs.
 
@@ -68,10 +69,9 @@ def _forget_files(folder: Path, kept: set[str]) -> None:
                 forget_unfinished(place)
 
 
-def _withheld_cases(document: dict[str, Any] | None, names: Iterable[str]) -> set[str]:
+def _withheld_cases(results: Results | None, names: Iterable[str]) -> set[str]:
     """Cases that were kept, but that the results for students do not name."""
-    steps = document.get("steps", []) if document else []
-    named = {item.get("case", "") for step in steps for item in step["hidden"]}
+    named = {item.case for step in results.steps for item in step.hidden} if results is not None else set()
     return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
 
 
@@ -90,53 +90,57 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     folder = out / SUBMISSIONS / name
     if row is None:
         return
-    document = withhold(json.loads(row["document"]), database.feedback()) if row["document"] else None
+    stored = stored_results(row["document"])
+    if stored is None and row["document"]:
+        _warn(f"{name}: a kit of another form graded it, its files stay as they are; grade it again")
+        return
+    results = withhold(stored, database.feedback()) if stored is not None else None
     files = database.pictures(row["submission"], row["run"])
-    shown = set(files) - _withheld_cases(document, files)
+    shown = set(files) - _withheld_cases(results, files)
     _forget_files(folder, shown)
     forget_unfinished(folder)
     changed = [write_if_changed(folder / path, files[path]) for path in sorted(shown)]
-    if document is not None:
-        text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
-        changed.append(write_if_changed(folder / "results.json", text.encode()))
+    if results is not None:
+        changed.append(write_if_changed(folder / "results.json", as_text(results).encode()))
         if any(changed) or not (folder / REPORT).is_file():
             try_student_page(folder, _steps(), lambda words: _warn(f"{name}: {words}"))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
-        for result in ("results.json", REPORT):
-            (folder / result).unlink(missing_ok=True)
+        for left in ("results.json", REPORT):
+            (folder / left).unlink(missing_ok=True)
 
 
 _HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")
 _TAIL = ("submitted_at", "days_late", "percent_off", "lateness", "inconsistent", "points_before", "fault", "note")
 
 
-def _row(one: dict[str, Any], student: dict[str, str], steps: list[str]) -> list[Cell]:
-    late = one["late"] or {"days": None, "percent": None, "points": None, "words": ""}
+def _row(one: GradedSubmission, student: Student, steps: list[str]) -> list[Cell]:
+    late = one.late
     return [
-        *(one["name"], one["entry"], student["id"], student["name"], student["email"]),
-        *(one["status"], one["points"], one["max"], late["points"]),
-        *(one["steps"][step]["points"] if step in one["steps"] else None for step in steps),
-        *(one["submitted_at"], late["days"], late["percent"], late["words"]),
-        "yes" if one["inconsistent"] else "",
-        one["before"]["points"] if one["before"] is not None else None,
-        *(one["fault"], one["note"]),
+        *(one.name, one.entry, student.id, student.name, student.email),
+        *(one.status, one.points, one.max, late.points if late is not None else None),
+        *(one.steps[step].points if step in one.steps else None for step in steps),
+        one.submitted_at,
+        *((late.days, late.percent, late.words) if late is not None else (None, None, "")),
+        "yes" if one.inconsistent else "",
+        one.before.points if one.before is not None else None,
+        *(one.fault, one.note),
     ]
 
 
-def _rows(document: dict[str, Any]) -> Iterator[list[Cell]]:
+def _rows(document: ClassResults) -> Iterator[list[Cell]]:
     """A row for each student of a submission, one for a submission of nobody, one for a student without one."""
-    steps = [step["id"] for step in document["steps"]]
+    steps = [step.id for step in document.steps]
     yield [*_HEAD, *steps, *_TAIL]
-    nobody = {"id": "", "name": "", "email": ""}
-    for one in document["submissions"]:
-        for student in one["students"] or [nobody]:
+    nobody = Student("", "", "")
+    for one in document.submissions:
+        for student in one.students or [nobody]:
             yield _row(one, student, steps)
-    for student in document["students_without_submission"]:
+    for student in document.students_without_submission:
         blank = [None] * (len(steps) + 3)
-        head = ("", "", student["id"], student["name"], student["email"], "no submission")
-        yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student["note"]]
+        head = ("", "", student.id, student.name, student.email, "no submission")
+        yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student.note]
 
 
 def withdraw_tables(out: Path) -> None:
@@ -145,15 +149,15 @@ def withdraw_tables(out: Path) -> None:
         (out / name).unlink(missing_ok=True)
 
 
-def write_class(database: ClassDatabase, out: Path, document: dict[str, Any], done: Container[str] = ()) -> None:
+def write_class(database: ClassDatabase, out: Path, document: ClassResults, done: Container[str] = ()) -> None:
     """Everything but what is done: also what a run that was killed had no time for."""
-    for one in document["submissions"]:
-        if one["name"] not in done:
-            write_submission(database, out, one["name"])
+    for one in document.submissions:
+        if one.name not in done:
+            write_submission(database, out, one.name)
     forget_unfinished(out)
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))
-    write_json(out / facts, document)
+    write_json(out / facts, plain(document))
     class_report.try_class_report(document, out, _warn)
 
 
@@ -169,7 +173,7 @@ def class_source(place: Path) -> Path | None:
     return next((place / name for name in (DATABASE, _FACTS) if (place / name).is_file()), None)
 
 
-def _from_database(path: Path) -> Document:
+def _from_database(path: Path) -> ClassResults:
     with open_readonly(path) as connection:
         try:
             return class_document(ClassDatabase(path.parent, connection))
@@ -180,20 +184,9 @@ def _from_database(path: Path) -> Document:
             ) from error
 
 
-def _from_facts(path: Path) -> Document:
-    try:
-        document: Document = json.loads(path.read_bytes())
-    except (OSError, ValueError, RecursionError) as error:
-        raise UsageError(f"{path}: cannot be read as JSON: {reason(error)}") from error
-    problem = complaint(document, read_schema("raysteps.classroom", "class.schema.json"))
-    if problem:
-        raise UsageError(f"{path}: is not a class.json of this kit: {problem}")
-    return document
-
-
 def remake_class_page(source: Path) -> Path:
     """class.html beside the source."""
-    document = _from_database(source) if source.suffix == Path(DATABASE).suffix else _from_facts(source)
+    document = _from_database(source) if source.suffix == Path(DATABASE).suffix else read_class_document(source)
     try:
         return write_class_report(document, source.parent)
     except OSError as error:

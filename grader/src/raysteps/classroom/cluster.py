@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.jobs import Answer, Job, ProgressCallback, make_grader
+from raysteps.classroom.jobs import Answer, Job, ProgressCallback, from_line, make_grader, to_line
 from raysteps.classroom.local_pool import Slot
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import count
@@ -25,9 +25,9 @@ def kit_of(grader: str, require_sandbox: bool) -> str:
     return make_grader(grader, require_sandbox=require_sandbox, say=print).fingerprint
 
 
-def run_job(document: dict[str, Any]) -> dict[str, Any]:
-    """Grades a job."""
-    job = Job.from_json(document)
+def run_job(line: bytes) -> bytes:
+    """Grades a job, as it is sent, and answers in the same way."""
+    job = from_line(line, Job)
     with _lock:
         slot = _free.pop() if _free else Slot()
         _busy[slot] = job.run
@@ -35,7 +35,7 @@ def run_job(document: dict[str, Any]) -> dict[str, Any]:
     try:
         answer: Answer = slot.grade(job)
         keep = True
-        return answer.to_json()
+        return to_line(answer)
     finally:
         # In one step: a slot that is free and still counts as busy would be stopped for a run that it has left.
         with _lock:
@@ -148,7 +148,7 @@ class Cluster:
 
     def _submit(self, job: Job, attempt: int) -> None:
         key = f"raysteps-{self._run}-{job.submission.name}-{attempt}"
-        self._jobs[self._client.submit(run_job, job.to_json(), key=key, pure=False)] = (job, attempt)
+        self._jobs[self._client.submit(run_job, to_line(job), key=key, pure=False)] = (job, attempt)
 
     def _fault(self, job: Job, text: str) -> Answer:
         return Answer(job.submission.name, "fault", fault=text, worker=self._address)
@@ -159,7 +159,7 @@ class Cluster:
 
         job, attempt = self._jobs[future]
         try:
-            answer = Answer.from_json(future.result(timeout=_LOOK_SECONDS))
+            answer = from_line(future.result(timeout=_LOOK_SECONDS), Answer)
             if answer.name != job.submission.name:
                 answer = self._fault(job, f"the answer was that for {answer.name}")
         except (TimeoutError, distributed.TimeoutError):

@@ -6,14 +6,15 @@ import os
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
 
 from raysteps.classroom.jobs import Answer
+from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
-from raysteps.grading.options import Feedback
+from raysteps.results.settings import Feedback, Settings
 
 # The tables of class.sqlite, and how the file is opened.
 
@@ -208,7 +209,7 @@ class RunFacts:
     kit: str
     folder: str
     shard: str
-    settings: Mapping[str, Any]
+    settings: Settings
     steps: list[dict[str, Any]]
     late_policy: str
     ignored: list[str]
@@ -248,7 +249,7 @@ class ClassDatabase:
                 "kit": facts.kit,
                 "folder": facts.folder,
                 "shard": facts.shard,
-                "settings": json.dumps(dict(facts.settings), sort_keys=True),
+                "settings": json.dumps(asdict(facts.settings), sort_keys=True),
                 "steps": json.dumps(facts.steps),
                 "late_policy": facts.late_policy,
                 "ignored": json.dumps(facts.ignored),
@@ -313,7 +314,7 @@ class ClassDatabase:
 
     def record(self, run: int, answer: Answer, key: str, *, unreadable: bool = False) -> bool:
         """Keeps an answer; False when the run already has a result of this submission, which then stays."""
-        document = answer.document
+        results = answer.results
         with transaction(self.connection):
             (submission,) = self.connection.execute(
                 "SELECT id FROM submissions WHERE name = ?", (answer.name,)
@@ -322,9 +323,9 @@ class ClassDatabase:
                 "submission": submission,
                 "run": run,
                 "key": key,
-                "status": "unreadable" if unreadable and document is not None else answer.status,
-                "points": None if document is None else document["total"]["points"],
-                "document": "" if document is None else json.dumps(document, ensure_ascii=False),
+                "status": "unreadable" if unreadable and results is not None else answer.status,
+                "points": None if results is None else results.total.points,
+                "document": "" if results is None else json.dumps(plain(results), ensure_ascii=False),
                 "fault": answer.fault,
                 "details": answer.details,
                 "worker": answer.worker,

@@ -1,19 +1,21 @@
 """What goes to a process that grades, and what comes back: plain JSON, so that it may run on any machine."""
 
-import base64
 import importlib
+import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, Protocol, cast
+from typing import Annotated, Literal, Protocol, TypeVar, cast
 
+from msgspec import Meta
+
+from raysteps.common.documents import Amount, Malformed, Text, convert, plain
 from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import complaint, read_schema
+from raysteps.results.model import Results
+from raysteps.results.settings import Settings
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
-
-Document = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -21,80 +23,49 @@ class Job:
     """One submission to grade. `grader` names the function that makes the grader, as `module:function`."""
 
     submission: Submission
-    settings: Mapping[str, Any]
-    grader: str
+    settings: Settings
+    grader: Annotated[str, Meta(pattern=r"^[A-Za-z_][A-Za-z0-9_.]*:[A-Za-z_][A-Za-z0-9_]*$")]
     kit: str  # fingerprint that the grader must have
     require_sandbox: bool = False
     run: str = ""  # uid of the run, by which its jobs can be stopped
 
-    def to_json(self) -> Document:
-        sources = {step: base64.b64encode(data).decode() for step, data in self.submission.sources.items()}
-        return {
-            "schema": "raysteps/class-job/v1",
-            "name": self.submission.name,
-            "sources": sources,
-            "notes": dict(self.submission.notes),
-            "remarks": dict(self.submission.remarks),
-            "settings": dict(self.settings),
-            "grader": self.grader,
-            "kit": self.kit,
-            "require_sandbox": self.require_sandbox,
-            "run": self.run,
-        }
 
-    @staticmethod
-    def from_json(document: Document) -> "Job":
-        _check(document, "job")
-        sources = {step: base64.b64decode(text, validate=True) for step, text in document["sources"].items()}
-        return Job(
-            Submission(document["name"], sources, document["notes"], document["remarks"]),
-            document["settings"],
-            document["grader"],
-            document["kit"],
-            document["require_sandbox"],
-            document["run"],
-        )
+_FILE = r"^(pictures(/[A-Za-z0-9_-][A-Za-z0-9._-]*){1,3}\.png|cases/[a-z0-9-]+\.json)$"
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What became of a job. A fault has no document."""
+    """What became of a job. A fault has no results."""
 
-    name: str
+    name: Text
     status: Literal["graded", "fault"]
-    document: Document | None = None
-    pictures: Mapping[str, bytes] = field(default_factory=dict)  # and cases; by path below the folder of results.json
+    results: Results | None = None
+    # And cases; by path below the folder of results.json.
+    pictures: Mapping[Annotated[str, Meta(pattern=_FILE)], bytes] = field(default_factory=dict)
     fault: str = ""
     details: str = ""
-    seconds: float = 0.0
+    seconds: Amount = 0.0
     worker: str = ""
 
-    def to_json(self) -> Document:
-        pictures = {path: base64.b64encode(data).decode() for path, data in self.pictures.items()}
-        return {
-            "schema": "raysteps/class-answer/v1",
-            "name": self.name,
-            "status": self.status,
-            "document": self.document,
-            "pictures": pictures,
-            "fault": self.fault,
-            "details": self.details,
-            "seconds": self.seconds,
-            "worker": self.worker,
-        }
-
-    @staticmethod
-    def from_json(document: Document) -> "Answer":
-        _check(document, "answer")
-        pictures = {path: base64.b64decode(text, validate=True) for path, text in document["pictures"].items()}
-        words = (document[key] for key in ("fault", "details", "seconds", "worker"))
-        return Answer(document["name"], document["status"], document["document"], pictures, *words)
+    def __post_init__(self) -> None:
+        if (self.results is None) != (self.status == "fault") or bool(self.fault) != (self.status == "fault"):
+            raise ValueError("results without a fault, or a fault without results, expected")
 
 
-def _check(document: Any, kind: str) -> None:
-    problem = complaint(document, read_schema("raysteps.classroom", "messages.schema.json", kind))
-    if problem:
-        raise GraderFault(f"a {kind} breaks its schema: {problem}")
+def to_line(message: Job | Answer) -> bytes:
+    """As it is sent."""
+    return json.dumps(plain(message)).encode() + b"\n"
+
+
+Message = TypeVar("Message", Job, Answer)
+
+
+def from_line(line: bytes, kind: type[Message]) -> Message:
+    """What was sent."""
+    try:
+        return convert(json.loads(line), kind, complete=True)
+    except Malformed as error:
+        raise GraderFault(f"this is no {kind.__name__.lower()}: {error}") from error
 
 
 # What grades one submission; the class does not know how that is done.
@@ -109,7 +80,7 @@ class Grader(Protocol):
     fingerprint: str
     isolation: Isolation
 
-    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: ProgressCallback) -> None:
+    def grade(self, submission: Submission, settings: Settings, out: Path, say: ProgressCallback) -> None:
         """Writes out/results.json and the pictures that it names."""
 
 

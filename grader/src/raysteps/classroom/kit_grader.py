@@ -1,15 +1,13 @@
 """The grader of a class: the kit of this machine, with its strongest sandbox."""
 
 import os
-from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from raysteps.classroom.jobs import ProgressCallback
 from raysteps.course.project import here
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
+from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit
@@ -24,16 +22,10 @@ class KitGrader:
         self.fingerprint = self._kit.fingerprint
         self.isolation = self._sandbox.isolation
 
-    def grade(self, submission: Submission, settings: Mapping[str, Any], out: Path, say: ProgressCallback) -> None:
-        wanted = Settings(
-            seed=settings["seed"],
-            only=tuple(settings["only"]),
-            feedback=settings["feedback"],
-            limits=settings["limits"],
-        )
+    def grade(self, submission: Submission, settings: Settings, out: Path, say: ProgressCallback) -> None:
         with suppress(OSError):
             os.utime(self._kit.folder)  # kits that were not used for long are deleted when another one is built
-        grade_submission(self._kit, submission, wanted, self._sandbox, out, say)
+        grade_submission(self._kit, submission, settings, self._sandbox, out, say)
 
 
 def make(*, require_sandbox: bool, say: ProgressCallback) -> KitGrader:

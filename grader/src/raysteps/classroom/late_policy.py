@@ -16,6 +16,7 @@ from raysteps.classroom.entry_names import folded
 from raysteps.common.errors import UsageError
 from raysteps.common.schemas import read_schema
 from raysteps.common.text import count, number
+from raysteps.results.class_model import Lateness
 
 
 @dataclass(frozen=True)
@@ -115,17 +116,6 @@ def _moment(text: str, where: str) -> datetime:
 
 BY_FILE = "by the time of the file"
 _DAY = timedelta(days=1)
-
-
-@dataclass(frozen=True)
-class Lateness:
-    """`points` is what is left; the points of the results stay as they are."""
-
-    days: int
-    percent: float
-    points: float
-    deadline: str
-    words: str
 
 
 def _span(span: timedelta) -> str:

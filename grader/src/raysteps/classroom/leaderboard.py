@@ -2,24 +2,26 @@
 
 import json
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Literal
 
+from msgspec import Meta
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from raysteps.classroom.class_document import read_class_document
 from raysteps.classroom.database import FILE, LATEST, open_readonly
+from raysteps.common.documents import Amount, Count, Malformed, Text, convert, plain
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import count, printable, size
 from raysteps.course.manifest import Step
-from raysteps.results.store import read_results, validate
+from raysteps.results.model import Results
+from raysteps.results.store import read_results, stored_results
 from raysteps.results.work_ratio import NoWorkRatio, WorkRatio, work_ratio_of
 
-Document = Mapping[str, Any]
 _WANTED = "expected the folder of a graded class, its class.json or class.sqlite, or a results.json"
 _WHY_NOT = {
     "fault": "not graded, because of a fault of the grader",
@@ -33,10 +35,10 @@ _QUERY = (
 
 @dataclass(frozen=True)
 class LeaderboardEntry:
-    """One submission; without a document, why there is none."""
+    """One submission; without results, why there is none."""
 
     name: str
-    document: Document | None
+    results: Results | None
     why: str = ""
     source: str = ""
 
@@ -53,40 +55,34 @@ def _of_database(path: Path) -> list[LeaderboardEntry]:
             if row["status"] != "graded":
                 entered.append(_without(row["name"], row["status"]))
                 continue
-            document = json.loads(row["document"])
-            try:
-                validate(document)
-                entered.append(LeaderboardEntry(row["name"], document))
-            except GraderFault:
-                entered.append(LeaderboardEntry(row["name"], None, "graded by a kit of another form; grade it again"))
+            results = stored_results(row["document"])
+            why = "graded by a kit of another form; grade it again" if results is None else ""
+            entered.append(LeaderboardEntry(row["name"], results, why))
     return entered
 
 
-def _of_class(path: Path, facts: Document) -> list[LeaderboardEntry]:
+def _of_class(path: Path) -> list[LeaderboardEntry]:
     """class.json, and the results.json files that it names."""
-    problem = complaint(facts, read_schema("raysteps.classroom", "class.schema.json"))
-    if problem:
-        raise UsageError(f"{path}: is not a class.json of this kit: {problem}")
     home = path.parent.resolve()
     entered = []
-    for one in facts["submissions"]:
-        if one["status"] != "graded":
-            entered.append(_without(one["name"], one["status"]))
+    for one in read_class_document(path).submissions:
+        if one.status != "graded" or one.results is None:
+            entered.append(_without(one.name, one.status))
             continue
-        place = (home / one["results"]).resolve()
+        place = (home / one.results).resolve()
         if not place.is_relative_to(home):
-            raise UsageError(f"{path}: names {one['results']}, which lies outside of its folder")
-        entered.append(LeaderboardEntry(one["name"], read_results(place)))
+            raise UsageError(f"{path}: names {one.results}, which lies outside of its folder")
+        entered.append(LeaderboardEntry(one.name, read_results(place)))
     return entered
 
 
-def _is_class(path: Path) -> Document | None:
-    """What a file holds, when that is a class.json."""
+def _is_class(path: Path) -> bool:
+    """Whether a file holds a class.json."""
     try:
         facts = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
-        return None  # read_results says what is wrong
-    return facts if isinstance(facts, dict) and facts.get("schema") == "raysteps/class/v1" else None
+        return False  # read_results says what is wrong
+    return isinstance(facts, dict) and facts.get("schema") == "raysteps/class/v1"
 
 
 def _of_place(place: Path) -> list[LeaderboardEntry]:
@@ -100,11 +96,10 @@ def _of_place(place: Path) -> list[LeaderboardEntry]:
         raise UsageError(f"{place}: is not there; {_WANTED}")
     if path.suffix == Path(FILE).suffix:
         return _of_database(path)
-    facts = _is_class(path)
-    if facts is not None:
-        return _of_class(path, facts)
-    document = read_results(path)
-    return [LeaderboardEntry(document["submission"], document, source=str(place))]
+    if _is_class(path):
+        return _of_class(path)
+    results = read_results(path)
+    return [LeaderboardEntry(results.submission, results, source=str(place))]
 
 
 def read_entries(places: Sequence[Path]) -> list[LeaderboardEntry]:
@@ -151,9 +146,9 @@ class Board:
 
 
 def _work_ratio(entered: LeaderboardEntry, step: Step) -> WorkRatio | NoWorkRatio:
-    if entered.document is None:
+    if entered.results is None:
         return NoWorkRatio(entered.why)
-    result = next((result for result in entered.document["steps"] if result["id"] == step.id), None)
+    result = next((result for result in entered.results.steps if result.id == step.id), None)
     return NoWorkRatio("the step was not graded") if result is None else work_ratio_of(result, step.limited_pictures)
 
 
@@ -179,7 +174,7 @@ def rank(entered: Sequence[LeaderboardEntry], step: Step) -> Board:
             others.append(NotRanked(one.name, work_ratio.reason))
             continue
         work_ratios.append((one.name, work_ratio))
-        kits |= {one.document["kit"]} if one.document is not None else set()
+        kits |= {one.results.kit} if one.results is not None else set()
     others.sort(key=lambda other: (other.reason, other.name))
     return Board(step, _in_place(work_ratios), others, sorted(kits))
 
@@ -248,37 +243,83 @@ def print_caption(console: Console) -> None:
     console.print(_COUNTED, style="dim", highlight=False)
 
 
-def _board(board: Board, *, anonymous: bool) -> dict[str, Any]:
-    return {
-        "id": board.step.id,
-        "title": board.step.title,
-        "pictures": list(board.step.limited_pictures),
-        "kits": list(board.kits),
-        "reference_bytes": board.reference_bytes,
-        "ranked": [
-            {
-                "rank": one.rank,
-                "name": None if anonymous else one.name,
-                "work": one.work_ratio.relative,
-                "bytes": one.work_ratio.bytes,
-                "pictures": dict(one.work_ratio.pictures),
-            }
+# The form raysteps/leaderboard/v1; a name is None where they are hidden.
+
+
+@dataclass(frozen=True)
+class RankedEntry:
+    """A submission in its place; `work` is a multiple of the reference's."""
+
+    rank: Annotated[int, Meta(ge=1)]
+    name: Text | None
+    work: Amount
+    bytes: Count
+    pictures: dict[str, Amount]
+
+
+@dataclass(frozen=True)
+class UnrankedEntry:
+    """A submission without a place."""
+
+    name: Text | None
+    reason: Text
+
+
+@dataclass(frozen=True)
+class RankedStep:
+    """One step; the bytes are None where nobody is ranked, or references differ."""
+
+    id: Annotated[str, Meta(pattern="^[0-9]{2}-[a-z0-9-]+$")]
+    title: str
+    pictures: Annotated[Sequence[str], Meta(min_length=1)]
+    kits: Sequence[str]
+    reference_bytes: Count | None
+    ranked: Sequence[RankedEntry]
+    not_ranked: Sequence[UnrankedEntry]
+
+
+@dataclass(frozen=True)
+class Leaderboard:
+    """All steps."""
+
+    schema: Literal["raysteps/leaderboard/v1"]
+    anonymous: bool
+    steps: Sequence[RankedStep]
+
+    def __post_init__(self) -> None:
+        names = [one.name for step in self.steps for one in step.ranked]
+        names += [one.name for step in self.steps for one in step.not_ranked]
+        if self.anonymous and any(name is not None for name in names):
+            raise ValueError("names where they are hidden")
+
+
+def _ranked_step(board: Board, *, anonymous: bool) -> RankedStep:
+    return RankedStep(
+        board.step.id,
+        board.step.title,
+        board.step.limited_pictures,
+        board.kits,
+        board.reference_bytes,
+        [
+            RankedEntry(
+                one.rank,
+                None if anonymous else one.name,
+                one.work_ratio.relative,
+                one.work_ratio.bytes,
+                dict(one.work_ratio.pictures),
+            )
             for one in board.ranked
         ],
-        "not_ranked": [
-            {"name": None if anonymous else other.name, "reason": other.reason} for other in board.not_ranked
-        ],
-    }
+        [UnrankedEntry(None if anonymous else other.name, other.reason) for other in board.not_ranked],
+    )
 
 
-def to_json(boards: Sequence[Board], *, anonymous: bool) -> dict[str, Any]:
-    """Checked against its schema."""
-    document = {
-        "schema": "raysteps/leaderboard/v1",
-        "anonymous": anonymous,
-        "steps": [_board(board, anonymous=anonymous) for board in boards],
-    }
-    problem = complaint(document, read_schema("raysteps.classroom", "leaderboard.schema.json"))
-    if problem:
-        raise GraderFault(f"the leaderboard would break its schema: {problem}")
-    return document
+def leaderboard(boards: Sequence[Board], *, anonymous: bool) -> Leaderboard:
+    """Checked: what is not of its form is the kit's fault."""
+    made = Leaderboard(
+        "raysteps/leaderboard/v1", anonymous, [_ranked_step(board, anonymous=anonymous) for board in boards]
+    )
+    try:
+        return convert(plain(made), Leaderboard)
+    except Malformed as error:
+        raise GraderFault(f"the leaderboard would not be of its form: {error}") from error

@@ -1,6 +1,5 @@
 """Grades on this machine, several submissions at a time."""
 
-import json
 import os
 import queue
 import shutil
@@ -12,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.jobs import Answer, Job, from_line, to_line
 from raysteps.classroom.process_tree import end_tree
 from raysteps.common.errors import GraderFault
 
@@ -64,7 +63,7 @@ class GradingProcess:
         timer.start()
         try:
             with suppress(BrokenPipeError):  # then there is no answer to read, either
-                self._process.stdin.write(json.dumps(job.to_json()).encode() + b"\n")
+                self._process.stdin.write(to_line(job))
                 self._process.stdin.flush()
             line = self._process.stdout.readline()
         finally:
@@ -73,7 +72,7 @@ class GradingProcess:
             if self._overtime:
                 raise Overtime(f"there was no answer after {most_seconds:.0f} s")
             raise WorkerDied(self._why())
-        return Answer.from_json(json.loads(line))
+        return from_line(line, Answer)
 
     def _why(self) -> str:
         code = self._process.wait()

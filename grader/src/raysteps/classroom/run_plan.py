@@ -4,12 +4,11 @@ import json
 import os
 import uuid
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from raysteps.classroom.database import FILE, LOCK, ClassDatabase, Registered, Registration, RunFacts, Scope
 from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
@@ -17,11 +16,12 @@ from raysteps.classroom.entry_names import name_entries
 from raysteps.classroom.jobs import KIT_GRADER
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
+from raysteps.common.documents import Amount
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
-from raysteps.grading.options import Feedback
+from raysteps.results.settings import Feedback, Settings
 
 # What was asked for.
 
@@ -39,7 +39,7 @@ class ClassOptions:
     late_policy: Path | None = None
     seed: int = 1
     feedback: Feedback = "full"
-    limits: Mapping[str, float] = field(default_factory=dict)
+    limits: dict[str, Amount] = field(default_factory=dict)
     require_sandbox: bool = False
     scheduler: str = ""
     shard: Shard = field(default_factory=Shard)
@@ -169,16 +169,16 @@ class Plan:
         return self.given.late_policy
 
     @property
-    def grading(self) -> dict[str, Any]:
+    def grading(self) -> Settings:
         """Beside the kit and the submission, all that a grade depends on. The database keeps everything that is known;
         what a student is not to see is left out when results.json is made from it."""
-        only = [step.id for step in self.chosen] if self.options.only else []
-        return {"seed": self.options.seed, "only": only, "feedback": "full", "limits": self.options.limits}
+        only = tuple(step.id for step in self.chosen) if self.options.only else ()
+        return Settings("full", self.options.limits, only, self.options.seed)
 
     @property
-    def settings(self) -> dict[str, Any]:
+    def settings(self) -> Settings:
         """As the instructor gave them."""
-        return {**self.grading, "feedback": self.options.feedback}
+        return replace(self.grading, feedback=self.options.feedback)
 
     def facts(self, kit: str) -> RunFacts:
         columns = [

@@ -4,11 +4,11 @@ import hashlib
 import json
 import signal
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from types import FrameType
-from typing import Any, Protocol
+from typing import Protocol
 
 from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
@@ -18,27 +18,19 @@ from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import number
-from raysteps.results.store import validate
+from raysteps.results.settings import Settings
+from raysteps.results.store import stored_results
 from raysteps.submission.load import Submission
 
 # When two gradings are the same one.
 
-_TIMES = ("timing", "seconds")
 
-
-def submission_key(submission: Submission, kit: str, settings: Mapping[str, Any]) -> str:
+def submission_key(submission: Submission, kit: str, settings: Settings) -> str:
     """Of everything that a result depends on: what was handed in, the kit, and how it was asked to grade."""
     sources = {step: hashlib.sha256(data).hexdigest() for step, data in submission.sources.items()}
-    parts = [submission.name, sources, submission.notes, submission.remarks, kit, dict(settings)]
+    parts = [submission.name, sources, submission.notes, submission.remarks, kit, asdict(settings)]
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True)
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def without_times(document: Any) -> Any:
-    """A copy of a results.json without what a clock said: the rest is the same whenever it is graded."""
-    if isinstance(document, dict):
-        return {key: without_times(value) for key, value in document.items() if key not in _TIMES}
-    return [without_times(value) for value in document] if isinstance(document, list) else document
 
 
 # What Ctrl-C and SIGTERM do while a class is graded.
@@ -131,22 +123,18 @@ class Session:
         current = self.database.current(name)
         if current is None or current["status"] == "fault" or current["key"] != key:
             return False
-        return not self.plan.options.require_sandbox or bool(json.loads(current["document"])["isolation"]["strong"])
+        results = stored_results(current["document"])
+        return results is not None and (results.isolation.strong or not self.plan.options.require_sandbox)
 
     def _record(self, answer: Answer, pending: _Pending) -> None:
-        if answer.document is not None:
-            try:
-                validate(answer.document)
-            except GraderFault as fault:
-                answer = Answer(answer.name, "fault", fault=str(fault), seconds=answer.seconds, worker=answer.worker)
         if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
             if not self.recorded:
                 withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)
             write_submission(self.database, self.plan.options.out, answer.name)
-            total = answer.document["total"] if answer.document is not None else None
+            total = answer.results.total if answer.results is not None else None
             points = (
-                f"{number(total['points'])} of {number(total['max'])} points"
+                f"{number(total.points)} of {number(total.max)} points"
                 if total
                 else f"FAULT: {first_line(answer.fault)}"
             )

@@ -4,7 +4,6 @@ import sys
 import time
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -15,6 +14,7 @@ from raysteps.classroom.class_files import SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
 from raysteps.common.text import count, number, printable, shorten
 from raysteps.report.class_page import FILE as CLASS_PAGE
+from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent, StepPoints
 
 # Shows how far a class is: a bar on a terminal, lines elsewhere.
 
@@ -97,42 +97,42 @@ _MAX_MISTAKES = 10
 _LEGEND = "b does not build, c crashed, t took too long, - not started"
 
 
-def _cell(step: dict[str, Any] | None) -> str:
+def _cell(step: StepPoints | None) -> str:
     if step is None:
         return ""
-    mark = _MARKS.get(step["status"], "")
-    points = "-" if mark == "-" else number(step["points"]) + (f" {mark}" if mark else "")
-    color = "green" if step["status"] == "passed" else "dim" if mark == "-" else "yellow" if step["points"] else "red"
+    mark = _MARKS.get(step.status, "")
+    points = "-" if mark == "-" else number(step.points) + (f" {mark}" if mark else "")
+    color = "green" if step.status == "passed" else "dim" if mark == "-" else "yellow" if step.points else "red"
     return f"[{color}]{points}[/{color}]"
 
 
-def _total(one: dict[str, Any]) -> str:
-    if one["points"] is None:
-        return f"[red]{one['status']}[/red]"
-    return number(one["points"]) + (" !" if one["inconsistent"] else "")
+def _total(one: GradedSubmission) -> str:
+    if one.points is None:
+        return f"[red]{one.status}[/red]"
+    return number(one.points) + (" !" if one.inconsistent else "")
 
 
-def _is_late(document: dict[str, Any]) -> bool:
+def _is_late(document: ClassResults) -> bool:
     """Whether there is anything to say about days: else the final points are the total."""
-    return any(one["late"] is not None and one["late"]["days"] for one in document["submissions"])
+    return any(one.late is not None and one.late.days for one in document.submissions)
 
 
-def _table(document: dict[str, Any]) -> Table:
-    steps = document["steps"]
+def _table(document: ClassResults) -> Table:
+    steps = document.steps
     late = _is_late(document)
     table = Table()
     table.add_column("submission", overflow="fold")
     for step in steps:
-        table.add_column(f"{step['id'][:2]}{'*' if step['bonus'] else ''}\n{number(step['points'])}", justify="right")
-    regular = sum(step["points"] for step in steps if not step["bonus"])
+        table.add_column(f"{step.id[:2]}{'*' if step.bonus else ''}\n{number(step.points)}", justify="right")
+    regular = sum(step.points for step in steps if not step.bonus)
     table.add_column(f"total\n{number(regular)}", justify="right")
     if late:
         table.add_column("days\nlate", justify="right")
         table.add_column("final", justify="right")
-    for one in document["submissions"]:
-        cells = [escape(one["name"]), *(_cell(one["steps"].get(step["id"])) for step in steps), _total(one)]
-        if late and one["late"] is not None:
-            cells += [str(one["late"]["days"] or ""), number(one["final"])]
+    for one in document.submissions:
+        cells = [escape(one.name), *(_cell(one.steps.get(step.id)) for step in steps), _total(one)]
+        if late and one.late is not None:
+            cells += [str(one.late.days or ""), number(one.late.points)]
         table.add_row(*cells)
     return table
 
@@ -148,86 +148,83 @@ def _points(value: float | None) -> str:
     return "no points" if value is None else number(value)
 
 
-def _who(student: dict[str, str]) -> str:
-    words = " ".join(student[key] for key in ("id", "name", "email") if student[key])
-    return f"{words}: {student['note']}" if student["note"] else words
+def _who(student: NotedStudent) -> str:
+    words = " ".join(filter(None, (student.id, student.name, student.email)))
+    return f"{words}: {student.note}" if student.note else words
 
 
-def _late_by_file(document: dict[str, Any]) -> list[str]:
+def _late_by_file(document: ClassResults) -> list[str]:
     """Copying or unpacking may have set that time: it should not cost points unseen."""
     return [
-        f"{one['name']}: {one['submitted_at']}, {count(one['late']['days'], 'day')} begun, "
-        f"{number(one['late']['percent'])} % off"
-        for one in document["submissions"]
-        if one["submitted_from"] == "files" and one["late"] is not None and one["late"]["days"]
+        f"{one.name}: {one.submitted_at}, {count(one.late.days, 'day')} begun, {number(one.late.percent)} % off"
+        for one in document.submissions
+        if one.submitted_from == "files" and one.late is not None and one.late.days
     ]
 
 
-def _mean(document: dict[str, Any]) -> str:
+def _mean(document: ClassResults) -> str:
     """How the class stands, and what that counts."""
-    facts = document["statistics"]
-    lateness = " after lateness" if document["late_policy"] is not None else ""
-    points = f"mean {number(facts['mean'])}, median {number(facts['median'])} points{lateness}"
-    unread = len(document["unreadable"])
+    facts = document.statistics
+    lateness = " after lateness" if document.late_policy is not None else ""
+    points = f"mean {_points(facts.mean)}, median {_points(facts.median)} points{lateness}"
+    unread = len(document.unreadable)
     others = f"; without the {unread} from which nothing could be taken" if unread else ""
-    return f"{count(facts['graded'], 'submission')} graded: {points}{others}"
+    return f"{count(facts.graded, 'submission')} graded: {points}{others}"
 
 
-def _mistakes(document: dict[str, Any]) -> list[str]:
+def _mistakes(document: ClassResults) -> list[str]:
     """What several did."""
-    common = [found for found in document["mistakes"] if found["submissions"] > 1][:_MAX_MISTAKES]
-    return [f"{found['submissions']} in {found['step']}: {found['title']}" for found in common]
+    common = [found for found in document.mistakes if found.submissions > 1][:_MAX_MISTAKES]
+    return [f"{found.submissions} in {found.step}: {found.title}" for found in common]
 
 
-def _print_apart(console: Console, document: dict[str, Any]) -> None:
+def _print_apart(console: Console, document: ClassResults) -> None:
     """What a table cannot say."""
-    by_name = {one["name"]: one for one in document["submissions"]}
-    faults = [f"{name}: {first_line(by_name[name]['fault'])}" for name in document["faults"]]
+    by_name = {one.name: one for one in document.submissions}
+    faults = [f"{name}: {first_line(by_name[name].fault)}" for name in document.faults]
     _print_list(console, "Not graded because of a fault of the grader; --resume tries again", faults)
-    missing = ", or a shard is missing" if any(run["shard"] != "1/1" for run in document["runs"]) else ""
-    _print_list(console, f"Not graded yet; --resume goes on{missing}", document["not_graded"])
-    _print_list(console, "With an earlier result, because the last run was interrupted", document["outdated"])
-    unread = [f"{name} (results.json says why)" for name in document["unreadable"]]
+    missing = ", or a shard is missing" if any(run.shard != "1/1" for run in document.runs) else ""
+    _print_list(console, f"Not graded yet; --resume goes on{missing}", document.not_graded)
+    _print_list(console, "With an earlier result, because the last run was interrupted", document.outdated)
+    unread = [f"{name} (results.json says why)" for name in document.unreadable]
     _print_list(console, "Nothing could be taken from these", unread)
     claims = [
         f"{name}, {step}: {claim}"
-        for name in document["inconsistent"]
-        for step, found in by_name[name]["inconsistent"].items()
+        for name in document.inconsistent
+        for step, found in by_name[name].inconsistent.items()
         for claim in found
     ]
     _print_list(console, "Inconsistent (!): the program claims what the judge did not see; look at the code", claims)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
     _print_list(console, "The most common mistakes, by submissions", _mistakes(document))
-    changed = [
-        f"{one['name']}: {_points(one['before'])} before, {_points(one['after'])} now" for one in document["changed"]
-    ]
+    changed = [f"{one.name}: {_points(one.before)} before, {_points(one.after)} now" for one in document.changed]
     _print_list(console, "Changed since the last time", changed)
     _print_list(
         console,
         "On the roster, but without a submission",
-        [_who(one) for one in document["students_without_submission"]],
+        [_who(one) for one in document.students_without_submission],
     )
-    _print_list(console, "With more than one submission", [_who(one) for one in document["students_with_several"]])
-    notes = [f"{name}: {by_name[name]['note']}" for name in document["submissions_without_student"]]
+    _print_list(console, "With more than one submission", [_who(one) for one in document.students_with_several])
+    notes = [f"{name}: {by_name[name].note}" for name in document.submissions_without_student]
     _print_list(console, "Without a student on the roster", notes)
-    _print_list(console, "Graded earlier, but no longer in the folder", document["gone"])
-    _print_list(console, "Extensions for ids that nobody has", document["unknown_extensions"])
+    _print_list(console, "Graded earlier, but no longer in the folder", document.gone)
+    _print_list(console, "Extensions for ids that nobody has", document.unknown_extensions)
 
 
-def print_summary(console: Console, document: dict[str, Any], out: Path) -> None:
+def print_summary(console: Console, document: ClassResults, out: Path) -> None:
     """The table, what needs a person's eye, and where the files are."""
     console.print(_table(document))
     console.print(f"[dim]{_LEGEND}; * bonus[/dim]")
     _print_apart(console, document)
     console.print()
-    if document["statistics"]["graded"]:
+    if document.statistics.graded:
         console.print(_mean(document))
-    if document["late_policy"] is not None and not _is_late(document):
+    if document.late_policy is not None and not _is_late(document):
         console.print("Nobody was late")
-    reused = document["run"]["reused"]
+    reused = document.run.reused
     if reused:
         console.print(f"{count(reused, 'result')} of an earlier run still hold and were not made anew")
-    isolations = sorted({one["isolation"] for one in document["submissions"] if one["isolation"]})
+    isolations = sorted({one.isolation for one in document.submissions if one.isolation})
     if isolations:
         console.print(f"Isolation: {', '.join(isolations)}")
     console.print(

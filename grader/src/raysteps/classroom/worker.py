@@ -1,7 +1,6 @@
 """A process that grades: a job per line on stdin, an answer per line on stdout. It ends when stdin does."""
 
 import contextlib
-import json
 import os
 import platform
 import queue
@@ -14,11 +13,12 @@ import time
 import traceback
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, BinaryIO, NoReturn
+from typing import BinaryIO, NoReturn
 
-from raysteps.classroom.jobs import Answer, Grader, Job, ProgressCallback, make_grader
+from raysteps.classroom.jobs import Answer, Grader, Job, ProgressCallback, from_line, make_grader, to_line
 from raysteps.common.errors import GraderFault, RaystepsError
-from raysteps.results.store import validate
+from raysteps.results.model import Results
+from raysteps.results.store import read_results
 
 # Grades jobs in this process, one after another, with a grader that is made once.
 
@@ -30,21 +30,20 @@ def this_worker() -> str:
     return f"{platform.node()}:{os.getpid()}"
 
 
-def _named_files(document: dict[str, Any]) -> Iterator[str]:
-    for step in document["steps"]:
-        yield from (item["case"] for item in step["hidden"] if item.get("case"))
-        for image in step["images"]:
-            yield from (image[kind] for kind in ("mine", "reference", "difference") if image[kind])
+def _named_files(results: Results) -> Iterator[str]:
+    for step in results.steps:
+        yield from (item.case for item in step.hidden if item.case)
+        for image in step.images:
+            yield from filter(None, (image.mine, image.reference, image.difference))
 
 
 def _read_answer(job: Job, out: Path, seconds: float) -> Answer:
     """Only pictures and cases that the results name: what they withhold stays here."""
-    document = json.loads((out / "results.json").read_text(encoding="utf-8"))
-    validate(document)
-    if document["submission"] != job.submission.name:
-        raise GraderFault(f"these are the results of {document['submission']}")
-    pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_files(document)))}
-    return Answer(job.submission.name, "graded", document, pictures, seconds=seconds, worker=this_worker())
+    results = read_results(out / "results.json")
+    if results.submission != job.submission.name:
+        raise GraderFault(f"these are the results of {results.submission}")
+    pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_files(results)))}
+    return Answer(job.submission.name, "graded", results, pictures, seconds=seconds, worker=this_worker())
 
 
 class JobRunner:
@@ -112,8 +111,8 @@ class _Worker:
     def _answer_all(self, answers: BinaryIO) -> NoReturn:
         desk = JobRunner(_say)
         while True:
-            answer = desk.grade(Job.from_json(json.loads(self._jobs.get())))
-            answers.write(json.dumps(answer.to_json()).encode() + b"\n")
+            answer = desk.grade(from_line(self._jobs.get(), Job))
+            answers.write(to_line(answer))
             answers.flush()
 
     def run(self, answers: BinaryIO) -> None:

@@ -33,7 +33,7 @@ from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
 from raysteps.exports.hosted import Options, by_id
 from raysteps.exports.prairielearn import to_prairielearn
 from raysteps.exports.similarity import add_similarity_arguments, export_similarity
-from raysteps.grading.options import withhold
+from raysteps.grading.withhold import withhold
 from raysteps.results.store import read_results
 from raysteps.toolchain.limits import parse_limits
 

@@ -4,7 +4,7 @@ import argparse
 import hashlib
 import os
 import re
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rich.console import Console
@@ -14,13 +14,13 @@ from raysteps.common.platform import own_command, quote_command
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
-from raysteps.grading.options import Settings
 from raysteps.grading.pipeline import grade_submission
 from raysteps.grading.scoring import exit_code
 from raysteps.grading.step import clear
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
+from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, submission_name
 from raysteps.toolchain.build_kit import build_kit
@@ -63,7 +63,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     """Grades one submission."""
     only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
     seed = read_course(project).seed_or(arguments.seed)
-    settings = Settings(seed, tuple(only), arguments.feedback, parse_limits(arguments.limit))
+    settings = Settings(arguments.feedback, parse_limits(arguments.limit), tuple(only), seed)
     options = GradeOptions(
         arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs
     )
@@ -85,8 +85,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         submission = load_submission(options.submission, read_steps(project))
         kit = build_kit(project, say)
         clear(out, kit.steps, kit.steps)
-        settings = replace(options.settings, jobs=options.jobs or os.cpu_count() or 1)
-        results = grade_submission(kit, submission, settings, sandbox, out, say)
+        jobs = options.jobs or os.cpu_count() or 1
+        results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
     if options.details:

@@ -7,7 +7,6 @@ from collections.abc import Container, Iterator
 from contextlib import closing, contextmanager
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
@@ -27,6 +26,7 @@ from raysteps.common.files import try_lock, usable_folder
 from raysteps.common.platform import refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
+from raysteps.results.class_model import ClassResults
 from raysteps.toolchain.limits import parse_limits
 
 # The words after `grade-class`.
@@ -151,7 +151,7 @@ def _only_one(out: Path) -> Iterator[None]:
         yield
 
 
-def _finish(console: Console, database: ClassDatabase, out: Path, done: Container[str] = ()) -> dict[str, Any]:
+def _finish(console: Console, database: ClassDatabase, out: Path, done: Container[str] = ()) -> ClassResults:
     document = class_document(database)
     write_class(database, out, document, done)
     print_summary(console, document, out)
@@ -203,7 +203,7 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
         document = _finish(console, database, options.out, session.recorded)
     if not complete:
         return _interrupted(console, again)
-    return GraderFault.exit_code if document["faults"] else 0
+    return GraderFault.exit_code if document.faults else 0
 
 
 def _merge(console: Console, folders: list[Path], out: Path) -> int:
@@ -215,7 +215,7 @@ def _merge(console: Console, folders: list[Path], out: Path) -> int:
         console.print(f"Warning: {warning}", markup=False, highlight=False, soft_wrap=True)
     if missing:
         console.print(f"Missing: {', '.join(missing)} of the shards", markup=False)
-    return GraderFault.exit_code if missing or document["faults"] or document["not_graded"] else 0
+    return GraderFault.exit_code if missing or document.faults or document.not_graded else 0
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console, *, grader: str = KIT_GRADER) -> int:

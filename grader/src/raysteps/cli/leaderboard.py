@@ -6,7 +6,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.classroom.leaderboard import print_board, print_caption, rank, read_entries, to_json
+from raysteps.classroom.leaderboard import leaderboard, print_board, print_caption, rank, read_entries
+from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
@@ -45,12 +46,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     steps = _steps(project, arguments.step)
     entered = read_entries(arguments.places)
     boards = [rank(entered, step) for step in steps]
-    document = to_json(boards, anonymous=arguments.anonymous)
+    document = leaderboard(boards, anonymous=arguments.anonymous)
     for board in boards:
         print_board(console, board, anonymous=arguments.anonymous)
         console.print()
     print_caption(console)
     if arguments.json is not None:
-        write_out(arguments.json, encoded(document))
+        write_out(arguments.json, encoded(plain(document)))
         console.print(f"Ranking: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
     return 0

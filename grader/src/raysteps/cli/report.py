@@ -30,9 +30,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _student_page(project: Project, place: Path) -> Path:
     path = place / RESULTS if place.is_dir() else place
-    document = read_results(path)
+    results = read_results(path)
     try:
-        return write_student_page(document, path.parent, read_steps(project))
+        return write_student_page(results, path.parent, read_steps(project))
     except OSError as error:
         raise UsageError(f"{path.parent}: the report cannot be written there: {reason(error)}") from error
 

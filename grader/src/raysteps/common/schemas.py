@@ -1,15 +1,11 @@
 """JSON schemas that lie beside the code."""
 
 import json
-import tomllib
 from functools import cache
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 import jsonschema
-
-from raysteps.common.errors import GraderFault, reason
 
 
 @cache
@@ -32,26 +28,3 @@ def complaint(document: Any, schema: Any) -> str:
     """Where and how a document breaks a schema; nothing when it does not."""
     error = jsonschema.exceptions.best_match(_validator(json.dumps(schema)).iter_errors(document))
     return "" if error is None else f"{error.json_path}: {error.message[:300]}"
-
-
-# Tables of the kit in TOML, each with a schema. A bad one is the kit's fault.
-
-
-def read_text(path: Path) -> str:
-    """The file as text."""
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise GraderFault(f"{path}: cannot be read: {reason(error)}") from error
-
-
-def parse_table(text: str, path: Path, what: str, package: str, schema: str) -> dict[str, Any]:
-    """`what` the file should be, such as `a plan of hidden cases`, and the schema that says how it looks."""
-    try:
-        table = tomllib.loads(text)
-    except ValueError as error:
-        raise GraderFault(f"{path}: not {what}: {error}") from error
-    problem = complaint(table, read_schema(package, schema))
-    if problem:
-        raise GraderFault(f"{path}: not {what}: {problem}")
-    return table

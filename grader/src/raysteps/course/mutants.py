@@ -3,10 +3,12 @@
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
+from msgspec import Meta
+
+from raysteps.common.documents import Text, parse_table, read_text
 from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import parse_table, read_text
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import without_markers
@@ -50,19 +52,49 @@ def reference_source(project: Project, step: Step) -> str:
     return without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
 
 
-def _mutant(step: Step, table: dict[str, Any]) -> Mutant:
-    if table["function"] not in step.functions:
-        raise GraderFault(f"{step.id}/mutants.toml: {table['id']}: {table['function']} is no function of the step")
-    words = {key: " ".join(str(table[key]).split()) for key in ("name", "sees", "cause", "hint")}
-    others = tuple((other["find"], other["replace"]) for other in table.get("others", []))
-    change = {"find": table["find"], "replace": table["replace"]}
-    return Mutant(table["id"], step.id, table["function"], **words, **change, others=others)
+_Sentence = Annotated[str, Meta(min_length=5)]
+
+
+@dataclass(frozen=True)
+class _Change:
+    """`find` occurs once in the reference."""
+
+    find: Text
+    replace: str
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """A mistake as the file has it."""
+
+    id: Annotated[str, Meta(pattern="^[a-z0-9]+(-[a-z0-9]+)*$")]
+    function: Text
+    name: _Sentence
+    sees: _Sentence
+    cause: _Sentence
+    hint: _Sentence
+    find: Text
+    replace: str
+    others: tuple[_Change, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Catalogue:
+    mutants: Annotated[tuple[_Entry, ...], Meta(min_length=1)]
+
+
+def _mutant(step: Step, entry: _Entry) -> Mutant:
+    if entry.function not in step.functions:
+        raise GraderFault(f"{step.id}/mutants.toml: {entry.id}: {entry.function} is no function of the step")
+    name, sees, cause, hint = (" ".join(text.split()) for text in (entry.name, entry.sees, entry.cause, entry.hint))
+    others = tuple((other.find, other.replace) for other in entry.others)
+    return Mutant(entry.id, step.id, entry.function, name, sees, cause, hint, entry.find, entry.replace, others)
 
 
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> tuple[Mutant, ...]:
-    table = parse_table(text, path, "a catalogue of mistakes", "raysteps.course", "mutants.schema.json")
-    mutants = tuple(_mutant(step, entry) for entry in table["mutants"])
+    catalogue = parse_table(text, path, "a catalogue of mistakes", _Catalogue)
+    mutants = tuple(_mutant(step, entry) for entry in catalogue.mutants)
     names = [mutant.id for mutant in mutants]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:

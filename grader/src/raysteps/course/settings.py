@@ -4,9 +4,12 @@ import os
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
+from msgspec import Meta
+
+from raysteps.common.documents import Malformed, Text, convert
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.course.project import Project
 
 FILE = "course.toml"
@@ -29,6 +32,14 @@ class Course:
         return USUAL_SEED if self.seed is None else self.seed
 
 
+@dataclass(frozen=True)
+class _Table:
+    """What may stand in course.toml; the late policy is a TOML file, seen from the folder of course.toml."""
+
+    seed: Annotated[int, Meta(ge=0, le=999_999_999_999_999_999)] | None = None
+    late_policy: Text | None = None
+
+
 def _path(project: Project) -> Path | None:
     named = os.environ.get(PLACE, "")
     if named:
@@ -49,8 +60,9 @@ def read_course(project: Project) -> Course:
         table = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as error:
         raise UsageError(f"{path}: cannot be read as TOML: {reason(error)}") from error
-    problem = complaint(table, read_schema("raysteps.course", "course.schema.json"))
-    if problem:
-        raise UsageError(f'{path}: {problem}; expected `seed = N` and `late_policy = "FILE"`, or one of them')
-    policy = table.get("late_policy")
-    return Course(path, table.get("seed"), None if policy is None else path.parent / policy)
+    try:
+        told = convert(table, _Table)
+    except Malformed as error:
+        expected = 'expected `seed = N` and `late_policy = "FILE"`, or one of them'
+        raise UsageError(f"{path}: {error}; {expected}") from error
+    return Course(path, told.seed, None if told.late_policy is None else path.parent / told.late_policy)

@@ -7,6 +7,7 @@ from typing import Any
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
 from raysteps.exports.items import Item, entries_of, objects_tested
+from raysteps.results.model import Results
 
 _BRUTE_FORCE = 100.0  # per cent of the objects: what a ray tests without an octree
 
@@ -21,17 +22,16 @@ def _stage(items: Sequence[Item]) -> dict[str, Any]:
     return stage
 
 
-def to_autolab(document: Mapping[str, Any], steps: Mapping[str, Step]) -> list[dict[str, Any]]:
+def to_autolab(results: Results, steps: Mapping[str, Step]) -> list[dict[str, Any]]:
     """What was checked, then the scores by problem; the ids of the steps are the problems' names."""
-    results = document["steps"]
     stages = {
-        result["id"]: _stage([entry.item for entry in entries_of(result, steps.get(result["id"]))])
-        for result in results
+        result.id: _stage([entry.item for entry in entries_of(result, steps.get(result.id))])
+        for result in results.steps
     }
-    tested = objects_tested(document)
+    tested = objects_tested(results)
     scores = {
-        "scores": {result["id"]: result["points"] for result in results},
-        "scoreboard": [document["total"]["points"], _BRUTE_FORCE if tested is None else tested],
+        "scores": {result.id: result.points for result in results.steps},
+        "scoreboard": [results.total.points, _BRUTE_FORCE if tested is None else tested],
     }
     return [{"_presentation": "semantic", "stages": list(stages), **stages}, scores]
 

@@ -13,7 +13,8 @@ from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step
-from raysteps.exports.items import Document, as_html, summary
+from raysteps.exports.items import as_html, summary
+from raysteps.results.model import Results
 from raysteps.results.store import read_results
 
 _ALIKE = 0.005  # points are written in hundredths
@@ -115,19 +116,19 @@ def read_class(folder: Path) -> list[GradedStudent]:
     return rows
 
 
-def results_of(folder: Path, graded: GradedStudent) -> Document | None:
+def results_of(folder: Path, graded: GradedStudent) -> Results | None:
     """The results.json of a submission, or None where there is none; it must be what the row was made from."""
     home = (folder / "submissions").resolve()
     path = (home / graded.submission / "results.json").resolve()
     if not path.is_relative_to(home) or not path.is_file():
         return None
-    document = read_results(path)
-    if graded.in_time is None or abs(document["total"]["points"] - graded.in_time) > _ALIKE:
+    results = read_results(path)
+    if graded.in_time is None or abs(results.total.points - graded.in_time) > _ALIKE:
         raise UsageError(
             f"{path}: is of another run than results.csv, whose points for {graded.label} are not those; "
             "run grade-class with --resume again, which writes both"
         )
-    return document
+    return results
 
 
 # Finds the row of a gradebook that belongs to a submission.
@@ -226,11 +227,11 @@ def _plain_signs(html: str) -> str:
     return _SIGNS.sub(lambda found: found[0].translate(signs), html)
 
 
-def moodle_cell(document: Document | None, graded: GradedStudent, steps: Mapping[str, Step]) -> str | None:
+def moodle_cell(results: Results | None, graded: GradedStudent, steps: Mapping[str, Step]) -> str | None:
     """What the results say, as HTML on one line: Moodle shows comments as HTML. None where there are none."""
-    if document is None:
+    if results is None:
         return None
-    lines = [summary(document, steps, checks=True)]
+    lines = [summary(results, steps, checks=True)]
     if graded.points is not None and graded.in_time is not None and graded.points != graded.in_time:
         lines.insert(0, f"{number(graded.in_time)} points, {number(graded.points)} after lateness.")
     return escape_formula(_plain_signs(as_html("\n".join(lines), _LIMIT)))

@@ -10,6 +10,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
 from raysteps.exports.items import apportion, harmless_log, one_line, step_text, title
+from raysteps.results.model import Results
 
 _FIELDS = {
     "classroom": "CLASSROOM",
@@ -20,11 +21,10 @@ _FIELDS = {
 }
 
 
-def whole_points(document: Mapping[str, Any]) -> list[tuple[int, int]]:
+def whole_points(results: Results) -> list[tuple[int, int]]:
     """Each step's points and maximum as whole numbers. The sums are the rounded sums; no step exceeds its most."""
-    results = document["steps"]
-    most = [round(result["max"] * 100) for result in results]
-    points = [min(round(result["points"] * 100), cap) for result, cap in zip(results, most, strict=True)]
+    most = [round(result.max * 100) for result in results.steps]
+    points = [min(round(result.points * 100), cap) for result, cap in zip(results.steps, most, strict=True)]
     caps = apportion((sum(most) + 50) // 100, most) if sum(most) else [0] * len(most)
     earned = apportion((sum(points) + 50) // 100, points) if sum(points) else [0] * len(points)
     return [(min(have, cap), cap) for have, cap in zip(earned, caps, strict=True)]
@@ -35,13 +35,13 @@ def _instant(when: datetime) -> str:
 
 
 def to_classroom50(
-    document: Mapping[str, Any], steps: Mapping[str, Step], environment: Mapping[str, str], submitted: datetime
+    results: Results, steps: Mapping[str, Step], environment: Mapping[str, str], submitted: datetime
 ) -> dict[str, Any]:
     """One test per step; who and what come from the environment that the runner sets."""
     missing = [name for name in _FIELDS.values() if not environment.get(name)]
     if missing:
         raise UsageError(f"these variables are not set: {', '.join(missing)}; Classroom 50's runner sets them")
-    pairs = whole_points(document)
+    pairs = whole_points(results)
     result: dict[str, Any] = {"schema": "classroom50/result/v1"}
     result |= {field: environment[name] for field, name in _FIELDS.items()}
     result["review"] = environment.get("REVIEW_URL") or environment["COMMIT_URL"]
@@ -55,36 +55,36 @@ def to_classroom50(
     result["tests"] = [
         {
             "test-name": one_line(title(step, steps)),
-            "passed": step["status"] == "passed",
+            "passed": step.status == "passed",
             "score": points,
             "max-score": most,
             "message": harmless_log(step_text(step)),
         }
-        for step, (points, most) in zip(document["steps"], pairs, strict=True)
+        for step, (points, most) in zip(results.steps, pairs, strict=True)
     ]
     return result
 
 
-def to_legacy(document: Mapping[str, Any], steps: Mapping[str, Step]) -> dict[str, Any]:
+def to_legacy(results: Results, steps: Mapping[str, Step]) -> dict[str, Any]:
     """One test per step; its seconds are those of its pictures and hidden cases."""
     tests = []
-    pairs = whole_points(document)
-    for step, (points, _) in zip(document["steps"], pairs, strict=True):
-        seconds = sum(item["seconds"] for item in (*step["images"], *step["hidden"]))
-        known = steps.get(step["id"])
+    pairs = whole_points(results)
+    for step, (points, _) in zip(results.steps, pairs, strict=True):
+        seconds = sum(image.seconds for image in step.images) + sum(item.seconds for item in step.hidden)
+        known = steps.get(step.id)
         tests.append(
             {
                 "name": one_line(title(step, steps)),
-                "status": "pass" if step["status"] == "passed" else "fail",
+                "status": "pass" if step.status == "passed" else "fail",
                 "score": points,
                 "message": harmless_log(clean(step_text(step))),
-                "test_code": f"./raysteps check {step['id'][:2]}",
+                "test_code": f"./raysteps check {step.id[:2]}",
                 "filename": f"steps/{known.path.as_posix()}" if known is not None else "",
                 "line_no": 0,
                 "execution_time": f"{seconds:.1f}s",
             }
         )
-    passed = all(step["status"] == "passed" for step in document["steps"] if not step["bonus"])
+    passed = all(step.status == "passed" for step in results.steps if not step.bonus)
     most = sum(most for _, most in pairs)
     return {"version": 1, "status": "pass" if passed else "fail", "max_score": most, "tests": tests}
 

@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
 from raysteps.exports.items import Entry, Item, entries_of, one_line, summary, title
+from raysteps.results.model import Results, StepResult
 from raysteps.results.work_ratio import NoWorkRatio, work_ratio_of
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
@@ -37,16 +38,16 @@ def _test(name: str, number: str, entry: Entry, hidden: Visibility) -> dict[str,
     return test
 
 
-def _tests(result: Mapping[str, Any], steps: Mapping[str, Step], hidden: Visibility) -> list[dict[str, Any]]:
-    entries = entries_of(result, steps.get(result["id"]))
-    number = int(result["id"][:2])
+def _tests(result: StepResult, steps: Mapping[str, Step], hidden: Visibility) -> list[dict[str, Any]]:
+    entries = entries_of(result, steps.get(result.id))
+    number = int(result.id[:2])
     name = one_line(title(result, steps))
     return [_test(name, f"{number}.{at}", entry, hidden) for at, entry in enumerate(entries, 1)]
 
 
-def _leaderboard(result: Mapping[str, Any], steps: Mapping[str, Step]) -> list[dict[str, Any]]:
+def _leaderboard(result: StepResult, steps: Mapping[str, Step]) -> list[dict[str, Any]]:
     """Work and memory of a step whose rays may test few objects only; nothing unless its pictures are all right."""
-    step = steps.get(result["id"])
+    step = steps.get(result.id)
     work_ratio = work_ratio_of(result, step.limited_pictures if step is not None else ())
     if isinstance(work_ratio, NoWorkRatio):
         return []
@@ -68,25 +69,25 @@ def _formats() -> dict[str, Any]:
 
 
 def to_gradescope(
-    document: Mapping[str, Any],
+    results: Results,
     steps: Mapping[str, Step],
     *,
     hidden: Visibility = "visible",
     names: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Every check with its points. With hidden checks out of sight, nothing visible tells the total."""
-    output = summary(document, steps, points=hidden == "visible")
+    output = summary(results, steps, points=hidden == "visible")
     if names:
         output = f"Submitted by {', '.join(names)}.\n{output}"
-    results = {
+    made: dict[str, object] = {
         "output": output,
         **_formats(),
-        "execution_time": round(document["timing"]["seconds"]),
-        "extra_data": {"kit": document["kit"], "isolation": document["isolation"]["name"]},
-        "tests": [test for result in document["steps"] for test in _tests(result, steps, hidden)],
+        "execution_time": round(results.timing.seconds),
+        "extra_data": {"kit": results.kit, "isolation": results.isolation.name},
+        "tests": [test for result in results.steps for test in _tests(result, steps, hidden)],
     }
-    board = [entry for result in document["steps"] for entry in _leaderboard(result, steps)]
-    return {**results, "leaderboard": board} if board else results
+    board = [entry for result in results.steps for entry in _leaderboard(result, steps)]
+    return {**made, "leaderboard": board} if board else made
 
 
 def not_graded(why: str) -> dict[str, Any]:

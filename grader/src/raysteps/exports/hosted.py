@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason, reason_and_place
 from raysteps.common.process import Outcome, run
@@ -67,13 +66,13 @@ def find_submission(path: Path, steps: list[Step]) -> Path:
     return path
 
 
-def nothing_handed_in(steps: Sequence[Step], why: str) -> dict[str, Any]:
+def nothing_handed_in(steps: Sequence[Step], why: str) -> Results:
     """Results for a submission in which no step could be found."""
     results = [
         StepResult(id=step.id, status="not-started", points=0.0, max=step.points, bonus=step.bonus, messages=[why])
         for step in steps
     ]
-    return Results("submission", results).to_json()
+    return Results.of("submission", results)
 
 
 def _complaint(outcome: Outcome) -> str:
@@ -83,7 +82,7 @@ def _complaint(outcome: Outcome) -> str:
     return why or f"the grader ended with exit code {outcome.code}"
 
 
-def grade_here(project: Project, submission: Path, steps: list[Step], options: Options, work: Path) -> dict[str, Any]:
+def grade_here(project: Project, submission: Path, steps: list[Step], options: Options, work: Path) -> Results:
     """Runs the kit's `grade` in a process of its own and reads what it wrote to the folder."""
     chosen = choose(steps, list(options.steps))
     try:
@@ -116,7 +115,7 @@ def by_id(steps: Sequence[Step]) -> Mapping[str, Step]:
 
 _GIT_SECONDS = 30
 
-Deliver = Callable[[Mapping[str, Any], Mapping[str, Step], Path], None]
+Deliver = Callable[[Results, Mapping[str, Step], Path], None]
 
 
 def _grade(project: Project, submission: Path, options: Options, deliver: Deliver) -> str:
@@ -125,8 +124,8 @@ def _grade(project: Project, submission: Path, options: Options, deliver: Delive
         steps = read_steps(project)
         with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
             work = Path(folder)
-            document = grade_here(project, submission, steps, options, work)
-            deliver(document, by_id(steps), work)
+            results = grade_here(project, submission, steps, options, work)
+            deliver(results, by_id(steps), work)
     except (RaystepsError, NotGraded, OSError, subprocess.SubprocessError) as error:
         print(f"raysteps: {harmless_log(clean(reason_and_place(error)))}", file=sys.stderr)
         return reason_and_place(error)
@@ -138,8 +137,8 @@ def gradescope(project: Project, root: Path, options: Options, hidden: Visibilit
     path = root / "results" / "results.json"
     names = submitters(root / "submission_metadata.json")
 
-    def deliver(document: Mapping[str, Any], steps: Mapping[str, Step], work: Path) -> None:
-        write(to_gradescope(document, steps, hidden=hidden, names=names), "gradescope", path)
+    def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
+        write(to_gradescope(results, steps, hidden=hidden, names=names), "gradescope", path)
 
     why = _grade(project, root / "submission", options, deliver)
     if why:
@@ -151,8 +150,8 @@ def prairielearn(project: Project, root: Path, options: Options) -> int:
     """ROOT/student to ROOT/results/results.json, as in PrairieLearn's container."""
     path = root / "results" / "results.json"
 
-    def deliver(document: Mapping[str, Any], steps: Mapping[str, Step], work: Path) -> None:
-        write(to_prairielearn(document, steps, work), "prairielearn", path)
+    def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
+        write(to_prairielearn(results, steps, work), "prairielearn", path)
 
     why = _grade(project, root / "student", options, deliver)
     if why:
@@ -164,10 +163,10 @@ def prairielearn(project: Project, root: Path, options: Options) -> int:
 def autolab(project: Project, handin: Path, options: Options) -> int:
     """Prints what a student may read, and the scores in the last line; without that line there is no score."""
 
-    def deliver(document: Mapping[str, Any], steps: Mapping[str, Step], work: Path) -> None:
-        lines = to_autolab(document, steps)
+    def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
+        lines = to_autolab(results, steps)
         validate(lines, "autolab")
-        print(summary(document, steps, checks=True))
+        print(summary(results, steps, checks=True))
         print(as_lines(lines), end="", flush=True)
 
     return GraderFault.exit_code if _grade(project, handin, options, deliver) else 0
@@ -207,17 +206,17 @@ def append_output(line: str, path: Path | None) -> None:
 
 
 def deliver_github(
-    document: Mapping[str, Any], steps: Mapping[str, Step], out: Path | None, repository: Path, *, legacy: bool
+    results: Results, steps: Mapping[str, Step], out: Path | None, repository: Path, *, legacy: bool
 ) -> None:
     """result.json of Classroom 50, or the output of a step of GitHub Classroom."""
     if legacy:
-        result = to_legacy(document, steps)
+        result = to_legacy(results, steps)
         validate(result, "github-legacy")
         append_output(output_line(result), out)
         return
     if out is None:
         raise UsageError("say where the result goes with --out result.json")
-    write(to_classroom50(document, steps, os.environ, submitted_at(repository)), "classroom50", out)
+    write(to_classroom50(results, steps, os.environ, submitted_at(repository)), "classroom50", out)
 
 
 def github(project: Project, submission: Path, options: Options, out: Path | None, *, legacy: bool) -> int:
@@ -226,7 +225,7 @@ def github(project: Project, submission: Path, options: Options, out: Path | Non
     if out is not None and not legacy:
         remove(out)
 
-    def deliver(document: Mapping[str, Any], steps: Mapping[str, Step], work: Path) -> None:
-        deliver_github(document, steps, out, submission, legacy=legacy)
+    def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
+        deliver_github(results, steps, out, submission, legacy=legacy)
 
     return GraderFault.exit_code if _grade(project, submission, options, deliver) else 0

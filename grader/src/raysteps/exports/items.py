@@ -4,10 +4,11 @@ import html
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from raysteps.common.text import clean, count, number, shorten
 from raysteps.course.manifest import Step
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integration, Results, StepResult, TestResult
 
 # Makes text that came from a student's program safe to show somewhere else.
 
@@ -49,45 +50,41 @@ class Item:
         return self.share >= 1
 
 
-def _lines(*pairs: tuple[str, Any]) -> str:
-    return "\n".join(f"{label}{clean(str(value))}" for label, value in pairs if value)
+def _lines(*pairs: tuple[str, str]) -> str:
+    return "\n".join(f"{label}{clean(value)}" for label, value in pairs if value)
 
 
-def _test(test: Mapping[str, Any], weight: float) -> Item:
+def _test(test: TestResult, weight: float) -> Item:
     text = _lines(
-        ("", test["message"]),
-        ("expected: ", test["expression"]),
-        ("actual: ", test["expanded"]),
-        ("see ", test["location"]),
+        ("", test.message),
+        ("expected: ", test.expression),
+        ("actual: ", test.expanded),
+        ("see ", test.location),
     )
-    name = one_line(test["name"])
-    return Item("test", name, weight, float(test["passed"]), "passed" if test["passed"] else text or "failed")
+    name = one_line(test.name)
+    return Item("test", name, weight, float(test.passed), "passed" if test.passed else text or "failed")
 
 
-def _picture(image: Mapping[str, Any], weight: float) -> Item:
-    wrong = image["wrong_share"]
-    seen = "" if wrong is None else f"{wrong:.2%} of the pixels are wrong; at most {image['max_wrong']:.2%} may be."
-    text = _lines(("", image["message"] or seen), ("scene: ", image["scene"]))
-    shown = tuple((kind, image[kind]) for kind in ("mine", "reference", "difference") if image[kind])
-    return Item("picture", one_line(image["name"]), weight, float(image["passed"]), text, pictures=shown)
+def _picture(image: ImageResult, weight: float) -> Item:
+    wrong = image.wrong_share
+    seen = "" if wrong is None else f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be."
+    text = _lines(("", image.message or seen), ("scene: ", image.scene))
+    pictures = (("mine", image.mine), ("reference", image.reference), ("difference", image.difference))
+    shown = tuple((kind, path) for kind, path in pictures if path)
+    return Item("picture", one_line(image.name), weight, float(image.passed), text, pictures=shown)
 
 
-def _hidden(hidden: Mapping[str, Any], weight: float) -> Item:
-    groups = [
-        f"{one_line(group['name'])}: {group['right']} of {count(group['cases'], 'case')} right"
-        for group in hidden["groups"]
-    ]
-    text = "\n".join([*filter(None, [clean(hidden["message"])]), *groups])
-    inputs = _lines(("input: ", hidden["given"]), ("expected: ", hidden["expected"]), ("actual: ", hidden["actual"]))
-    share = float(hidden["share"])
-    return Item(
-        "hidden", one_line(hidden["name"]), weight, share, text or ("passed" if share >= 1 else "wrong"), inputs
-    )
+def _hidden(hidden: HiddenResult, weight: float) -> Item:
+    groups = [f"{one_line(group.name)}: {group.right} of {count(group.cases, 'case')} right" for group in hidden.groups]
+    text = "\n".join([*filter(None, [clean(hidden.message)]), *groups])
+    inputs = _lines(("input: ", hidden.given), ("expected: ", hidden.expected), ("actual: ", hidden.actual))
+    share = float(hidden.share)
+    return Item("hidden", one_line(hidden.name), weight, share, text or ("passed" if share >= 1 else "wrong"), inputs)
 
 
-def _together(cumulative: Mapping[str, Any], weight: float) -> Item:
-    passed = bool(cumulative["passed"])
-    text = clean(cumulative["message"]) or ("passed" if passed else "wrong")
+def _together(cumulative: Integration, weight: float) -> Item:
+    passed = cumulative.passed
+    text = clean(cumulative.message) or ("passed" if passed else "wrong")
     return Item("together", "with the steps before it", weight, float(passed), text)
 
 
@@ -96,39 +93,39 @@ def _each(group: float, weights: Sequence[float]) -> list[float]:
     return [group * weight / whole if whole else 0.0 for weight in weights]
 
 
-def items_of(result: Mapping[str, Any], step: Step | None) -> list[Item]:
-    """The checks of one step of a results.json, weighted as the manifest weights them."""
-    tests, images, hidden = result["tests"], result["images"], result["hidden"]
+def items_of(result: StepResult, step: Step | None) -> list[Item]:
+    """The checks of one step, weighted as the manifest weights them."""
+    tests, images, hidden = result.tests, result.images, result.hidden
     weights = (1.0, 1.0, 1.0, 0.0)
     if step is not None:
         weights = (step.weight_tests, step.weight_images, step.weight_hidden, step.weight_together)
     items = [_test(*pair) for pair in zip(tests, _each(weights[0], [1.0] * len(tests)), strict=True)]
     items += [_picture(*pair) for pair in zip(images, _each(weights[1], [1.0] * len(images)), strict=True)]
-    own = [float(item.get("weight", 1.0)) for item in hidden]
+    own = [float(item.weight) for item in hidden]
     items += [_hidden(*pair) for pair in zip(hidden, _each(weights[2], own), strict=True)]
-    return [*items, _together(result["cumulative"], weights[3])] if items and weights[3] else items
+    return [*items, _together(result.cumulative, weights[3])] if items and weights[3] else items
 
 
-def _diagnosis(diagnosis: Mapping[str, Any]) -> str:
+def _diagnosis(diagnosis: Diagnosis) -> str:
     """What explains a wrong step, in a line."""
-    title = one_line(diagnosis["title"], 600)
-    if diagnosis["kind"] == "finding":
+    title = one_line(diagnosis.title, 600)
+    if diagnosis.kind == "finding":
         said = title
     else:
-        others = "".join(f", or when {one_line(other, 600)}" for other in diagnosis["alike"])
-        said = f"This is what you get when {title}{others}. {one_line(diagnosis['cause'], 600)}".rstrip()
-    seen = ", ".join(one_line(name) for name in diagnosis["seen_in"])
-    where = f"Seen in {seen}. " if seen and diagnosis["kind"] != "finding" else ""
-    hint = f"Hint: {one_line(diagnosis['hint'], 600)}" if diagnosis["hint"] else ""
+        others = "".join(f", or when {one_line(other, 600)}" for other in diagnosis.alike)
+        said = f"This is what you get when {title}{others}. {one_line(diagnosis.cause, 600)}".rstrip()
+    seen = ", ".join(one_line(name) for name in diagnosis.seen_in)
+    where = f"Seen in {seen}. " if seen and diagnosis.kind != "finding" else ""
+    hint = f"Hint: {one_line(diagnosis.hint, 600)}" if diagnosis.hint else ""
     return f"{said} {where}{hint}".rstrip()
 
 
-def step_text(result: Mapping[str, Any]) -> str:
+def step_text(result: StepResult) -> str:
     """What there is to say about a step as a whole."""
-    said = [clean(message) for message in result["messages"]]
-    said += [_diagnosis(diagnosis) for diagnosis in result.get("diagnoses", ())]
-    if result["status"] == "does-not-build" and result["build_log"]:
-        said.append(clean(result["build_log"]))
+    said = [clean(message) for message in result.messages]
+    said += [_diagnosis(diagnosis) for diagnosis in result.diagnoses]
+    if result.status == "does-not-build" and result.build_log:
+        said.append(clean(result.build_log))
     return "\n".join(said)
 
 
@@ -159,7 +156,7 @@ def _hundredths(points: float) -> int:
     return round(points * 100)
 
 
-def _rest(result: Mapping[str, Any], items: list[Item], earned: int, lost: int) -> list[Item]:
+def _rest(result: StepResult, items: list[Item], earned: int, lost: int) -> list[Item]:
     """One more entry for what no check accounts for: a step that was not run, claims that were not confirmed."""
     all_wrong = earned > 0 and not sum(item.weight * item.share for item in items)
     all_right = lost > 0 and not sum(item.weight * (1 - item.share) for item in items)
@@ -167,17 +164,17 @@ def _rest(result: Mapping[str, Any], items: list[Item], earned: int, lost: int) 
         return []
     share = earned / (earned + lost) if earned + lost else 0.0
     if not items:
-        return [Item("step", str(result["status"]), 1.0, share, step_text(result))]
+        return [Item("step", result.status, 1.0, share, step_text(result))]
     if all_wrong != all_right:
         share = 1.0 if all_wrong else 0.0
-    claims = [clean(claim) for claim in result["inconsistent"]]
+    claims = [clean(claim) for claim in result.inconsistent]
     return [Item("step", "the rest", 1.0, share, "\n".join(["Points that no single check accounts for.", *claims]))]
 
 
-def entries_of(result: Mapping[str, Any], step: Step | None) -> list[Entry]:
+def entries_of(result: StepResult, step: Step | None) -> list[Entry]:
     """What was earned goes to the checks by what was right in them, what was lost by what was wrong."""
-    earned = _hundredths(result["points"])
-    lost = max(0, _hundredths(result["max"]) - earned)
+    earned = _hundredths(result.points)
+    lost = max(0, _hundredths(result.max) - earned)
     items = items_of(result, step)
     items += _rest(result, items, earned, lost)
     right = [item.weight * item.share for item in items]
@@ -189,35 +186,37 @@ def entries_of(result: Mapping[str, Any], step: Step | None) -> list[Entry]:
 
 # A whole submission in a few lines of text.
 
-Document = Mapping[str, Any]
 _HOW_TO_REPEAT = "to repeat these random inputs, set RAYSTEPS_SEED="  # what a failed test of the kit says first
 
 
-def title(result: Document, steps: Mapping[str, Step]) -> str:
+def title(result: StepResult, steps: Mapping[str, Step]) -> str:
     """`02 Intersection`, as the manifest has it."""
-    step = steps.get(result["id"])
-    name = step.title if step is not None else result["id"][3:]
-    return f"{result['id'][:2]} {name}" + (" (bonus)" if result["bonus"] else "")
+    step = steps.get(result.id)
+    name = step.title if step is not None else result.id[3:]
+    return f"{result.id[:2]} {name}" + (" (bonus)" if result.bonus else "")
 
 
-def total_line(document: Document) -> str:
+def total_line(results: Results) -> str:
     """`85.5 of 100 points, 5 of them bonus`."""
-    total = document["total"]
-    bonus = total["bonus"]["points"]
+    total = results.total
+    bonus = total.bonus.points
     of_them = f", {number(bonus)} of them bonus" if bonus else ""
-    return f"{number(total['points'])} of {number(total['max'])} points{of_them}"
+    return f"{number(total.points)} of {number(total.max)} points{of_them}"
 
 
-def _visible(result: Document) -> str:
+def _visible(result: StepResult) -> str:
     parts = []
-    for key, noun in (("tests", "test"), ("images", "picture")):
-        items: Sequence[Document] = result[key]
+    kinds: tuple[tuple[Sequence[TestResult | ImageResult], str], ...] = (
+        (result.tests, "test"),
+        (result.images, "picture"),
+    )
+    for items, noun in kinds:
         if items:
-            parts.append(f"{sum(item['passed'] for item in items)} of {count(len(items), noun)} passed")
-    return ", ".join(parts) or str(result["status"])
+            parts.append(f"{sum(item.passed for item in items)} of {count(len(items), noun)} passed")
+    return ", ".join(parts) or result.status
 
 
-def _failed_checks(result: Document, step: Step | None) -> list[str]:
+def _failed_checks(result: StepResult, step: Step | None) -> list[str]:
     """What failed, and why."""
     failed = [(item, _why(item.text)) for item in items_of(result, step) if not item.passed]
     return [f"  - {item.kind} {item.name}: {one_line(why, 300)}" for item, why in failed]
@@ -229,36 +228,36 @@ def _why(text: str) -> str:
     return ", ".join(lines[:2]) if lines[0].startswith("expected: ") else lines[0]
 
 
-def _same_for_all(document: Document) -> str:
+def _same_for_all(results: Results) -> str:
     """What is said of every step alike, such as that nothing could be read."""
-    said = {step_text(result) for result in document["steps"]}
-    return said.pop() if len(said) == 1 and len(document["steps"]) > 1 else ""
+    said = {step_text(result) for result in results.steps}
+    return said.pop() if len(said) == 1 and len(results.steps) > 1 else ""
 
 
-def summary(document: Document, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
+def summary(results: Results, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
     """One line per step with what there is to say about it, on request with the checks that failed; without points,
     nothing that hidden checks decide."""
-    lines = [f"{total_line(document)}."] if points else []
-    same = _same_for_all(document)
+    lines = [f"{total_line(results)}."] if points else []
+    same = _same_for_all(results)
     lines += same.splitlines()
-    for result in document["steps"]:
+    for result in results.steps:
         name = one_line(title(result, steps))
         if points:
-            lines.append(f"{name}: {number(result['points'])} of {number(result['max'])}, {result['status']}")
+            lines.append(f"{name}: {number(result.points)} of {number(result.max)}, {result.status}")
         else:
             lines.append(f"{name}: {_visible(result)}")
-        if not same and (points or result["status"] in ("not-started", "does-not-build")):
+        if not same and (points or result.status in ("not-started", "does-not-build")):
             lines += [f"  {line}" for line in step_text(result).splitlines()]
         if checks:
-            lines += _failed_checks(result, steps.get(result["id"]))
+            lines += _failed_checks(result, steps.get(result.id))
     return "\n".join(lines)
 
 
-def objects_tested(document: Document) -> float | None:
+def objects_tested(results: Results) -> float | None:
     """Step 06: surfaces tested per ray in percent of the scene's, over its pictures; None unless all are right."""
-    images = [image for result in document["steps"] if result["id"][:2] == "06" for image in result["images"]]
-    shares: list[float | None] = [image["share_tested"] for image in images if image["max_share"] is not None]
+    images = [image for result in results.steps if result.id[:2] == "06" for image in result.images]
+    shares: list[float | None] = [image.share_tested for image in images if image.max_share is not None]
     known = [share for share in shares if share is not None]
-    if not known or len(known) < len(shares) or not all(image["passed"] for image in images):
+    if not known or len(known) < len(shares) or not all(image.passed for image in images):
         return None
     return round(100 * sum(known) / len(known), 3)

@@ -13,6 +13,7 @@ from raysteps.common.files import encoded
 from raysteps.common.text import clean, count
 from raysteps.course.manifest import Step
 from raysteps.exports.items import Item, entries_of, one_line, summary, title
+from raysteps.results.model import Results, Total
 
 # Pictures that travel inside a JSON document.
 
@@ -85,19 +86,18 @@ _TEXT_LIMITS = (4000, 1000, 200, 60)
 _ROOM_FOR_A_NOTE = 200
 
 
-def score(document: Mapping[str, Any]) -> tuple[float, str]:
+def score(total: Total) -> tuple[float, str]:
     """From 0 to 1, and a note where the bonus would lead above."""
-    total = document["total"]
-    most = total["max"] or total["bonus"]["max"]
-    share = total["points"] / most if most else 0.0
+    most = total.max or total.bonus.max
+    share = total.points / most if most else 0.0
     note = "The bonus leads above 100 %, which PrairieLearn cannot hold: the score is 100 %." if share > 1 else ""
     return min(1.0, round(share, 6)), note
 
 
-def _tests(document: Mapping[str, Any], steps: Mapping[str, Step], album: Album, limit: int) -> list[dict[str, Any]]:
+def _tests(results: Results, steps: Mapping[str, Step], album: Album, limit: int) -> list[dict[str, Any]]:
     tests = []
-    for result in document["steps"]:
-        for entry in entries_of(result, steps.get(result["id"])):
+    for result in results.steps:
+        for entry in entries_of(result, steps.get(result.id)):
             item = entry.item
             test: dict[str, Any] = {
                 "name": f"{one_line(title(result, steps))}: {item.name}",
@@ -110,29 +110,27 @@ def _tests(document: Mapping[str, Any], steps: Mapping[str, Step], album: Album,
     return tests
 
 
-def _without_pictures(
-    document: Mapping[str, Any], steps: Mapping[str, Step], limit: int
-) -> tuple[dict[str, Any], Album]:
-    share, note = score(document)
+def _without_pictures(results: Results, steps: Mapping[str, Step], limit: int) -> tuple[dict[str, Any], Album]:
+    share, note = score(results.total)
     album = Album()
-    tests = _tests(document, steps, album, limit)
-    text = summary(document, steps)
-    results = {"gradable": True, "score": share, "message": clean("\n".join(filter(None, [note, text])), 8 * limit)}
-    return {**results, "tests": tests}, album
+    tests = _tests(results, steps, album, limit)
+    text = summary(results, steps)
+    made = {"gradable": True, "score": share, "message": clean("\n".join(filter(None, [note, text])), 8 * limit)}
+    return {**made, "tests": tests}, album
 
 
-def to_prairielearn(document: Mapping[str, Any], steps: Mapping[str, Step], folder: Path) -> dict[str, Any]:
+def to_prairielearn(results: Results, steps: Mapping[str, Step], folder: Path) -> dict[str, Any]:
     """Pictures are shrunk, then left out, until all is below the limit; the texts before that only if they must."""
     for limit in _TEXT_LIMITS:
-        results, album = _without_pictures(document, steps, limit)
-        room = MAX_BYTES - len(encoded(results)) - _ROOM_FOR_A_NOTE
+        made, album = _without_pictures(results, steps, limit)
+        room = MAX_BYTES - len(encoded(made)) - _ROOM_FOR_A_NOTE
         if room > 0:
             break
     left_out = album.paste(folder, room)
     if left_out:
         were = "was" if left_out == 1 else "were"
-        results["message"] += f"\n{count(left_out, 'picture')} did not fit and {were} left out."
-    return results
+        made["message"] += f"\n{count(left_out, 'picture')} did not fit and {were} left out."
+    return made
 
 
 def not_gradable(why: str) -> dict[str, Any]:

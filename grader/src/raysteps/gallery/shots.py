@@ -16,7 +16,7 @@ from raysteps.grading.images import trouble
 from raysteps.grading.step import GradingContext
 from raysteps.images.compare import Pixels
 from raysteps.images.render import Rendered, reference_picture, reference_work, render
-from raysteps.results.work_ratio import Work
+from raysteps.results.model import Work
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.compile import Program, StudentBuild

@@ -14,9 +14,9 @@ from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.grading.build_messages import link_message
 from raysteps.grading.images import ImageGrader, grade_integration, judge, too_many_tests, trouble
-from raysteps.grading.options import Settings, withhold
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
+from raysteps.grading.withhold import withhold
 from raysteps.images.compare import compare
 from raysteps.images.render import reference_picture
 from raysteps.judge.claims import contradictions
@@ -26,7 +26,8 @@ from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.plan import read_plan
 from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
-from raysteps.results.store import write_document
+from raysteps.results.settings import Settings
+from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
@@ -147,14 +148,17 @@ def grade_submission(
     sandbox: Sandbox,
     out: Path,
     say: Callable[[str], None] = lambda text: None,
+    *,
+    jobs: int = 1,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only."""
+    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only. So many `jobs` are
+    done at a time; that changes a grade only where a step is near its time limit."""
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
-        with ThreadPoolExecutor(max_workers=max(1, settings.jobs)) as pool:
+        with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
             say("building the steps")
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
@@ -165,9 +169,9 @@ def grade_submission(
             right = {result.id for result in alone if is_right(result)}
             steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
-    results = Results(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+    results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:
-        write_document(withhold(results.to_json(), settings.feedback), out)
+        write_results(withhold(results, settings.feedback), out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

@@ -15,7 +15,7 @@ from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
 from raysteps.images.render import reference_image_path
 from raysteps.results.model import Integration, Results, StepResult, Timing
-from raysteps.results.store import write_document
+from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
@@ -118,11 +118,11 @@ def self_check(
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
         found = _check(work, steps, jobs, chosen)
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
-    results = Results(
+    results = Results.of(
         submission.name, [found[step.id] for step in chosen], 0, kit.fingerprint, counted.isolation, timing
     )
     try:
-        write_document(results.to_json(), out)
+        write_results(results, out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

@@ -16,8 +16,7 @@ from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, Pixels, parse_ppm, read_png, read_ppm, write_png
-from raysteps.results.model import Termination
-from raysteps.results.work_ratio import Work
+from raysteps.results.model import Termination, Work
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -1,14 +1,13 @@
 """The example that a wrong function is shown with: the smallest that was found, kept in a file for `replay`."""
 
-import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Literal
 
+from raysteps.common.documents import Malformed, Text, parse
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.judge.choice_sequence import Choice, Recorder
@@ -19,19 +18,21 @@ from raysteps.results.store import FOLDER, place_of
 
 # A single case in a file, to be asked again: cases/NN-function.json beside results.json.
 
-SCHEMA = "raysteps/case/v1"
+SCHEMA: Literal["raysteps/case/v1"] = "raysteps/case/v1"
 _LARGEST = 1 << 20  # bytes
 
 
 @dataclass(frozen=True)
 class CaseFile:
-    """`line` is what the worker reads; the words are what people read, as it was when the file was written."""
+    """`line` is what the worker reads, with any number in front; the words are what people read, as it was when the
+    file was written."""
 
+    schema: Literal["raysteps/case/v1"]
     step: str
     function: str
     kind: str
     seed: int
-    line: str
+    line: Text
     problem: str
     given: str
     expected: str
@@ -39,7 +40,7 @@ class CaseFile:
 
 
 def write_case(path: Path, case: CaseFile) -> None:
-    write_json(path, {"schema": SCHEMA, **asdict(case)})
+    write_json(path, asdict(case))
 
 
 def _refuse(path: Path, problem: str) -> UsageError:
@@ -53,22 +54,19 @@ def read_case(path: Path) -> CaseFile:
             data = file.read(_LARGEST + 1)
         if len(data) > _LARGEST:
             raise _refuse(path, "too large")
-        document: Any = json.loads(data.decode("utf-8"))
+        case = parse(data, CaseFile)
     except IsADirectoryError as error:
         raise _refuse(path, "a folder; name a file in it") from error
     except OSError as error:
         raise _refuse(path, f"cannot be read ({reason(error)})") from error
-    except (ValueError, RecursionError) as error:
-        raise _refuse(path, f"not JSON ({error})") from error
-    problem = complaint(document, read_schema("raysteps.judge", "case.schema.json"))
-    if problem:
-        raise _refuse(path, f"a case that somebody changed ({problem.removeprefix('$').lstrip('.: ')})")
-    del document["schema"]
-    texts = {key: printable(value) for key, value in document.items() if key != "seed"}
+    except Malformed as error:
+        raise _refuse(path, str(error)) from error
+    function, line = printable(case.function), printable(case.line)
     for name, former in FORMER_NAMES.items():
-        if texts["function"] == former:
-            texts["function"], texts["line"] = name, texts["line"].replace(former, name, 1)
-    return CaseFile(seed=document["seed"], **texts)
+        if function == former:
+            function, line = name, line.replace(former, name, 1)
+    words = (printable(text) for text in (case.problem, case.given, case.expected, case.actual))
+    return CaseFile(SCHEMA, printable(case.step), function, printable(case.kind), case.seed, line, *words)
 
 
 LONGEST = 2000  # characters of an input or an answer in words
@@ -112,6 +110,6 @@ class Examples:
         verdict, given = found.verdict, shorten(found.case.given(), LONGEST)
         expected, actual = shorten(verdict.expected, LONGEST), shorten(verdict.actual, LONGEST)
         line, name = found.case.line(1), place_of(step.number, function.name)
-        case = CaseFile(step.id, function.name, kind, seed, line, str(verdict.problem), given, expected, actual)
+        case = CaseFile(SCHEMA, step.id, function.name, kind, seed, line, str(verdict.problem), given, expected, actual)
         write_case(self.folder / name, case)
         return found, name

@@ -4,15 +4,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Literal
 
+from msgspec import Meta
+
+from raysteps.common.documents import Text, parse_table, read_text
 from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import parse_table, read_text
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.functions import functions_of
 
 Moves = Literal["camera", "camera and spheres"]
+_Weight = Annotated[float, Meta(gt=0)]
+_Wrong = Annotated[float, Meta(ge=0, le=1)]  # share of the pixels
 
 
 @dataclass(frozen=True)
@@ -40,13 +44,13 @@ class TwinPlan:
 class RandomPlan:
     """A scene that is made up: spheres and triangles above a ground."""
 
-    name: str
-    spheres: int
-    triangles: int
+    name: Text
+    spheres: Annotated[int, Meta(ge=0, le=2000)]
+    triangles: Annotated[int, Meta(ge=0, le=2000)]
     args: tuple[str, ...]
-    max_wrong: float
-    max_share: float | None
-    weight: float
+    max_wrong: _Wrong
+    weight: _Weight
+    max_share: Annotated[float, Meta(gt=0, le=1)] | None = None
 
 
 @dataclass(frozen=True)
@@ -58,26 +62,33 @@ class Plan:
     random_scenes: tuple[RandomPlan, ...]
 
 
-def _function(name: str, table: dict[str, Any]) -> FunctionPlan:
-    return FunctionPlan(name, float(table["weight"]), float(table.get("may_miss", 0.01)), table["cases"])
+@dataclass(frozen=True)
+class _FunctionTable:
+    """A function in cases.toml: how many cases of each kind, and the share of them that may miss."""
+
+    weight: _Weight
+    cases: Annotated[dict[str, Annotated[int, Meta(ge=1, le=1000)]], Meta(min_length=1)]
+    may_miss: Annotated[float, Meta(ge=0, le=0.1)] = 0.01
 
 
-def _twin(table: dict[str, Any]) -> TwinPlan:
-    moves: Moves = table["moves"]
-    return TwinPlan(table["of"], moves, table["size"], float(table["max_wrong"]), float(table["weight"]))
+@dataclass(frozen=True)
+class _TwinTable:
+    """A picture of step.toml once more, in cases.toml."""
+
+    of: Text
+    moves: Moves
+    size: Annotated[str, Meta(pattern="^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$")]
+    max_wrong: _Wrong
+    weight: _Weight
 
 
-def _random(table: dict[str, Any]) -> RandomPlan:
-    share = table.get("max_share")
-    return RandomPlan(
-        table["name"],
-        table["spheres"],
-        table["triangles"],
-        tuple(table["args"]),
-        float(table["max_wrong"]),
-        None if share is None else float(share),
-        float(table["weight"]),
-    )
+@dataclass(frozen=True)
+class _PlanTable:
+    """cases.toml."""
+
+    functions: Annotated[dict[str, _FunctionTable], Meta(min_length=1)] | None = None
+    twins: tuple[_TwinTable, ...] = ()
+    random_scenes: tuple[RandomPlan, ...] = ()
 
 
 def _check_names(plan: Plan, step: Step) -> None:
@@ -97,11 +108,11 @@ def _check_names(plan: Plan, step: Step) -> None:
 
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> Plan:
-    table = parse_table(text, path, "a plan of hidden cases", "raysteps.judge", "cases.schema.json")
+    table = parse_table(text, path, "a plan of hidden cases", _PlanTable)
     plan = Plan(
-        tuple(_function(name, function) for name, function in table.get("functions", {}).items()),
-        tuple(_twin(twin) for twin in table.get("twins", [])),
-        tuple(_random(scene) for scene in table.get("random_scenes", [])),
+        tuple(FunctionPlan(name, it.weight, it.may_miss, it.cases) for name, it in (table.functions or {}).items()),
+        tuple(TwinPlan(twin.of, twin.moves, twin.size, twin.max_wrong, twin.weight) for twin in table.twins),
+        table.random_scenes,
     )
     _check_names(plan, step)
     return plan

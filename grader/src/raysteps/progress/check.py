@@ -33,13 +33,13 @@ def _look_through(
     jobs = os.cpu_count() or 1
     if not kit.has_reference:
         return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say)
-    from raysteps.grading.options import Settings
     from raysteps.grading.pipeline import (
         grade_submission,  # a students' kit has neither the judge nor what belongs to it
     )
+    from raysteps.results.settings import Settings
 
-    settings = Settings(only=tuple(step.id for step in chosen), jobs=jobs)
-    return grade_submission(kit, submission, settings, LimitsOnly(), out, say)
+    settings = Settings(only=tuple(step.id for step in chosen))
+    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs)
 
 
 def check_steps(project: Project, chosen: list[Step], say: ProgressCallback) -> CheckResult:

@@ -23,7 +23,7 @@ from raysteps.grading.scoring import max_points
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # what checks the types of documents takes long to load
     from raysteps.results.model import Results, StepResult
 
 # What the last check of each step said; `build/check` holds the last check only, perhaps of another step.

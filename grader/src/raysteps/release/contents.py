@@ -32,7 +32,7 @@ NEVER = (
     "raysteps.course.mutants",
     "raysteps.diagnosis",
     "raysteps.gallery",
-    "raysteps.grading.options",
+    "raysteps.grading.withhold",
     "raysteps.grading.pipeline",
     "raysteps.inspector.blame",
     "raysteps.inspector.divergence",

@@ -1,13 +1,13 @@
 """What needs a person's eye in a class, apart from the table."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from raysteps.common.text import count, number, printable, shorten
+from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent
 
-Document = Mapping[str, Any]
 Weight = Literal["bad", "warn", "note"]
 _LONGEST = 300
 
@@ -41,57 +41,55 @@ def _points(value: float | None) -> str:
 
 
 class _Finder:
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: ClassResults) -> None:
         self._document = document
-        self._rows = {one["name"]: (row, one) for row, one in enumerate(document["submissions"])}
+        self._rows = {one.name: (row, one) for row, one in enumerate(document.submissions)}
 
     def _item(self, name: str, words: Sequence[str]) -> Item:
         found = self._rows.get(name)
         return Item(found[0] if found else None, name, words)
 
-    def _of(self, key: str) -> list[tuple[str, Document]]:
-        return [(name, self._rows[name][1]) for name in self._document[key] if name in self._rows]
+    def _of(self, names: Sequence[str]) -> list[tuple[str, GradedSubmission]]:
+        return [(name, self._rows[name][1]) for name in names if name in self._rows]
 
     def faults(self) -> list[Item]:
-        return [self._item(name, [_first_line(one["fault"])]) for name, one in self._of("faults")]
+        return [self._item(name, [_first_line(one.fault)]) for name, one in self._of(self._document.faults)]
 
     def inconsistent(self) -> list[Item]:
         return [
-            self._item(
-                name, [f"{step[:2]}: {claim}" for step, claims in one["inconsistent"].items() for claim in claims]
-            )
-            for name, one in self._of("inconsistent")
+            self._item(name, [f"{step[:2]}: {claim}" for step, claims in one.inconsistent.items() for claim in claims])
+            for name, one in self._of(self._document.inconsistent)
         ]
 
     def late_by_file(self) -> list[Item]:
         return [
-            self._item(name, [f"{one['submitted_at']}, {count(one['late']['days'], 'day')} begun"])
+            self._item(name, [f"{one.submitted_at}, {count(one.late.days, 'day')} begun"])
             for name, (_, one) in self._rows.items()
-            if one["submitted_from"] == "files" and one["late"] is not None and one["late"]["days"]
+            if one.submitted_from == "files" and one.late is not None and one.late.days
         ]
 
     def strangers(self) -> list[Item]:
-        named = self._of("submissions_without_student")
-        return [self._item(name, [one["note"]] if one["note"] else []) for name, one in named]
+        named = self._of(self._document.submissions_without_student)
+        return [self._item(name, [one.note] if one.note else []) for name, one in named]
 
-    def people(self, key: str) -> list[Item]:
+    def people(self, students: Sequence[NotedStudent]) -> list[Item]:
         found = []
-        for one in self._document[key]:
-            words = [word for word in (one["id"], one["name"], one["email"]) if word]
-            found.append(Item(None, " ".join(words), [one["note"]] if one["note"] else []))
+        for one in students:
+            words = [word for word in (one.id, one.name, one.email) if word]
+            found.append(Item(None, " ".join(words), [one.note] if one.note else []))
         return found
 
     def changed(self) -> list[Item]:
         return [
-            self._item(one["name"], [f"{_points(one['before'])} before, {_points(one['after'])} now"])
-            for one in self._document["changed"]
+            self._item(one.name, [f"{_points(one.before)} before, {_points(one.after)} now"])
+            for one in self._document.changed
         ]
 
-    def plain(self, key: str) -> list[Item]:
-        return [self._item(name, []) for name in self._document[key]]
+    def plain(self, names: Sequence[str]) -> list[Item]:
+        return [self._item(name, []) for name in names]
 
 
-def groups(document: Document) -> list[Group]:
+def groups(document: ClassResults) -> list[Group]:
     """Those with something in them, the most urgent first."""
     find = _Finder(document)
     inconsistent = "The program claims what the judge did not see. Look at its code before you trust the points."
@@ -103,15 +101,15 @@ def groups(document: Document) -> list[Group]:
             "bad",
             "Nothing could be taken from these",
             "0 points, which count in no mean; the report of each says why.",
-            find.plain("unreadable"),
+            find.plain(document.unreadable),
         ),
-        Group("not graded", "warn", "Not graded yet", "--resume goes on with these.", find.plain("not_graded")),
+        Group("not graded", "warn", "Not graded yet", "--resume goes on with these.", find.plain(document.not_graded)),
         Group(
             "earlier result",
             "warn",
             "With an earlier result",
             "The last run was interrupted before it came to these.",
-            find.plain("outdated"),
+            find.plain(document.outdated),
         ),
         Group(
             "late by file time",
@@ -121,11 +119,13 @@ def groups(document: Document) -> list[Group]:
             find.late_by_file(),
         ),
         Group("nobody's", "warn", "Without a student on the roster", "Nothing is lost.", find.strangers()),
-        Group("", "note", "On the roster, but without a submission", "", find.people("students_without_submission")),
-        Group("", "note", "With more than one submission", "", find.people("students_with_several")),
+        Group(
+            "", "note", "On the roster, but without a submission", "", find.people(document.students_without_submission)
+        ),
+        Group("", "note", "With more than one submission", "", find.people(document.students_with_several)),
         Group("", "note", "Changed since the last time", "", find.changed()),
-        Group("", "note", "Graded earlier, but no longer in the folder", "", find.plain("gone")),
-        Group("", "note", "Extensions for ids that nobody has", "", find.plain("unknown_extensions")),
+        Group("", "note", "Graded earlier, but no longer in the folder", "", find.plain(document.gone)),
+        Group("", "note", "Extensions for ids that nobody has", "", find.plain(document.unknown_extensions)),
     ]
     return [group for group in found if group.items]
 
@@ -155,16 +155,14 @@ class CommonMistake:
     rows: Sequence[int]
 
 
-def common_mistakes(document: Document) -> list[CommonMistake]:
+def common_mistakes(document: ClassResults) -> list[CommonMistake]:
     """The most common first, in the order of class.json."""
     rows: dict[tuple[str, str], list[int]] = defaultdict(list)
-    for index, one in enumerate(document["submissions"]):
-        for step, titles in one.get("mistakes", {}).items():
+    for index, one in enumerate(document.submissions):
+        for step, titles in one.mistakes.items():
             for title in titles:
                 rows[step, title].append(index)
     return [
-        CommonMistake(
-            index, found["step"], found["title"], found["submissions"], rows.get((found["step"], found["title"]), ())
-        )
-        for index, found in enumerate(document["mistakes"])
+        CommonMistake(index, found.step, found.title, found.submissions, rows.get((found.step, found.title), ()))
+        for index, found in enumerate(document.mistakes)
     ]

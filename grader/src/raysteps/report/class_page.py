@@ -5,7 +5,6 @@ import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 from raysteps.common.files import write_bytes
@@ -23,10 +22,10 @@ from raysteps.report.class_statistics import (
 )
 from raysteps.report.page import render_page
 from raysteps.report.wording import STATUS_WORDS
+from raysteps.results.class_model import ClassResults, GradedSubmission, StepPoints
 
 # The table of a class: what each row shows, and what it is sorted and found by.
 
-Document = Mapping[str, Any]
 Link = Callable[[str], str | None]
 
 STATUSES = {str(status): words for status, (words, _, _) in STATUS_WORDS.items()}
@@ -67,58 +66,58 @@ def aliases(names: Sequence[str]) -> list[str]:
     return [f"student {numbers[name]}" for name in names]
 
 
-def _who(one: Document) -> tuple[str, str]:
+def _who(one: GradedSubmission) -> tuple[str, str]:
     """The name to show, and what else tells who it is."""
-    people = [student["name"] or student["id"] or student["email"] for student in one["students"]]
-    ids = [student["id"] for student in one["students"] if student["id"] and student["name"]]
+    people = [student.name or student.id or student.email for student in one.students]
+    ids = [student.id for student in one.students if student.id and student.name]
     if not people:
-        return printable(one["name"]), ""
-    return printable(", ".join(people)), printable(" · ".join([*ids, one["name"]]))
+        return printable(one.name), ""
+    return printable(", ".join(people)), printable(" · ".join([*ids, one.name]))
 
 
-def _found_by(one: Document) -> str:
+def _found_by(one: GradedSubmission) -> str:
     """As the page makes what is searched for: lower case without folding, and one code for each letter."""
-    words = [one["name"], one["entry"]]
-    words += [student[key] for student in one["students"] for key in ("id", "name", "email")]
+    words = [one.name, one.entry]
+    words += [word for student in one.students for word in (student.id, student.name, student.email)]
     return unicodedata.normalize("NFC", " ".join(dict.fromkeys(word for word in words if word)).lower())
 
 
-def _cell(result: Document | None) -> Cell | None:
+def _cell(result: StepPoints | None) -> Cell | None:
     if result is None:
         return None
-    words = STATUSES.get(result["status"], printable(result["status"]))
-    return Cell(result["status"], words, number(result["points"]))
+    words = STATUSES.get(result.status, printable(result.status))
+    return Cell(result.status, words, number(result.points))
 
 
 def _points(value: float | None, status: str) -> str:
     return _NO_POINTS.get(status, "") if value is None else number(value)
 
 
-def table_rows(document: Document, marks: Mapping[int, Sequence[str]], link: Link) -> list[Row]:
+def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link: Link) -> list[Row]:
     """One for each submission, in the order of class.json."""
-    submissions = document["submissions"]
-    steps = [step["id"] for step in document["steps"]]
+    submissions = document.submissions
+    steps = [step.id for step in document.steps]
     rows = []
-    for index, (one, alias) in enumerate(zip(submissions, aliases([one["name"] for one in submissions]), strict=True)):
-        results = [one["steps"].get(step) for step in steps]
-        days = one["late"]["days"] if one["late"] is not None else 0
-        seconds = one.get("seconds")
+    for index, (one, alias) in enumerate(zip(submissions, aliases([one.name for one in submissions]), strict=True)):
+        results = [one.steps.get(step) for step in steps]
+        days = one.late.days if one.late is not None else 0
+        seconds = one.seconds
         who, more = _who(one)
-        keys = [result["points"] if result is not None else None for result in results]
+        keys = [result.points if result is not None else None for result in results]
         rows.append(
             Row(
                 alias=alias,
                 who=who,
                 more=more,
-                link=link(one["name"]),
+                link=link(one.name),
                 cells=[_cell(result) for result in results],
-                total=_points(one["points"], one["status"]),
+                total=_points(one.points, one.status),
                 days=days,
-                final="" if one["final"] is None else number(one["final"]),
+                final="" if one.final is None else number(one.final),
                 seconds="" if seconds is None else f"{seconds:.1f}",
                 marks=marks.get(index, []),
                 words=_found_by(one),
-                keys=[*keys, one["points"], days, one["final"], seconds],
+                keys=[*keys, one.points, days, one.final, seconds],
             )
         )
     return rows
@@ -152,13 +151,13 @@ def _step(figures: StepFigures, mistakes: list[CommonMistake]) -> dict[str, obje
     }
 
 
-def _facts(document: Document) -> dict[str, object]:
+def _facts(document: ClassResults) -> dict[str, object]:
     """What stands over everything."""
     figures = step_figures(document)
     mistakes = common_mistakes(document)
-    regular = sum(step["points"] for step in document["steps"] if not step["bonus"])
-    bonus = sum(step["points"] for step in document["steps"] if step["bonus"])
-    finals = [one["final"] for one in graded(document)]
+    regular = sum(step.points for step in document.steps if not step.bonus)
+    bonus = sum(step.points for step in document.steps if step.bonus)
+    finals = [one.final for one in graded(document) if one.final is not None]
     return {
         "steps": [_step(one, mistakes) for one in figures],
         "regular": regular,
@@ -167,11 +166,11 @@ def _facts(document: Document) -> dict[str, object]:
         "totals": histogram(total_bars(finals, regular + bonus), 640, 200),
         "times": times(document),
         "span": span,
-        "isolations": sorted({one["isolation"] for one in document["submissions"] if one["isolation"]}),
+        "isolations": sorted({one.isolation for one in document.submissions if one.isolation}),
     }
 
 
-def _data(document: Document, rows: list[Row]) -> dict[str, object]:
+def _data(document: ClassResults, rows: list[Row]) -> dict[str, object]:
     """What the scripts sort and filter by; rows are in the order of the table."""
     by_row: dict[int, list[int]] = {}
     for mistake in common_mistakes(document):
@@ -195,15 +194,15 @@ def _data(document: Document, rows: list[Row]) -> dict[str, object]:
     }
 
 
-def class_page(document: Document, link: Callable[[str], str | None]) -> str:
+def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str:
     """The page. `link` gives the address of what is known of a submission."""
     apart = groups(document)
     rows = table_rows(document, marks(apart), link)
     late = any(row.days for row in rows)
     context = {
-        "run": document["run"],
-        "policy": document["late_policy"],
-        "statistics": document["statistics"],
+        "run": document.run,
+        "policy": document.late_policy,
+        "statistics": document.statistics,
         "apart": apart,
         "rows": rows,
         "late": late,
@@ -215,14 +214,14 @@ def class_page(document: Document, link: Callable[[str], str | None]) -> str:
     return render_page("class", "Class report", context, scripts, ("class", "class-table"), _data(document, rows))
 
 
-def write_class_report(document: Document, folder: Path) -> Path:
+def write_class_report(document: ClassResults, folder: Path) -> Path:
     """FOLDER/class.html, of a class document and the files that lie beside it."""
     path = folder / FILE
     write_bytes(path, class_page(document, _links(folder)).encode("utf-8", "replace"))
     return path
 
 
-def try_class_report(document: Document, folder: Path, say: Callable[[str], None]) -> None:
+def try_class_report(document: ClassResults, folder: Path, say: Callable[[str], None]) -> None:
     """As `write_class_report`; no page is worth the grades of a class."""
     try:
         write_class_report(document, folder)

@@ -5,11 +5,10 @@ import statistics
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from raysteps.common.text import count, number
+from raysteps.results.class_model import ClassResults, GradedSubmission
 
-Document = Mapping[str, Any]
 _BARS = 14
 _SLOWEST = 5
 
@@ -64,9 +63,9 @@ def span(seconds: float) -> str:
     return f"{hours} h {minutes} min" if hours else f"{minutes} min {whole % 60} s"
 
 
-def graded(document: Document) -> list[Document]:
+def graded(document: ClassResults) -> list[GradedSubmission]:
     """Those whose points count: not those from which nothing could be taken."""
-    return [one for one in document["submissions"] if one["status"] == "graded"]
+    return [one for one in document.submissions if one.status == "graded"]
 
 
 def mean(values: Sequence[float]) -> float | None:
@@ -117,25 +116,23 @@ def share_bars(values: Sequence[float], top: float) -> list[Bar]:
     return [Bar(label, words, counts[index]) for index, (label, words) in enumerate((*_SHARES, *_MAX))]
 
 
-def step_figures(document: Document) -> list[StepFigures]:
+def step_figures(document: ClassResults) -> list[StepFigures]:
     """In the order of the steps."""
     figures = []
-    for step in document["steps"]:
-        found = [one["steps"][step["id"]] for one in graded(document) if step["id"] in one["steps"]]
-        points = [result["points"] for result in found]
-        statuses = Counter(result["status"] for result in found)
-        bars = share_bars(points, step["points"])
+    for step in document.steps:
+        found = [one.steps[step.id] for one in graded(document) if step.id in one.steps]
+        points = [result.points for result in found]
+        statuses = Counter(result.status for result in found)
+        bars = share_bars(points, step.points)
         figures.append(
-            StepFigures(
-                step["id"], step["title"], step["points"], step["bonus"], statuses, mean(points), median(points), bars
-            )
+            StepFigures(step.id, step.title, step.points, step.bonus, statuses, mean(points), median(points), bars)
         )
     return figures
 
 
-def times(document: Document) -> Times | None:
+def times(document: ClassResults) -> Times | None:
     """None where no time is known, as in the files of an older kit."""
-    known = [(index, one["seconds"]) for index, one in enumerate(document["submissions"]) if one.get("seconds")]
+    known = [(index, one.seconds) for index, one in enumerate(document.submissions) if one.seconds]
     if not known:
         return None
     seconds = [value for _, value in known]

@@ -1,11 +1,9 @@
 """report.html: the results of one submission as a page."""
 
-import json
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.files import write_if_changed
 from raysteps.common.text import clean, count, mean, number, size
@@ -22,14 +20,14 @@ from raysteps.report.page import (
     render_page,
 )
 from raysteps.report.wording import HOW_SURE, STATUS_WORDS, check_command, inspect_command, percent, replay_command
-from raysteps.results.work_ratio import Work
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
+from raysteps.results.store import read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
 
 _MAX_PIXELS = 1 << 22
 
 Place = tuple[str, str]  # step and name of the picture
-Document = Mapping[str, Any]
 
 
 @dataclass
@@ -59,7 +57,7 @@ def _read(path: Path | None) -> PictureData | None:
         return None
 
 
-def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]) -> PictureData | None:
+def _flip(folder: Path, image: ImageResult, sides: Mapping[str, PictureData | None]) -> PictureData | None:
     """Only where there is something to see: for equal pictures it would be black."""
     reference, mine = sides["reference"], sides["mine"]
     if reference is None or mine is None or reference.src == mine.src:
@@ -67,8 +65,8 @@ def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]
     if reference.width * reference.height > _MAX_PIXELS or mine.width * mine.height > _MAX_PIXELS:
         return None
     pixels = []
-    for role in ("reference", "mine"):
-        path = _path(folder, image[role])
+    for name in (image.reference, image.mine):
+        path = _path(folder, name)
         assert path is not None
         try:
             pixels.append(read_png(path))
@@ -78,20 +76,20 @@ def _flip(folder: Path, image: Document, sides: Mapping[str, PictureData | None]
     return pixel_data(gray) if gray is not None else None
 
 
-def _wrong_first(document: Document) -> Iterator[tuple[Place, Document]]:
-    images = [((step["id"], image["name"]), image) for step in document["steps"] for image in step["images"]]
-    return iter(sorted(images, key=lambda item: bool(item[1]["passed"])))
+def _wrong_first(results: Results) -> Iterator[tuple[Place, ImageResult]]:
+    images = [((step.id, image.name), image) for step in results.steps for image in step.images]
+    return iter(sorted(images, key=lambda item: bool(item[1].passed)))
 
 
-def make_album(document: Document, folder: Path, room: int) -> dict[Place, ShownImage]:
+def make_album(results: Results, folder: Path, room: int) -> dict[Place, ShownImage]:
     """As many as fit into so many characters: the wrong ones first, then the right ones, and maps last."""
     album: dict[Place, ShownImage] = {}
-    for place, image in _wrong_first(document):
-        sides = {role: _read(_path(folder, image[role])) for role in ("reference", "mine")}
+    for place, image in _wrong_first(results):
+        sides = {"reference": _read(_path(folder, image.reference)), "mine": _read(_path(folder, image.mine))}
         size = sum(len(side.src) for side in sides.values() if side is not None)
         album[place] = ShownImage(sides) if size <= room else ShownImage(left_out=True)
         room -= size if size <= room else 0
-    for place, image in _wrong_first(document):
+    for place, image in _wrong_first(results):
         shown = album[place]
         flip = _flip(folder, image, shown.pictures) if shown.any else None
         if flip is not None and len(flip.src) <= room:
@@ -117,32 +115,32 @@ class Part:
     earned: float
 
 
-def _right(items: Sequence[Mapping[str, Any]], noun: str) -> tuple[str, float]:
-    right = sum(bool(item["passed"]) for item in items)
+def _right(items: Sequence[TestResult | ImageResult], noun: str) -> tuple[str, float]:
+    right = sum(item.passed for item in items)
     return (f"{right} of {count(len(items), noun)}", right / len(items)) if items else ("not run", 0.0)
 
 
-def _hidden_part(items: Sequence[Mapping[str, Any]]) -> tuple[str, float]:
-    weight = sum(item["weight"] for item in items)
-    share = sum(item["share"] * item["weight"] for item in items) / weight if weight else 0.0
+def _hidden_part(items: Sequence[HiddenResult]) -> tuple[str, float]:
+    weight = sum(item.weight for item in items)
+    share = sum(item.share * item.weight for item in items) / weight if weight else 0.0
     if not items:
         return "not run", 0.0
     return percent(share), share
 
 
-def parts_of(result: Mapping[str, Any], step: Step | None) -> list[Part]:
+def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     """Tests, pictures, hidden and together; without the hidden part where the kit cannot judge it. Nothing when the
     step's weights are not known."""
     if step is None:
         return []
-    together = bool(result["cumulative"]["passed"])
+    together = result.cumulative.passed
     found = [
-        ("tests", _right(result["tests"], "test"), step.weight_tests),
-        ("pictures", _right(result["images"], "picture"), step.weight_images),
-        ("hidden", _hidden_part(result["hidden"]), step.weight_hidden),
+        ("tests", _right(result.tests, "test"), step.weight_tests),
+        ("pictures", _right(result.images, "picture"), step.weight_images),
+        ("hidden", _hidden_part(result.hidden), step.weight_hidden),
         ("together", ("yes" if together else "no", float(together)), step.weight_together),
     ]
-    if result["max"] < step.points - _NEAR:
+    if result.max < step.points - _NEAR:
         found = [part for part in found if part[0] != "hidden"]
     return [
         Part(name, said, share, weight * 100, step.points * weight, step.points * weight * share)
@@ -151,61 +149,60 @@ def parts_of(result: Mapping[str, Any], step: Step | None) -> list[Part]:
     ]
 
 
-def rest_of(result: Mapping[str, Any], parts: Sequence[Part]) -> float:
+def rest_of(result: StepResult, parts: Sequence[Part]) -> float:
     """Points that the parts do not account for, as when an older kit weighed them otherwise."""
-    rest = result["points"] - sum(part.earned for part in parts)
+    rest = result.points - sum(part.earned for part in parts)
     return round(float(rest), 2) if parts and abs(rest) > _NEAR else 0.0
 
 
-# One step of a results.json, made ready for a page. Whatever a student's program may have said is cleaned.
+# One step of the results, made ready for a page. Whatever a student's program may have said is cleaned.
 
 _LOG = 20_000  # characters of what the compiler said
 _TEXT = 2_000  # of any other text
 _HINTS = ("a question", "an idea", "pseudocode")
 
 
-def diagnosis_view(diagnosis: Document) -> dict[str, Any]:
+def diagnosis_view(diagnosis: Diagnosis) -> dict[str, object]:
     """The word before it says how sure one can be."""
-    finding = diagnosis["kind"] == "finding"
-    lines = (("You see", diagnosis["sees"]), ("Cause", diagnosis["cause"]), ("Hint", diagnosis["hint"]))
+    finding = diagnosis.kind == "finding"
+    lines = (("You see", diagnosis.sees), ("Cause", diagnosis.cause), ("Hint", diagnosis.hint))
     return {
-        "sure": HOW_SURE[diagnosis["kind"]].capitalize() + ("" if diagnosis["kind"] == "transformation" else ":"),
-        "title": clean(diagnosis["title"]),
-        "alike": [clean(other) for other in diagnosis["alike"]],
-        "seen_in": "" if finding else ", ".join(clean(name) for name in diagnosis["seen_in"]),
+        "sure": HOW_SURE[diagnosis.kind].capitalize() + ("" if diagnosis.kind == "transformation" else ":"),
+        "title": clean(diagnosis.title),
+        "alike": [clean(other) for other in diagnosis.alike],
+        "seen_in": "" if finding else ", ".join(clean(name) for name in diagnosis.seen_in),
         "lines": [(label, clean(text)) for label, text in lines if text],
     }
 
 
-def _test(test: Document) -> dict[str, Any]:
-    texts = {key: clean(test[key], _TEXT) for key in ("name", "message", "expression", "expanded", "location")}
-    return {**texts, "passed": test["passed"], "outcome": test["outcome"]}
+def _test(test: TestResult) -> dict[str, object]:
+    words = ("name", "message", "expression", "expanded", "location")
+    texts = {word: clean(getattr(test, word), _TEXT) for word in words}
+    return {**texts, "passed": test.passed, "outcome": test.outcome}
 
 
-def _hidden(item: Document) -> dict[str, Any]:
-    groups = [
-        {"name": clean(group["name"]), "right": group["right"], "cases": group["cases"]} for group in item["groups"]
-    ]
+def _hidden(item: HiddenResult) -> dict[str, object]:
+    groups = [replace(group, name=clean(group.name)) for group in item.groups]
     return {
-        "name": clean(item["name"]),
-        "passed": item["share"] >= 1,
-        "percent": percent(item["share"]),
-        "message": clean(item["message"]),
+        "name": clean(item.name),
+        "passed": item.share >= 1,
+        "percent": percent(item.share),
+        "message": clean(item.message),
         "case": [
             (label, clean(text, _TEXT))
-            for label, text in (("Given", item["given"]), ("Expected", item["expected"]), ("Actual", item["actual"]))
+            for label, text in (("Given", item.given), ("Expected", item.expected), ("Actual", item.actual))
             if text
         ],
-        "again": replay_command(clean(item["case"])) if item["case"] else "",
-        "groups": [group for group in groups if group["right"] < group["cases"]],
+        "again": replay_command(clean(item.case)) if item.case else "",
+        "groups": [group for group in groups if group.right < group.cases],
     }
 
 
-def _work(image: Document) -> list[tuple[str, str, str]]:
+def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     """What the picture cost: what was counted, mine and the reference's."""
-    if not image.get("work") or not image.get("reference_work"):
+    mine, reference = image.work, image.reference_work
+    if mine is None or reference is None:
         return []
-    mine, reference = Work(**image["work"]), Work(**image["reference_work"])
     return [
         ("surfaces tested per ray", mean(mine.surfaces_per_ray), mean(reference.surfaces_per_ray)),
         ("boxes tested per ray", mean(mine.boxes_per_ray), mean(reference.boxes_per_ray)),
@@ -215,22 +212,22 @@ def _work(image: Document) -> list[tuple[str, str, str]]:
     ]
 
 
-def _image(image: Document, step: Step | None, shown: ShownImage) -> dict[str, Any]:
-    wrong, share = image["wrong_share"], image.get("share_tested")
+def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str, object]:
+    wrong, share = image.wrong_share, image.share_tested
     facts = []
     if wrong is not None:
-        facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image['max_wrong']:.2%} may be")
-    if share is not None and image["max_share"] is not None:
-        facts.append(f"a ray tests {share:.3g} of the objects; at most {image['max_share']:.3g} of them may be tested")
+        facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be")
+    if share is not None and image.max_share is not None:
+        facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")
     return {
-        "name": clean(image["name"]),
-        "scene": clean(image["scene"]),
-        "passed": image["passed"],
-        "message": clean(image["message"]),
+        "name": clean(image.name),
+        "scene": clean(image.scene),
+        "passed": image.passed,
+        "message": clean(image.message),
         "facts": facts,
         "shown": shown,
-        "files": [clean(image[role]) for role in ("mine", "reference") if image[role]],
-        "inspect": inspect_command(image, step),
+        "files": [clean(name) for name in (image.mine, image.reference) if name],
+        "inspect": inspect_command(image.name, step),
         "work": _work(image),
     }
 
@@ -244,32 +241,32 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
     ]
 
 
-def step_view(result: Document, step: Step | None, album: Mapping[Place, ShownImage]) -> dict[str, Any]:
+def step_view(result: StepResult, step: Step | None, album: Mapping[Place, ShownImage]) -> dict[str, object]:
     """All that the page says of a step."""
-    words, tone, sign = STATUS_WORDS[result["status"]]
+    words, tone, sign = STATUS_WORDS[result.status]
     parts = parts_of(result, step)
-    images = [_image(image, step, album[(result["id"], image["name"])]) for image in result["images"]]
+    images = [_image(image, step, album[(result.id, image.name)]) for image in result.images]
     return {
-        "id": result["id"],
-        "number": result["id"][:2],
-        "title": step.title if step is not None else result["id"][3:].replace("-", " "),
-        "status": {"id": result["status"], "words": words, "tone": tone, "sign": sign},
-        "points": number(result["points"]),
-        "max": number(result["max"]),
-        "share": result["points"] / result["max"] if result["max"] else 0.0,
-        "bonus": result["bonus"],
+        "id": result.id,
+        "number": result.id[:2],
+        "title": step.title if step is not None else result.id[3:].replace("-", " "),
+        "status": {"id": result.status, "words": words, "tone": tone, "sign": sign},
+        "points": number(result.points),
+        "max": number(result.max),
+        "share": result.points / result.max if result.max else 0.0,
+        "bonus": result.bonus,
         "parts": parts,
         "rest": rest_of(result, parts),
-        "messages": [clean(message) for message in result["messages"]],
-        "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.get("diagnoses", ())],
-        "tests": [_test(test) for test in result["tests"]],
-        "hidden": [_hidden(item) for item in result["hidden"]],
+        "messages": [clean(message) for message in result.messages],
+        "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.diagnoses],
+        "tests": [_test(test) for test in result.tests],
+        "hidden": [_hidden(item) for item in result.hidden],
         "images": images,
-        "inconsistent": [clean(claim) for claim in result["inconsistent"]],
-        "build_log": clean(result["build_log"], _LOG),
-        "together": {"passed": result["cumulative"]["passed"], "message": clean(result["cumulative"]["message"])},
+        "inconsistent": [clean(claim) for claim in result.inconsistent],
+        "build_log": clean(result.build_log, _LOG),
+        "together": {"passed": result.cumulative.passed, "message": clean(result.cumulative.message)},
         "hints": hint_views(step.hints) if step is not None else [],
-        "check": check_command(result["id"]),
+        "check": check_command(result.id),
     }
 
 
@@ -279,70 +276,70 @@ _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
 
 
-def _next(steps: Sequence[Mapping[str, Any]]) -> Mapping[str, Any] | None:
+def _next(steps: Sequence[StepResult]) -> StepResult | None:
     """The first step that is not solved; a bonus only when nothing else is left."""
-    unsolved = [step for step in steps if step["status"]["id"] != "passed"]
-    return next((step for step in unsolved if not step["bonus"]), unsolved[0] if unsolved else None)
+    unsolved = [step for step in steps if step.status != "passed"]
+    return next((step for step in unsolved if not step.bonus), unsolved[0] if unsolved else None)
 
 
-def _total(document: Mapping[str, Any]) -> dict[str, Any]:
-    total, bonus = document["total"], document["total"]["bonus"]
+def _total(total: Total) -> dict[str, object]:
+    bonus = total.bonus
     return {
-        "points": number(total["points"]),
-        "max": number(total["max"]),
-        "share": min(1.0, total["points"] / total["max"]) if total["max"] else 0.0,
-        "bonus": number(bonus["points"]) if bonus["points"] else "",
-        "bonus_max": number(bonus["max"]) if bonus["max"] else "",
+        "points": number(total.points),
+        "max": number(total.max),
+        "share": min(1.0, total.points / total.max) if total.max else 0.0,
+        "bonus": number(bonus.points) if bonus.points else "",
+        "bonus_max": number(bonus.max) if bonus.max else "",
     }
 
 
-def _sums(steps: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    parts: list[Part] = [part for step in steps for part in step["parts"]]
+def _sums(parts: Sequence[Part]) -> dict[str, float]:
     return {name: sum(part.earned for part in parts if part.name == name) for name in _PARTS}
 
 
-def student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> str:
-    """The page of a results.json whose pictures lie in the folder. It shows what the document holds, and no more."""
-    text = _page(document, make_album(document, folder, _ROOM), steps)
+def student_page(results: Results, folder: Path, steps: Sequence[Step]) -> str:
+    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more."""
+    text = _page(results, make_album(results, folder, _ROOM), steps)
     excess = len(text.encode()) - _MAX
-    return text if excess <= 0 else _page(document, make_album(document, folder, _ROOM - excess), steps)
+    return text if excess <= 0 else _page(results, make_album(results, folder, _ROOM - excess), steps)
 
 
-def _page(document: Mapping[str, Any], album: Mapping[Place, ShownImage], steps: Sequence[Step]) -> str:
+def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[Step]) -> str:
     known = {step.id: step for step in steps}
-    views = [step_view(result, known.get(result["id"]), album) for result in document["steps"]]
-    name = clean(document["submission"], 200)
+    views = {result.id: step_view(result, known.get(result.id), album) for result in results.steps}
+    parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
+    following = _next(results.steps)
+    name = clean(results.submission, 200)
     context = {
         "name": name,
-        "steps": views,
-        "next": _next(views),
-        "total": _total(document),
+        "steps": list(views.values()),
+        "next": views[following.id] if following is not None else None,
+        "total": _total(results.total),
         "columns": _PARTS,
-        "sums": _sums(views),
+        "sums": _sums(parts),
         "number": number,
         "left_out": sum(shown.left_out for shown in album.values()),
         "facts": {
-            "kit": clean(document["kit"], 200),
-            "version": clean(document.get("version", ""), 200),
-            "isolation": clean(document["isolation"]["name"], 200),
+            "kit": clean(results.kit, 200),
+            "version": clean(results.version, 200),
+            "isolation": clean(results.isolation.name, 200),
         },
     }
     styles, scripts = (*COMPARE_STYLES, "parts", "student"), (*COMPARE_SCRIPTS, "student")
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 
-def write_student_page(document: Mapping[str, Any], folder: Path, steps: Sequence[Step]) -> Path:
+def write_student_page(results: Results, folder: Path, steps: Sequence[Step]) -> Path:
     """Writes FOLDER/report.html."""
     path = folder / REPORT
-    write_if_changed(path, student_page(document, folder, steps).encode())
+    write_if_changed(path, student_page(results, folder, steps).encode())
     return path
 
 
 def try_student_page(folder: Path, steps: Sequence[Step], say: Callable[[str], None]) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
-        document = json.loads((folder / "results.json").read_text(encoding="utf-8"))
-        return write_student_page(document, folder, steps)
+        return write_student_page(read_results(folder / "results.json"), folder, steps)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {error!r}")
         return None

@@ -12,8 +12,7 @@ from rich.table import Table
 from raysteps.common.text import mean, number, size
 from raysteps.course.manifest import Step
 from raysteps.report.wording import HOW_SURE, percent
-from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
-from raysteps.results.work_ratio import Work
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
@@ -151,10 +150,10 @@ def print_table(console: Console, results: Results, *, visible_only: bool = Fals
         table.add_row(*row[: len(table.columns)])
     console.print(table)
     console.print(_VISIBLE if visible_only else _TOGETHER, style="dim", soft_wrap=True)
-    total = results.to_json()["total"]
-    bonus = f", {number(total['bonus']['points'])} of them bonus" if total["bonus"]["points"] else ""
+    total = results.total
+    bonus = f", {number(total.bonus.points)} of them bonus" if total.bonus.points else ""
     kind = "points of the visible part, of" if visible_only else "points of"
-    console.print(f"{number(total['points'])} {kind} {number(total['max'])}{bonus}")
+    console.print(f"{number(total.points)} {kind} {number(total.max)}{bonus}")
 
 
 def print_isolation(console: Console, results: Results) -> None:

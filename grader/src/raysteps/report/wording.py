@@ -1,7 +1,6 @@
 """Commands that a report gives its reader to copy."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from raysteps.common import platform as systems
 from raysteps.common.platform import own_command
@@ -39,9 +38,10 @@ def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
     return ["inspect", case.scene, str(x), str(y), *options, *beside_reference(here())]
 
 
-def inspect_command(image: Mapping[str, Any], step: Step | None) -> str | None:
-    """Looks into a pixel of a picture, `{x}` and `{y}`; none where the kit does not know how the picture was made."""
-    case = next((case for case in step.images if case.name == image["name"]), None) if step is not None else None
+def inspect_command(name: str, step: Step | None) -> str | None:
+    """Looks into a pixel of the picture of that name, `{x}` and `{y}`; none where the kit does not know how it was
+    made."""
+    case = next((case for case in step.images if case.name == name), None) if step is not None else None
     if case is None or "{" in case.scene:
         return None
     start = systems.quote_command([case.scene])

@@ -1,10 +1,13 @@
-"""What came of a grading; `to_json` gives the form raysteps/results/v1."""
+"""What came of a grading: these classes are the form raysteps/results/v1 of results.json."""
 
-from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Annotated, Literal, Self
+
+from msgspec import Meta
 
 from raysteps import __version__
-from raysteps.results.work_ratio import Work
+from raysteps.common.documents import OPTIONAL, Amount, Count, Share, Text
 from raysteps.sandbox.task import Isolation
 
 Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
@@ -17,7 +20,7 @@ class TestResult:
 
     __test__ = False  # not a test class for pytest
 
-    name: str
+    name: Text
     passed: bool
     message: str = ""
     expression: str = ""
@@ -26,24 +29,50 @@ class TestResult:
     outcome: Termination = "ok"
 
 
+@dataclass(frozen=True)
+class Work:
+    """What a picture cost, as `raytrace --stats` counts it: tests, and the structure that it built; no clock."""
+
+    rays: Count
+    surface_tests: Count
+    box_tests: Count
+    boxes: Count
+    references: Count  # entries in the lists of the structure; a surface may stand in several
+    bytes: Count
+
+    @property
+    def surfaces_per_ray(self) -> float:
+        return self.surface_tests / self.rays if self.rays else 0.0
+
+    @property
+    def boxes_per_ray(self) -> float:
+        return self.box_tests / self.rays if self.rays else 0.0
+
+    @property
+    def tests_per_ray(self) -> float:
+        """A test of a surface and a test of a box weigh alike."""
+        return (self.surface_tests + self.box_tests) / self.rays if self.rays else 0.0
+
+
 @dataclass
 class ImageResult:
     """One picture; paths are relative to the folder of results.json."""
 
-    name: str
+    name: Text
     scene: str
     passed: bool
-    max_wrong: float
-    wrong_share: float | None = None
-    max_share: float | None = None
-    share_tested: float | None = None
-    work: Work | None = None  # where few objects may be tested: what the program counted
-    reference_work: Work | None = None
+    max_wrong: Share
+    wrong_share: Share | None = None
+    max_share: Annotated[float, Meta(gt=0)] | None = None
+    share_tested: Amount | None = None  # surfaces tested per ray, as a share of the scene's surfaces
+    # Where few objects may be tested: what the program counted, and the same of the reference.
+    work: Work | None = field(default=None, metadata=OPTIONAL)
+    reference_work: Work | None = field(default=None, metadata=OPTIONAL)
     message: str = ""
     mine: str | None = None
     reference: str | None = None
     difference: str | None = None
-    seconds: float = 0.0
+    seconds: Amount = 0.0
     outcome: Termination = "ok"
 
 
@@ -52,10 +81,11 @@ class CaseGroup:
     """One kind of hidden cases of a function, such as `origin inside`; all must be right."""
 
     name: str
-    cases: int
-    right: int
-    undecided: int = 0  # not right, but perhaps it would be: never asked, or the answer is too large to be read
-    wasteful: int = 0  # not right only because it spares no work
+    cases: Count
+    right: Count
+    # Not right, but perhaps it would be: never asked, or the answer is too large to be read.
+    undecided: Count = field(default=0, metadata=OPTIONAL)
+    wasteful: Count = field(default=0, metadata=OPTIONAL)  # not right only because it spares no work
 
     @property
     def decided(self) -> int:
@@ -67,18 +97,18 @@ class CaseGroup:
 class HiddenResult:
     """What the judge saw of one function (in seeded cases) or of one hidden scene."""
 
-    name: str
+    name: Text
     kind: Literal["function", "picture"]
-    share: float  # of this item's points that were earned, from 0 to 1
-    weight: float = 1.0  # among the hidden items of the step
-    wrong_share: float | None = None  # of the pixels of a scene
+    share: Share  # of this item's points that were earned, from 0 to 1
+    weight: Amount = 1.0  # among the hidden items of the step
+    wrong_share: Share | None = None  # of the pixels of a scene
     groups: list[CaseGroup] = field(default_factory=list)
     message: str = ""  # what is wrong, without the input
     given: str = ""  # the input of the first wrong case, in words and numbers
     expected: str = ""
     actual: str = ""
     case: str = ""  # file with that input, for `replay`; relative to the folder of results.json
-    seconds: float = 0.0
+    seconds: Amount = 0.0
     outcome: Termination = "ok"
 
     @property
@@ -92,8 +122,10 @@ class Diagnosis:
     wrong and in what."""
 
     kind: Literal["mistake", "transformation", "finding"]
-    id: str  # of the mistake in mutants.toml, or what happened to the picture, such as `upside-down`
-    title: str  # ends the sentence "this is what you get when ..."; a sentence of its own for a finding
+    id: Annotated[
+        str, Meta(pattern=r"^[a-z0-9]+(-[a-z0-9]+)*$")
+    ]  # of the mistake in mutants.toml, or what happened to the picture, such as `upside-down`
+    title: Text  # ends the sentence "this is what you get when ..."; a sentence of its own for a finding
     sees: str = ""
     cause: str = ""
     hint: str = ""
@@ -113,10 +145,10 @@ class Integration:
 class StepResult:
     """What became of one step."""
 
-    id: str
+    id: Annotated[str, Meta(pattern=r"^[0-9]{2}-[a-z0-9-]+$")]
     status: Status
-    points: float
-    max: float
+    points: Amount
+    max: Amount
     bonus: bool
     tests: list[TestResult] = field(default_factory=list)
     images: list[ImageResult] = field(default_factory=list)
@@ -132,41 +164,67 @@ class StepResult:
 class Timing:
     """Seconds on the clock and of all processors, for the whole submission."""
 
-    seconds: float = 0.0
-    cpu_seconds: float = 0.0
+    seconds: Amount = 0.0
+    cpu_seconds: Amount = 0.0
 
 
 @dataclass
+class PointSum:
+    """Of several steps."""
+
+    points: Amount
+    max: Amount
+
+    @classmethod
+    def of(cls, steps: Sequence[StepResult]) -> Self:
+        return cls(round(sum(step.points for step in steps), 2), round(sum(step.max for step in steps), 2))
+
+
+@dataclass
+class Total:
+    """Points count everything, max counts the steps without the bonus."""
+
+    points: Amount
+    max: Amount
+    bonus: PointSum
+
+
+@dataclass(kw_only=True)
 class Results:
     """All steps of one submission."""
 
-    submission: str
+    schema: Literal["raysteps/results/v1"]
+    submission: Text
+    kit: str  # fingerprint of the kit that graded
+    version: str = field(default="", metadata=OPTIONAL)  # of that kit
+    seed: int | None  # of the hidden cases; None where they are withheld
+    isolation: Isolation
+    timing: Timing
+    inconsistent: bool  # some step claims more than the judge saw
+    total: Total
     steps: list[StepResult]
-    seed: int = 0
-    kit: str = ""  # fingerprint of the kit that graded
-    isolation: Isolation = field(default_factory=Isolation)
-    timing: Timing = field(default_factory=Timing)
 
-    def to_json(self) -> dict[str, Any]:
-        """The document: max counts the steps without the bonus, points count everything."""
-        regular = [step for step in self.steps if not step.bonus]
-        bonus = [step for step in self.steps if step.bonus]
-        return {
-            "schema": "raysteps/results/v1",
-            "submission": self.submission,
-            "kit": self.kit,
-            "version": __version__,
-            "seed": self.seed,
-            "isolation": asdict(self.isolation),
-            "timing": asdict(self.timing),
-            "inconsistent": any(step.inconsistent for step in self.steps),
-            "total": {
-                "points": round(sum(step.points for step in self.steps), 2),
-                "max": round(sum(step.max for step in regular), 2),
-                "bonus": {
-                    "points": round(sum(step.points for step in bonus), 2),
-                    "max": round(sum(step.max for step in bonus), 2),
-                },
-            },
-            "steps": [asdict(step) for step in self.steps],
-        }
+    @classmethod
+    def of(
+        cls,
+        submission: str,
+        steps: list[StepResult],
+        seed: int = 0,
+        kit: str = "",
+        isolation: Isolation | None = None,
+        timing: Timing | None = None,
+    ) -> Self:
+        """What this kit has just graded."""
+        regular = PointSum.of([step for step in steps if not step.bonus])
+        return cls(
+            schema="raysteps/results/v1",
+            submission=submission,
+            kit=kit,
+            version=__version__,
+            seed=seed,
+            isolation=isolation or Isolation(),
+            timing=timing or Timing(),
+            inconsistent=any(step.inconsistent for step in steps),
+            total=Total(PointSum.of(steps).points, regular.max, PointSum.of([step for step in steps if step.bonus])),
+            steps=steps,
+        )

@@ -1,27 +1,27 @@
-"""results.json: checked against its schema, then written."""
+"""results.json: checked, then written; and read again."""
 
-import json
 import re
 from pathlib import Path
-from typing import Any
 
+from raysteps.common.documents import Malformed, convert, parse, plain
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_json
-from raysteps.common.schemas import complaint, read_schema
+from raysteps.results.model import Results
 
 
-def validate(document: Any) -> None:
-    """A document against the schema is the kit's fault."""
-    problem = complaint(document, read_schema("raysteps.results", "results.schema.json"))
-    if problem:
-        raise GraderFault(f"results.json would break its schema: {problem}")
+def validate(results: Results) -> None:
+    """A result that is not of the form of its class is the kit's fault."""
+    try:
+        convert(plain(results), Results, complete=True)
+    except Malformed as error:
+        raise GraderFault(f"results.json would not be of its form: {error}") from error
 
 
-def write_document(document: dict[str, Any], folder: Path) -> Path:
+def write_results(results: Results, folder: Path) -> Path:
     """Checks and writes FOLDER/results.json."""
-    validate(document)
+    validate(results)
     path = folder / "results.json"
-    write_json(path, document)
+    write_json(path, plain(results))
     return path
 
 
@@ -37,31 +37,29 @@ def _unread(error: OSError) -> str:
     return "is a folder" if isinstance(error, IsADirectoryError) else f"cannot be read: {error.strerror}"
 
 
-def _broken(error: Exception) -> str:
-    """Where, and not what a parser of JSON was about to expect there."""
-    if not isinstance(error, json.JSONDecodeError):
-        return "is not JSON"
-    if not error.doc.strip():
-        return "is empty"
-    return f"is not JSON, or only a part of it (line {error.lineno}, column {error.colno})"
+def parse_results(data: bytes) -> Results:
+    """The results in the bytes of a results.json; Malformed says what is wrong with them."""
+    return parse(data, Results, complete=True)
 
 
-def read_results(path: Path) -> dict[str, Any]:
-    """The document; anything else than raysteps/results/v1 is refused."""
+def stored_results(text: str) -> Results | None:
+    """The results that the database of a class keeps; None where it has none, or a kit of another form wrote them."""
+    try:
+        return parse(text.encode(), Results)
+    except Malformed:
+        return None
+
+
+def read_results(path: Path) -> Results:
+    """The results in a file; anything else than raysteps/results/v1 is refused."""
     try:
         if path.stat().st_size > _MAX_BYTES:
             raise UsageError(f"{path}: is too large for a results.json")
-        document = json.loads(path.read_bytes())
+        return parse_results(path.read_bytes())
     except OSError as error:
         raise UsageError(f"{path}: {_unread(error)}; {_WANTED}") from error
-    except (ValueError, RecursionError) as error:
-        raise UsageError(f"{path}: {_broken(error)}; {_WANTED}") from error
-    try:
-        validate(document)
-    except GraderFault as error:
-        raise UsageError(f"{path}: is not a results.json of this kit; {error}") from error
-    assert isinstance(document, dict)
-    return document
+    except Malformed as error:
+        raise UsageError(f"{path}: {error}; {_WANTED}") from error
 
 
 # Where hidden cases that went wrong are kept, below the folder of results.json.

@@ -7,39 +7,10 @@ reference's; of a step the geometric mean of its pictures that have a max_share.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from raysteps.common.text import join_and
+from raysteps.results.model import ImageResult, StepResult
 
-# What a picture cost: tests that the program counted, and the structure that it built. No clock is involved.
-
-
-@dataclass(frozen=True)
-class Work:
-    """The counters of one picture, as `raytrace --stats` writes them."""
-
-    rays: int
-    surface_tests: int
-    box_tests: int
-    boxes: int
-    references: int  # entries in the lists of the structure; a surface may stand in several
-    bytes: int
-
-    @property
-    def surfaces_per_ray(self) -> float:
-        return self.surface_tests / self.rays if self.rays else 0.0
-
-    @property
-    def boxes_per_ray(self) -> float:
-        return self.box_tests / self.rays if self.rays else 0.0
-
-    @property
-    def tests_per_ray(self) -> float:
-        """A test of a surface and a test of a box weigh alike."""
-        return (self.surface_tests + self.box_tests) / self.rays if self.rays else 0.0
-
-
-Document = Mapping[str, Any]
 _DIGITS = 6  # the same on every machine, whatever its logarithm does in the last place
 _NO_PICTURES = {"not-started": "not started", "does-not-build": "does not build"}
 
@@ -65,24 +36,22 @@ def _pictures_are(names: Sequence[str]) -> str:
     return f"pictures {join_and(names)} are" if len(names) > 1 else f"picture {names[0]} is"
 
 
-def _wrong(images: Sequence[Document]) -> str:
+def _wrong(images: Sequence[ImageResult]) -> str:
     """What is not right; a right picture may also have cost too much, or the judge did not believe its counters."""
-    wrong = [image for image in images if not image["passed"]]
-    shown = [image["wrong_share"] is not None and image["wrong_share"] <= image["max_wrong"] for image in wrong]
-    costly = [image["name"] for image, right in zip(wrong, shown, strict=True) if right]
-    false = [image["name"] for image, right in zip(wrong, shown, strict=True) if not right]
+    wrong = [image for image in images if not image.passed]
+    shown = [image.wrong_share is not None and image.wrong_share <= image.max_wrong for image in wrong]
+    costly = [image.name for image, right in zip(wrong, shown, strict=True) if right]
+    false = [image.name for image, right in zip(wrong, shown, strict=True) if not right]
     if false:
         return f"{_pictures_are(false)} not right"
     return f"{_pictures_are(costly)} right, but the work that was counted did not pass" if costly else ""
 
 
-def _relative(image: Document) -> float | NoWorkRatio:
-    name = image["name"]
-    if "work" not in image or "reference_work" not in image:
-        return NoWorkRatio("graded by an older kit, which kept no counters; grade it again")
-    if image["work"] is None or image["reference_work"] is None:
-        return NoWorkRatio(f"picture {name} has no counters")
-    mine, reference = Work(**image["work"]), Work(**image["reference_work"])
+def _relative(image: ImageResult) -> float | NoWorkRatio:
+    name = image.name
+    mine, reference = image.work, image.reference_work
+    if mine is None or reference is None:
+        return NoWorkRatio(f"picture {name} has no counters, as when an older kit graded it; grade it again")
     if not mine.rays or not mine.surface_tests or not reference.tests_per_ray:
         return NoWorkRatio(f"picture {name}: no test of a surface was counted")
     if reference.box_tests and not mine.box_tests:
@@ -90,23 +59,23 @@ def _relative(image: Document) -> float | NoWorkRatio:
     return mine.tests_per_ray / reference.tests_per_ray
 
 
-def limited(result: Document) -> list[Document]:
-    """The pictures of a step, as results.json has them, in which few objects may be tested."""
-    return [image for image in result["images"] if image["max_share"] is not None]
+def limited(result: StepResult) -> list[ImageResult]:
+    """The pictures of a step in which few objects may be tested."""
+    return [image for image in result.images if image.max_share is not None]
 
 
-def work_ratio_of(result: Document, expected: Sequence[str] = ()) -> WorkRatio | NoWorkRatio:
-    """Of one step in results.json. `expected` are the pictures that count and must be there; else all that have a
+def work_ratio_of(result: StepResult, expected: Sequence[str] = ()) -> WorkRatio | NoWorkRatio:
+    """Of one step. `expected` are the pictures that count and must be there; else all that have a
     max_share."""
-    if result["status"] in _NO_PICTURES:
-        return NoWorkRatio(_NO_PICTURES[result["status"]])
-    if result["inconsistent"]:
+    if result.status in _NO_PICTURES:
+        return NoWorkRatio(_NO_PICTURES[result.status])
+    if result.inconsistent:
         return NoWorkRatio("inconsistent: the program claims what the judge did not see")
-    problem = _wrong(result["images"])
+    problem = _wrong(result.images)
     if problem:
         return NoWorkRatio(problem)
-    images = [image for image in limited(result) if not expected or image["name"] in expected]
-    missing = [name for name in expected if name not in {image["name"] for image in images}]
+    images = [image for image in limited(result) if not expected or image.name in expected]
+    missing = [name for name in expected if name not in {image.name for image in images}]
     if missing or not images:
         return NoWorkRatio(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
     pictures: dict[str, float] = {}
@@ -114,7 +83,8 @@ def work_ratio_of(result: Document, expected: Sequence[str] = ()) -> WorkRatio |
         relative = _relative(image)
         if isinstance(relative, NoWorkRatio):
             return relative
-        pictures[image["name"]] = round(relative, _DIGITS)
+        pictures[image.name] = round(relative, _DIGITS)
     mean = math.exp(math.fsum(math.log(max(value, 10**-_DIGITS)) for value in pictures.values()) / len(pictures))
-    mine, reference = (sum(image[key]["bytes"] for image in images) for key in ("work", "reference_work"))
+    mine = sum(image.work.bytes for image in images if image.work)
+    reference = sum(image.reference_work.bytes for image in images if image.reference_work)
     return WorkRatio(round(mean, _DIGITS), mine, reference, pictures)

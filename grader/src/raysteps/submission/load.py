@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from raysteps.common.documents import Text
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, printable
 from raysteps.course.manifest import Step
@@ -24,7 +25,7 @@ ARCHIVE_ENDINGS = (".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".
 class Submission:
     """The student's sources by step id, as plain UTF-8 with LF; a step without a file is missing here."""
 
-    name: str
+    name: Text
     sources: dict[str, bytes]
     notes: dict[str, str]  # why a step has no source
     remarks: dict[str, str] = field(default_factory=dict)  # what was unusual about a source that was taken

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from raysteps.common.documents import Amount
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.sandbox.task import Limits
@@ -69,9 +70,9 @@ def limits_of(step: Step, changes: Mapping[str, float]) -> StepLimits:
     )
 
 
-def parse_limits(words: Sequence[str]) -> dict[str, float]:
+def parse_limits(words: Sequence[str]) -> dict[str, Amount]:
     """`NAME=VALUE` words of a command line."""
-    changes: dict[str, float] = {}
+    changes: dict[str, Amount] = {}
     for word in words:
         name, _, value = word.partition("=")
         whole = not name.endswith("seconds")

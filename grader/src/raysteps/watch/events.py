@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+
+from raysteps.results.model import StepResult
 
 
 @dataclass(frozen=True)
@@ -35,11 +36,22 @@ class Key:
 
 
 @dataclass(frozen=True)
+class WorkerLine:
+    """What a worker tells in a line of JSON: what it does, what came of it so far, or what is wrong."""
+
+    say: str = ""
+    result: StepResult | None = None
+    out: str = ""  # folder of the pictures of the result
+    complete: bool = False  # whether the result is the last
+    error: str = ""
+
+
+@dataclass(frozen=True)
 class WorkerMessage:
     """What a run said."""
 
     run: int
-    words: dict[str, Any]
+    line: WorkerLine
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import re
 import threading
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from PIL import Image
@@ -22,11 +22,12 @@ from raysteps.report.page import (
     render_page,
 )
 from raysteps.report.wording import HOW_SURE, inspect_command, replay_command
-from raysteps.watch.step_view import Result, StepView, is_right, passed_of, verdict
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, StepResult, TestResult
+from raysteps.watch.step_view import StepView, passed_of, verdict
 
 # What the page shows, as JSON; whoever serves a page waits here for the next state.
 
-State = dict[str, Any]
+State = dict[str, object]
 
 
 class News(NamedTuple):
@@ -102,12 +103,13 @@ def _flip(reference: bytes, mine: bytes, shape: tuple[int, ...]) -> str | None:
     return None if found is None else pixel_data(found).src
 
 
-def _flip_of(folder: Path, image: dict[str, Any]) -> str | None:
+def _flip_of(folder: Path, image: ImageResult) -> str | None:
     """Of pictures that are wrong: where all is right there is nothing to see."""
-    if image["passed"] or not image["mine"]:
+    if image.passed or not image.mine:
         return None
     try:
-        pair = [np.asarray(Image.open(folder / image[role]).convert("RGB")) for role in ("reference", "mine")]
+        names = (image.reference or "", image.mine)
+        pair = [np.asarray(Image.open(folder / name).convert("RGB")) for name in names]
     except OSError:
         return None
     if pair[0].shape != pair[1].shape:
@@ -115,55 +117,55 @@ def _flip_of(folder: Path, image: dict[str, Any]) -> str | None:
     return _flip(pair[0].tobytes(), pair[1].tobytes(), pair[0].shape)
 
 
-def _picture(view: StepView, image: dict[str, Any]) -> State:
+def _picture(view: StepView, image: ImageResult) -> State:
     return {
-        "name": image["name"],
-        "scene": image["scene"],
-        "passed": image["passed"],
-        "message": image["message"],
-        "reference": _uri(view.out, image["reference"]),
-        "mine": _uri(view.out, image["mine"]),
+        "name": image.name,
+        "scene": image.scene,
+        "passed": image.passed,
+        "message": image.message,
+        "reference": _uri(view.out, image.reference),
+        "mine": _uri(view.out, image.mine),
         "flip": _flip_of(view.out, image) if view.out is not None and view.complete else None,
-        "inspect": inspect_command(image, view.step),
+        "inspect": inspect_command(image.name, view.step),
     }
 
 
-def _tests(items: list[dict[str, Any]]) -> State:
+def _tests(items: list[TestResult]) -> State:
     passed, all_ = passed_of(items)
     failed = [
         {
-            "name": test["name"],
-            "message": test["message"],
-            "expected": test["expression"],
-            "actual": test["expanded"],
-            "place": test["location"],
+            "name": test.name,
+            "message": test.message,
+            "expected": test.expression,
+            "actual": test.expanded,
+            "place": test.location,
         }
         for test in items
-        if not test["passed"]
+        if not test.passed
     ]
     return {"passed": passed, "all": all_, "failed": failed}
 
 
-def _hidden(items: list[dict[str, Any]]) -> State:
+def _hidden(items: list[HiddenResult]) -> State:
     passed, all_ = passed_of(items)
     keys = ("name", "message", "given", "expected", "actual")
     failed = [
-        {key: item[key] for key in keys} | {"again": replay_command(item["case"]) if item["case"] else ""}
+        {key: getattr(item, key) for key in keys} | {"again": replay_command(item.case) if item.case else ""}
         for item in items
-        if not is_right(item)
+        if not item.passed
     ]
     return {"passed": passed, "all": all_, "failed": failed}
 
 
-def _diagnosis(found: dict[str, Any]) -> State:
-    return {"word": HOW_SURE[found["kind"]].capitalize()} | {
-        key: found[key] for key in ("title", "sees", "cause", "hint", "alike")
+def _diagnosis(found: Diagnosis) -> State:
+    return {"word": HOW_SURE[found.kind].capitalize()} | {
+        key: getattr(found, key) for key in ("title", "sees", "cause", "hint", "alike")
     }
 
 
-def _messages(result: Result) -> list[str]:
+def _messages(result: StepResult) -> list[str]:
     """Those that say more than the numbers which the page shows anyway."""
-    return [message for message in result["messages"] if not _NUMBERS.fullmatch(message)]
+    return [message for message in result.messages if not _NUMBERS.fullmatch(message)]
 
 
 def _step(step: Step) -> State:
@@ -186,11 +188,11 @@ def state_of(view: StepView) -> State:
         "full": view.full,
         "verdict": {"tone": tone, "text": text},
         "messages": _messages(result) if result else [],
-        "log": result["build_log"][:_MAX_LOG] if result else "",
-        "diagnoses": [_diagnosis(found) for found in result["diagnoses"]] if result else [],
-        "tests": _tests(result["tests"] if result else []),
-        "pictures": [_picture(view, image) for image in result["images"]] if result else [],
-        "hidden": _hidden(result["hidden"] if result else []),
+        "log": result.build_log[:_MAX_LOG] if result else "",
+        "diagnoses": [_diagnosis(found) for found in result.diagnoses] if result else [],
+        "tests": _tests(result.tests if result else []),
+        "pictures": [_picture(view, image) for image in result.images] if result else [],
+        "hidden": _hidden(result.hidden if result else []),
         "hints": [{"level": hint.level, "of": hint.of, "text": hint.text} for hint in view.hints],
         "over": False,
     }

@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Literal
 
+from raysteps.common.documents import convert
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import Post, WorkerEnded, WorkerMessage
+from raysteps.watch.events import Post, WorkerEnded, WorkerLine, WorkerMessage
 
 Kind = Literal["look", "check"]
 
@@ -118,9 +119,7 @@ class Runner:
         assert process.popen.stdout is not None
         for line in process.popen.stdout:
             with suppress(ValueError):
-                words = json.loads(line)
-                if isinstance(words, dict):
-                    self._post(WorkerMessage(run, words))
+                self._post(WorkerMessage(run, convert(json.loads(line), WorkerLine)))
         code = process.popen.wait()
         said = ""
         with suppress(OSError, ValueError):

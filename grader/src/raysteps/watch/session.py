@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.errors import RaystepsError, reason_and_place
 from raysteps.course.manifest import Step
@@ -18,7 +17,16 @@ from raysteps.progress.hints import Hints, no_other
 from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.progress.standing import next_of, print_list, shown, standings
 from raysteps.report.wording import inspect_words, typed
-from raysteps.watch.events import ChangeNoticed, Event, FileSaved, FileVanished, Key, WorkerEnded, WorkerMessage
+from raysteps.watch.events import (
+    ChangeNoticed,
+    Event,
+    FileSaved,
+    FileVanished,
+    Key,
+    WorkerEnded,
+    WorkerLine,
+    WorkerMessage,
+)
 from raysteps.watch.file_watcher import FileWatcher
 from raysteps.watch.keyboard import Keyboard, NoKeyboard
 from raysteps.watch.page_state import PageState, state_of
@@ -46,12 +54,12 @@ def command_of_worst(view: StepView) -> list[str] | None:
     if view.result is None or view.out is None:
         return None
     cases = {case.name: case for case in view.step.images}
-    for image in view.result["images"]:
-        if image["passed"] or not image["mine"] or not image["reference"] or image["name"] not in cases:
+    for image in view.result.images:
+        if image.passed or not image.mine or not image.reference or image.name not in cases:
             continue
-        worst = worst_pixel(view.out / image["mine"], view.out / image["reference"])
+        worst = worst_pixel(view.out / image.mine, view.out / image.reference)
         if worst is not None:
-            return inspect_words(cases[image["name"]], *worst)
+            return inspect_words(cases[image.name], *worst)
     return None
 
 
@@ -245,8 +253,8 @@ class Session:
                 self.showing.dim(text)
             case Key(letter):
                 self._actions.press(letter)
-            case WorkerMessage(run, words) if run == self._runner.run:
-                self._told(words)
+            case WorkerMessage(run, line) if run == self._runner.run:
+                self._told(line)
             case WorkerEnded(run, code, errors) if run == self._runner.run:
                 self._ended(code, errors)
 
@@ -257,16 +265,16 @@ class Session:
         self.showing.result(self.view)
         self.show()
 
-    def _told(self, words: dict[str, Any]) -> None:
+    def _told(self, line: WorkerLine) -> None:
         view = self.view
-        if "say" in words:
-            view.said = str(words["say"])
+        if line.say:
+            view.said = line.say
             self.showing.dim(f"{view.said} …")
-        if "error" in words:
-            view.problem = str(words["error"])
-        if "result" in words:
-            view.result, view.out = words["result"], Path(words["out"])
-            view.complete, view.full = bool(words["complete"]), view.phase == "checking"
+        if line.error:
+            view.problem = line.error
+        if line.result is not None:
+            view.result, view.out = line.result, Path(line.out)
+            view.complete, view.full = line.complete, view.phase == "checking"
             if view.complete and not view.full:
                 view.seconds = round(time.monotonic() - self._began, 1)
         self.show()

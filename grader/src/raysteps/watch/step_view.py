@@ -1,16 +1,17 @@
 """What is known of the step that is watched, and what it comes to in one line."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from raysteps.common.text import count, number
 from raysteps.course.manifest import Step
 from raysteps.progress.hints import Hint
+from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 Phase = Literal["looking", "checking", "idle"]
 Tone = Literal["good", "bad", "warn", "plain"]
-Result = dict[str, Any]  # a StepResult, as the worker's JSON has it
 
 _BUILDS = {"passed", "partial", "failed", "crashed", "timeout"}
 
@@ -24,7 +25,7 @@ class StepView:
     said: str = ""
     saved: str = ""  # the time of the save, for people
     seconds: float | None = None  # from the save to the complete look
-    result: Result | None = None
+    result: StepResult | None = None
     out: Path | None = None
     complete: bool = False
     full: bool = False
@@ -34,7 +35,7 @@ class StepView:
 
     @property
     def status(self) -> str:
-        return str(self.result["status"]) if self.result else ""
+        return self.result.status if self.result else ""
 
     @property
     def can_be_checked(self) -> bool:
@@ -46,24 +47,26 @@ class StepView:
         return self.full and self.complete and self.status == "passed"
 
 
-def passed_of(items: list[dict[str, Any]]) -> tuple[int, int]:
+Items = Sequence[TestResult | ImageResult | HiddenResult]
+
+
+def passed_of(items: Items) -> tuple[int, int]:
     """How many passed, and of how many."""
-    return sum(is_right(item) for item in items), len(items)
+    return sum(item.passed for item in items), len(items)
 
 
-def is_right(item: dict[str, Any]) -> bool:
-    """A test or a picture by its verdict, a hidden item when it earned all of its points."""
-    return bool(item["passed"]) if "passed" in item else item["share"] >= 1
-
-
-def _of(kind: str, items: list[dict[str, Any]]) -> str:
+def _of(kind: str, items: Items) -> str:
     right, all_ = passed_of(items)
     return f"{count(all_, kind)} right" if right == all_ else f"{right} of {count(all_, kind)} right"
 
 
-def tally(result: Result) -> str:
+def tally(result: StepResult) -> str:
     """`9 of 11 tests right, 2 pictures right`."""
-    kinds = (("test", result["tests"]), ("picture", result["images"]), ("hidden item", result["hidden"]))
+    kinds: tuple[tuple[str, Items], ...] = (
+        ("test", result.tests),
+        ("picture", result.images),
+        ("hidden item", result.hidden),
+    )
     return ", ".join(_of(kind, items) for kind, items in kinds if items)
 
 
@@ -83,8 +86,8 @@ def verdict(view: StepView) -> tuple[Tone, str]:
     if not view.complete:
         return "plain", tally(result) or "It builds"
     if view.is_done:
-        return "good", f"Passed: {number(result['points'])} of {number(result['max'])} points."
+        return "good", f"Passed: {number(result.points)} of {number(result.max)} points."
     if view.full:
-        tone: Tone = "warn" if result["points"] else "bad"
-        return tone, f"{number(result['points'])} of {number(result['max'])} points: {tally(result)}."
+        tone: Tone = "warn" if result.points else "bad"
+        return tone, f"{number(result.points)} of {number(result.max)} points: {tally(result)}."
     return ("good" if view.status == "passed" else "bad"), f"{tally(result)}."

@@ -7,7 +7,8 @@ from rich.markup import escape
 
 from raysteps.common.text import count, shorten
 from raysteps.report.wording import HOW_SURE, replay_command
-from raysteps.watch.step_view import Result, StepView, Tone, is_right, verdict
+from raysteps.results.model import StepResult
+from raysteps.watch.step_view import StepView, Tone, verdict
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
@@ -81,7 +82,7 @@ class TerminalView:
         if view.result is None or view.problem or view.gone:
             return
         if view.status in ("does-not-build", "not-started"):
-            for message in view.result["messages"]:
+            for message in view.result.messages:
                 for line in message.splitlines():
                     self.line(f"  {line}")
             return
@@ -90,41 +91,40 @@ class TerminalView:
             self._pictures(view.result)
         self._diagnoses(view.result)
         self._hidden(view.result)
-        if view.full and not view.is_done and not view.result["cumulative"]["passed"]:
-            self.line(f"  together: {view.result['cumulative']['message']}")
+        if view.full and not view.is_done and not view.result.cumulative.passed:
+            self.line(f"  together: {view.result.cumulative.message}")
 
-    def _diagnoses(self, result: Result) -> None:
-        for found in result["diagnoses"][:1]:
-            self.line(f"  {HOW_SURE[found['kind']]}: {found['title']}", "yellow")
-            for label in ("sees", "cause", "hint"):
-                if found[label]:
-                    self.line(f"    {found[label]}")
+    def _diagnoses(self, result: StepResult) -> None:
+        for found in result.diagnoses[:1]:
+            self.line(f"  {HOW_SURE[found.kind]}: {found.title}", "yellow")
+            for text in filter(None, (found.sees, found.cause, found.hint)):
+                self.line(f"    {text}")
 
-    def _tests(self, result: Result) -> None:
-        failed = [test for test in result["tests"] if not test["passed"]]
+    def _tests(self, result: StepResult) -> None:
+        failed = [test for test in result.tests if not test.passed]
         for test in failed[:_MAX_FAILED]:
-            self.line(f"  test  {test['name']}", "red")
-            if test["expression"]:
-                self.line(f"    expected  {test['expression']}")
-                self.line(f"    actual    {test['expanded']}")
-            for line in test["message"].splitlines()[:3]:
+            self.line(f"  test  {test.name}", "red")
+            if test.expression:
+                self.line(f"    expected  {test.expression}")
+                self.line(f"    actual    {test.expanded}")
+            for line in test.message.splitlines()[:3]:
                 self.line(f"    {line}")
         self._more(len(failed), "test")
 
-    def _pictures(self, result: Result) -> None:
-        for image in result["images"]:
-            if not image["passed"]:
-                self.line(f"  picture  {image['name']}: {image['message']}", "red")
+    def _pictures(self, result: StepResult) -> None:
+        for image in result.images:
+            if not image.passed:
+                self.line(f"  picture  {image.name}: {image.message}", "red")
 
-    def _hidden(self, result: Result) -> None:
-        missed = [item for item in result["hidden"] if not is_right(item)]
+    def _hidden(self, result: StepResult) -> None:
+        missed = [item for item in result.hidden if not item.passed]
         for item in missed[:_MAX_FAILED]:
-            self.line(f"  hidden  {item['name']}: {item['message']}", "red")
-            for label in ("given", "expected", "actual"):
-                if item[label]:
-                    self.line(f"    {label:<9} {item[label]}")
-            if item["case"]:
-                self.command(f"    again     {replay_command(item['case'])}")
+            self.line(f"  hidden  {item.name}: {item.message}", "red")
+            for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
+                if text:
+                    self.line(f"    {label:<9} {text}")
+            if item.case:
+                self.command(f"    again     {replay_command(item.case)}")
         self._more(len(missed), "hidden item")
 
     def _more(self, amount: int, noun: str) -> None:

@@ -1,8 +1,7 @@
 """Does one job and ends: a process of its own can be stopped at any time, and its faults stop nobody else.
 
 It waits for the job as a line of JSON on stdin, so that it can be started ahead of time, and tells what it sees as
-lines of JSON on stdout. A job is {"kind": "look" or "check", "root": FOLDER, "step": ID}; a line holds `say`, or
-`result` with `out`, the folder of its pictures, and `complete`; or `error`.
+lines of JSON on stdout. A job is {"kind": "look" or "check", "root": FOLDER, "step": ID}; a line is a WorkerLine.
 """
 
 import contextlib
@@ -11,7 +10,6 @@ import os
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.errors import RaystepsError, reason
 from raysteps.course.manifest import choose, read_steps
@@ -23,16 +21,17 @@ from raysteps.results.model import StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.entries import RejectedFile
 from raysteps.toolchain.build_kit import build_kit
+from raysteps.watch.events import WorkerLine
 
 _UNHURRIED = 5  # of `nice`: a check goes on while its student types
 
 
-def _tell(**words: Any) -> None:
-    print(json.dumps(words), flush=True)
+def _tell(line: WorkerLine) -> None:
+    print(json.dumps(asdict(line)), flush=True)
 
 
 def _say(text: str) -> None:
-    _tell(say=text)
+    _tell(WorkerLine(say=text))
 
 
 def look(project: Project, name: str) -> None:
@@ -42,15 +41,15 @@ def look(project: Project, name: str) -> None:
     out = project.build / "watch"
 
     def tell(result: StepResult, *, complete: bool = False) -> None:
-        _tell(result=asdict(result), out=str(out), complete=complete)
+        _tell(WorkerLine(result=result, out=str(out), complete=complete))
 
     try:
         source = own_source(project, step)
     except (OSError, RejectedFile) as error:
-        _tell(error=f"{step.file}: {reason(error)}")
+        _tell(WorkerLine(error=f"{step.file}: {reason(error)}"))
         return
     if source is None:
-        _tell(error=f"{step.file} is not there")
+        _tell(WorkerLine(error=f"{step.file} is not there"))
         return
     tell(QuickLook(kit, step, LimitsOnly(), out, tell).look(source.decode("utf-8", "replace")), complete=True)
 
@@ -61,7 +60,7 @@ def check(project: Project, name: str) -> None:
         os.nice(_UNHURRIED)
     chosen = choose(read_steps(project), [name])
     (result,) = check_steps(project, chosen, _say).results.steps
-    _tell(result=asdict(result), out=str(project.build / "check"), complete=True)
+    _tell(WorkerLine(result=result, out=str(project.build / "check"), complete=True))
 
 
 def main() -> int:
@@ -72,7 +71,7 @@ def main() -> int:
     try:
         {"look": look, "check": check}[job["kind"]](Project(Path(job["root"])), job["step"])
     except RaystepsError as error:
-        _tell(error=str(error))
+        _tell(WorkerLine(error=str(error)))
     return 0
 
 

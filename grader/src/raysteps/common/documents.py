@@ -1,0 +1,113 @@
+"""Documents whose form is that of a dataclass: what does not fit is refused, with the place where it does not."""
+
+import codecs
+import json
+import re
+import tomllib
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Annotated, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from raysteps.common.errors import GraderFault, reason
+
+T = TypeVar("T")
+
+Count = Annotated[int, Meta(ge=0)]
+Amount = Annotated[int, Meta(ge=0)] | Annotated[float, Meta(ge=0)]  # a whole number is written again as it was read
+Share = Annotated[int, Meta(ge=0, le=1)] | Annotated[float, Meta(ge=0, le=1)]
+Text = Annotated[str, Meta(min_length=1)]
+
+OPTIONAL = {"optional": True}  # metadata of a field that older kits did not write
+
+
+class Malformed(ValueError):
+    """What is wrong with a document, and where."""
+
+
+def _position(data: bytes, error: msgspec.DecodeError) -> str:
+    told = re.search(r"byte (\d+)", str(error))
+    at = int(told[1]) if told is not None else len(data)
+    line, column = data.count(b"\n", 0, at) + 1, at - data.rfind(b"\n", 0, at)
+    return f"line {line}, column {column}"
+
+
+def _children(told: object, found: object, place: str, *, complete: bool) -> Iterator[tuple[object, object, str]]:
+    """What was told beside what was made of it; a key too many or too few ends it."""
+    if is_dataclass(found) and isinstance(told, dict):
+        known = {field.name: field for field in fields(found)}
+        for name in told:
+            if name not in known:
+                raise Malformed(f"{place}: unknown key {name!r}; known are {', '.join(known)}")
+        for name, field in known.items():
+            if name in told:
+                yield told[name], getattr(found, name), f"{place}.{name}"
+            elif complete and not field.metadata:
+                raise Malformed(f"{place}: {name!r} is missing")
+    elif isinstance(found, dict) and isinstance(told, dict):
+        yield from ((told[name], value, f"{place}.{name}") for name, value in found.items())
+    elif isinstance(found, (list, tuple)) and isinstance(told, (list, tuple)):
+        yield from ((told[at], value, f"{place}[{at}]") for at, value in enumerate(found))
+
+
+def _check_keys(told: object, found: object, place: str, *, complete: bool) -> None:
+    for child in _children(told, found, place, complete=complete):
+        _check_keys(*child, complete=complete)
+
+
+def convert(document: object, kind: type[T], *, complete: bool = False) -> T:
+    """A document as JSON or TOML gives it. Unknown keys are refused; `complete` says that nothing may be left out,
+    whether or not it has a default."""
+    try:
+        made = msgspec.convert(document, kind)
+    except msgspec.ValidationError as error:
+        what, _, place = str(error).replace("`", "").partition(" - at ")
+        raise Malformed(f"{place or '$'}: {what[0].lower()}{what[1:]}") from error
+    _check_keys(document, made, "$", complete=complete)
+    return made
+
+
+def parse(data: bytes, kind: type[T], *, complete: bool = False) -> T:
+    """The same of the bytes of a JSON file. Only strict JSON is taken: no NaN, nothing beyond the range of numbers."""
+    data = data.removeprefix(codecs.BOM_UTF8)
+    if not data.strip():
+        raise Malformed("is empty")
+    try:
+        document = msgspec.json.decode(data)
+    except msgspec.DecodeError as error:
+        raise Malformed(f"is not JSON, or only a part of it ({_position(data, error)})") from error
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise Malformed("is not JSON") from error
+    return convert(document, kind, complete=complete)
+
+
+def plain(document: object) -> object:
+    """The document as dictionaries and lists."""
+    return msgspec.to_builtins(document)
+
+
+def as_text(document: object) -> str:
+    """The document as it is written to a file."""
+    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+# Tables of the kit in TOML. A bad one is the kit's fault.
+
+
+def read_text(path: Path) -> str:
+    """The file as text."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraderFault(f"{path}: cannot be read: {reason(error)}") from error
+
+
+def parse_table(text: str, path: Path, what: str, kind: type[T]) -> T:
+    """`what` the file should be, such as `a plan of hidden cases`."""
+    try:
+        return convert(tomllib.loads(text), kind)
+    except ValueError as error:
+        raise GraderFault(f"{path}: not {what}: {error}") from error

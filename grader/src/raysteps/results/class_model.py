@@ -1,0 +1,169 @@
+"""What is known of a class that was graded: these classes are the form raysteps/class/v1 of class.json."""
+
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from raysteps.common.documents import OPTIONAL, Amount, Count, Text
+from raysteps.results.settings import Settings
+
+
+@dataclass
+class Student:
+    """Of a submission, as the roster names them; what it does not say is empty."""
+
+    id: str
+    name: str
+    email: str
+
+
+@dataclass
+class NotedStudent(Student):
+    """With what there is to say."""
+
+    note: str
+
+
+@dataclass
+class StepPoints:
+    """What a submission got for a step."""
+
+    points: Amount
+    max: Amount
+    status: str
+
+
+@dataclass(frozen=True)
+class Lateness:
+    """`points` is what is left; the points of the results stay as they are."""
+
+    days: Count
+    percent: Annotated[int, Meta(ge=0, le=100)] | Annotated[float, Meta(ge=0, le=100)]
+    points: Amount
+    deadline: str
+    words: str  # the sum in words
+
+
+@dataclass
+class EarlierResult:
+    """That counted until the last run gave another one."""
+
+    run: int
+    status: Literal["graded", "unreadable", "fault"]
+    points: Amount | None
+
+
+@dataclass(kw_only=True)
+class GradedSubmission:
+    """How one submission stands."""
+
+    name: Text
+    entry: Text
+    students: list[Student]
+    status: Literal["graded", "unreadable", "fault", "not-graded"]
+    points: Amount | None  # without regard to lateness
+    max: Amount | None  # without the bonus
+    run: int | None  # that gave this result
+    steps: dict[str, StepPoints]
+    inconsistent: dict[str, list[str]]  # by step: claims of the program that the judge did not see
+    mistakes: dict[str, list[Text]] = field(default_factory=dict, metadata=OPTIONAL)  # by step: their titles
+    seconds: Amount | None = field(default=None, metadata=OPTIONAL)  # that grading it took
+    final: Amount | None  # what lateness leaves of the points
+    late: Lateness | None
+    submitted_at: str  # with a time zone; empty when it is not known
+    submitted_from: Literal["", "roster", "files"]
+    outdated: bool  # the last run was interrupted before it came to this one
+    before: EarlierResult | None
+    isolation: str  # what kept the code apart from the machine
+    fault: str
+    note: str
+    results: str | None  # path of results.json
+
+
+@dataclass
+class RunCounts:
+    """How many results a run gave."""
+
+    graded: Count = 0
+    unreadable: Count = 0
+    fault: Count = 0
+
+
+@dataclass
+class ClassRun:
+    """One grading of the class."""
+
+    number: Annotated[int, Meta(ge=1)]
+    started_at: str
+    ended_at: str
+    state: Literal["running", "complete", "interrupted"]
+    kit: str  # its fingerprint
+    folder: str  # where the submissions were
+    shard: Annotated[str, Meta(pattern="^[0-9]+/[0-9]+$")]
+    reused: Count  # results that did not have to be made anew
+    settings: Settings
+    results: RunCounts
+
+
+@dataclass
+class GradedStep:
+    """A step that was graded."""
+
+    id: str
+    title: str
+    points: Amount
+    bonus: bool
+
+
+@dataclass
+class MistakeCount:
+    """A known mistake, and how many made it."""
+
+    step: Text
+    title: Text
+    submissions: Annotated[int, Meta(ge=1)]
+
+
+@dataclass
+class PointsChange:
+    """What the last run changed."""
+
+    name: str
+    before: Amount | None
+    after: Amount | None
+
+
+@dataclass
+class ClassStatistics:
+    """Of the points after lateness; those from which nothing could be taken do not count."""
+
+    graded: Count
+    mean: Amount | None
+    median: Amount | None
+
+
+@dataclass(kw_only=True)
+class ClassResults:
+    """A class after its last run; lists without a word name submissions."""
+
+    schema: Literal["raysteps/class/v1"]
+    run: ClassRun  # the last one
+    runs: Annotated[list[ClassRun], Meta(min_length=1)]
+    steps: list[GradedStep]
+    late_policy: str | None  # the text of the TOML file
+    submissions: list[GradedSubmission]
+    students_without_submission: list[NotedStudent]
+    students_with_several: list[NotedStudent]
+    submissions_without_student: list[str]  # empty when there is no roster
+    not_graded: list[str]  # yet, because the run was interrupted or a shard is missing
+    faults: list[str]
+    unreadable: list[str]
+    inconsistent: list[str]
+    changed: list[PointsChange]
+    outdated: list[str]  # with an earlier result, because the last run was interrupted before it came to them
+    mistakes: list[MistakeCount]  # the most common first
+    gone: list[str]  # graded earlier, but no longer in the folder
+    ignored: list[str]  # in the folder, but no submissions
+    unknown_extensions: list[str]  # ids in the late policy that nobody has
+    statistics: ClassStatistics
