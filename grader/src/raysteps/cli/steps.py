@@ -8,7 +8,6 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.progress.hints import print_hint
-from raysteps.progress.reset import reset
 from raysteps.progress.standing import chosen_or_next, list_steps, next_step
 
 STEP_NAMES = "02, 2 or 02-intersection"
@@ -42,5 +41,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             wanted = arguments.level
             return print_hint(project, step, console, level=wanted, all_=arguments.all, again=arguments.again)
         case _:
+            from raysteps.progress.reset import reset  # what tells differences takes long to load
+
             step = choose(read_steps(project), [arguments.step])[0]
             return reset(project, step, console, yes=arguments.yes)

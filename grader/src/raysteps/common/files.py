@@ -5,7 +5,6 @@ import json
 import os
 import re
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -57,6 +56,8 @@ def usable_folder(path: Path) -> None:
     """Makes the folder that somebody named for results, or says that it cannot be written to."""
     if path.is_file():
         raise UsageError(f"{path}: is a file; expected a folder for the results, which may be a new one")
+    import tempfile  # it takes long to load, and who only reads can do without
+
     try:
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):
@@ -87,6 +88,8 @@ def _replace(temporary: Path, path: Path) -> None:
 
 def write_bytes(path: Path, data: bytes, *, mode: int = 0o644, ending: str = "") -> None:
     """Writes to a temporary name in the same folder, with that ending, then renames."""
+    import tempfile
+
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=ending, dir=path.parent)
     temporary = Path(name)

@@ -1,7 +1,6 @@
 """What differs between systems and is needed in many places."""
 
 import shlex
-import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -26,7 +25,11 @@ def own_command() -> str:
 
 def quote_command(words: Sequence[str]) -> str:
     """The words as a person types them into the command line of this system."""
-    return subprocess.list2cmdline(words) if is_windows() else shlex.join(words)
+    if not is_windows():
+        return shlex.join(words)
+    import subprocess  # it takes long to load
+
+    return subprocess.list2cmdline(words)
 
 
 def refuse_on_windows(what: str) -> None:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.process import run
 
 
 @dataclass(frozen=True)
@@ -62,6 +61,8 @@ def generated(project: Project, kind: str, size: int) -> Path:
     """The generated scene of that kind and size, made once."""
     path = project.build / "scenes" / f"{kind}-{size}.nff"
     if not path.is_file():
+        from raysteps.common.process import run  # rarely, and it takes long to load
+
         path.parent.mkdir(parents=True, exist_ok=True)
         script = project.scenes / "generate.py"
         outcome = run([sys.executable, script, kind, "--size", str(size), "-o", path], seconds=300)

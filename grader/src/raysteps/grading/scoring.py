@@ -1,10 +1,15 @@
 """Turns what was seen of a step into points and a status, and results into an exit code."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from raysteps.common.text import count
 from raysteps.course.manifest import Step
-from raysteps.results.model import Results, Status, StepResult
+
+if TYPE_CHECKING:  # `list` and `next` ask what a step is worth, and no result
+    from raysteps.results.model import Results, Status, StepResult
 
 
 def max_points(step: Step, *, judged: bool) -> float:

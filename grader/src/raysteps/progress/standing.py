@@ -1,11 +1,13 @@
 """Where each step stands, told from its file and its last check: nothing is built."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from rich.console import Console
 from rich.markup import escape
@@ -18,9 +20,11 @@ from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
 from raysteps.grading.scoring import max_points
-from raysteps.results.model import Results, StepResult
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
+
+if TYPE_CHECKING:
+    from raysteps.results.model import Results, StepResult
 
 # What the last check of each step said; `build/check` holds the last check only, perhaps of another step.
 
