@@ -22,3 +22,10 @@ def test_what_has_no_words_of_ours_keeps_those_of_the_system() -> None:
     assert reason(OSError(errno.EXDEV, os.strerror(errno.EXDEV))) == os.strerror(errno.EXDEV)
     assert reason(OSError("cannot identify it")) == "cannot identify it"
     assert reason(UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid")) == "it is no text in UTF-8"
+
+
+def test_a_file_that_another_program_has_open_on_windows() -> None:
+    error = PermissionError(errno.EACCES, "The process cannot access the file")
+    assert reason(error) == "no permission"
+    error.winerror = 32  # type: ignore[attr-defined,unused-ignore]
+    assert reason(error) == "another program has it open"

@@ -136,7 +136,7 @@ def test_when_the_new_one_cannot_take_its_place_the_older_one_is_back(
         return rename(path, target)
 
     monkeypatch.setattr(Path, "rename", busy)
-    with pytest.raises(UsageError, match="cannot be written: a file is open"):
+    with pytest.raises(UsageError, match="cannot be written: no permission"):
         _released(kit, steps, older, "Autumn")
     assert "Spring" in (older / "README.md").read_text(encoding="utf-8")
     assert [path.name for path in older.parent.iterdir()] == ["course"]

@@ -38,9 +38,13 @@ _REASONS = {
     errno.EADDRINUSE: "another program has this place",
 }
 
+_SHARING_VIOLATION = 32
+
 
 def reason(error: Exception) -> str:
     """Why a file could not be read or written, without numbers and without its path, which the message names."""
+    if getattr(error, "winerror", None) == _SHARING_VIOLATION:  # to which Windows gives the number of EACCES
+        return "another program has it open"
     if isinstance(error, OSError):
         return _REASONS.get(error.errno or 0) or error.strerror or str(error)
     return "it is no text in UTF-8" if isinstance(error, UnicodeDecodeError) else str(error)

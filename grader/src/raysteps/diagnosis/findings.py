@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from raysteps.common.schemas import read_text
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.evidence import Mask, Picture, differing
-from raysteps.diagnosis.pixel_regions import object_map, place_of, read_scene, render_text, size_of, without_highlights
+from raysteps.diagnosis.pixel_regions import object_map, place_of, render_text, size_of, without_highlights
 from raysteps.diagnosis.transforms import BEFORE, Transformed, in_words, transformation_of
 from raysteps.images.compare import Pixels
 from raysteps.images.render import reference_picture
@@ -62,7 +63,7 @@ class Terms:
     def _highlights(self) -> Mask:
         args = ("--step", "3", *size_of(self._picture.case.args))
         shiny = reference_picture(self._kit, self._scene, args)
-        return differing(shiny, render_text(self._kit, without_highlights(read_scene(self._scene)), args))
+        return differing(shiny, render_text(self._kit, without_highlights(read_text(self._scene)), args))
 
     def _unlit(self) -> Mask:
         mask: Mask = self.at_step(3).max(axis=2) <= 2

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.common.errors import GraderFault, reason
+from raysteps.common.schemas import read_text
 from raysteps.common.text import join_and
 from raysteps.diagnosis.evidence import Mask, Picture
 from raysteps.images.compare import Pixels
@@ -36,13 +36,6 @@ class ObjectMap:
 
     numbers: npt.NDArray[np.int32]
     objects: Sequence[Object]
-
-
-def read_scene(scene: Path) -> str:
-    try:
-        return scene.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise GraderFault(f"{scene}: cannot be read: {reason(error)}") from error
 
 
 def size_of(args: Sequence[str]) -> tuple[str, ...]:
@@ -88,7 +81,7 @@ def without_highlights(nff: str) -> str:
 
 def object_map(kit: BuiltKit, scene: Path, args: Sequence[str]) -> ObjectMap:
     """What the reference sees first in each pixel."""
-    nff, objects = numbered(read_scene(scene))
+    nff, objects = numbered(read_text(scene))
     pixels = render_text(kit, nff, ("--step", "2", *size_of(args))).astype(np.int32)
     return ObjectMap(pixels[..., 0] << 16 | pixels[..., 1] << 8 | pixels[..., 2], objects)
 

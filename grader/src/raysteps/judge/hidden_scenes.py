@@ -7,7 +7,8 @@ themselves cannot draw it.
 import math
 from dataclasses import dataclass
 
-from raysteps.common.errors import GraderFault, reason
+from raysteps.common.errors import GraderFault
+from raysteps.common.schemas import read_text
 from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
@@ -162,11 +163,7 @@ def _with_size(args: tuple[str, ...], size: str) -> tuple[str, ...]:
 
 def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: int) -> HiddenScene:
     draw = RandomSource(f"{seed}/{step.id}/{twin.twin_of}")
-    path = project.root / image.scene
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise GraderFault(f"{path}: cannot be read: {reason(error)}") from error
+    text = read_text(project.root / image.scene)
     nff = perturbed_scene(text, draw, spheres=twin.moves == "camera and spheres")
     args = _with_size(image.args, twin.size)
     share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)

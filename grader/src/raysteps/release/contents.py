@@ -40,7 +40,6 @@ NEVER = (
     "raysteps.judge",
     "raysteps.release",
 )
-_WITHOUT_DATA = ("exports",)
 _DATA = (".json", ".css", ".js", ".j2", ".typed")
 
 
@@ -121,8 +120,6 @@ def package_files(source: Path) -> list[Path]:
     modules = needed_modules(source)
     found = set(modules)
     for package in {path.parent for path in modules if path.name == "__init__.py"}:
-        if package.name in _WITHOUT_DATA:
-            continue
         rooms = [package, *(room for room in package.iterdir() if room.name in ("static", "templates"))]
         for path in (path for room in rooms if room.is_dir() for path in room.iterdir()):
             if path.is_file() and path.suffix in _DATA:
