@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from raysteps.common.schemas import read_text
+from raysteps.common.documents import read_text
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.evidence import Mask, Picture, differing
 from raysteps.diagnosis.pixel_regions import object_map, place_of, render_text, size_of, without_highlights

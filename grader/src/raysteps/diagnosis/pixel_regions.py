@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from raysteps.common.schemas import read_text
+from raysteps.common.documents import read_text
 from raysteps.common.text import join_and
 from raysteps.diagnosis.evidence import Mask, Picture
 from raysteps.images.compare import Pixels

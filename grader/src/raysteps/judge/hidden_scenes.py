@@ -7,8 +7,8 @@ themselves cannot draw it.
 import math
 from dataclasses import dataclass
 
+from raysteps.common.documents import read_text
 from raysteps.common.errors import GraderFault
-from raysteps.common.schemas import read_text
 from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
