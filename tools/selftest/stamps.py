@@ -95,7 +95,7 @@ class Stamps:
             write_json(self._path(name), {"check": name, "inputs": digest})
 
     def _path(self, name: str) -> Path:
-        return self._folder / f"{re.sub(r'[^a-z0-9]+', '-', name.lower()).strip('-')[:80]}.json"
+        return self._folder / f"{re.sub(r'[^a-z0-9]+', '-', name.lower()).strip('-')[:80]}.stamp.json"
 
 
 def _is_made(place: str) -> bool:
