@@ -21,6 +21,7 @@ from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.plan import read_plan
 from raysteps.results.model import StepResult
 from raysteps.results.settings import Settings
+from raysteps.sandbox.detect import find_sandbox
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit
@@ -278,6 +279,20 @@ def _graded(
         return list(pool.map(grade, enumerate(rounds, start=1)))
 
 
+def _differs_in_the_sandbox(
+    kit: BuiltKit, rounds: Sequence[Round], graded: Sequence[Sequence[ObservedGrade]], seed: int, only: Collection[str]
+) -> list[str]:
+    """One of the rounds again, in the sandbox that submissions get."""
+    at = random.Random(seed).randrange(len(rounds))  # noqa: S311 - a choice, not a secret
+    again = grade_round(kit, rounds[at], find_sandbox(), seed=seed, only=only)
+    return [
+        f"{kept.entrant.step}: {kept.entrant.name}: {kept.result.points:g} points in the sandbox, "
+        f"{one.result.points:g} without"
+        for one, kept in zip(graded[at], again, strict=True)
+        if one.result.points != kept.result.points
+    ]
+
+
 def _pairs(
     kit: BuiltKit,
     steps: Sequence[Step],
@@ -327,12 +342,14 @@ def check_truth(
     for step in kit.steps:
         if step.id in chosen:  # before anybody is graded, and with what is run again for the grades
             mutant_fingerprints(kit, step, read_plan(project, step), read_mutants(project, step), say, sandbox)
-    rounds = _graded(kit, rounds_of(project, kit.steps), "round", seed, chosen, sandbox, say)
+    handed_in = rounds_of(project, kit.steps)
+    rounds = _graded(kit, handed_in, "round", seed, chosen, sandbox, say)
     rows = [row_of(step, [one for seen in rounds for one in seen if one.entrant.step == step]) for step in chosen]
     every = [one for seen in rounds for one in seen]
     console.print(table_of(rows))
     print_notes(console, every)
     problems = problems_of(rounds) + shortfalls(total(rows))
+    problems += _differs_in_the_sandbox(kit, handed_in, rounds, seed, chosen)
     if pairs:
         problems += _pairs(kit, [step for step in kit.steps if step.id in chosen], pairs, seed, sandbox, console, say)
     for problem in problems:

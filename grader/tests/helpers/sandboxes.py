@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -87,16 +86,6 @@ def secret() -> Iterator[Path]:
         path.write_text("the answer is 42\n", encoding="ascii")
         path.chmod(0o644)
         yield path
-
-
-def in_time(seconds: float, run: Callable[[], TaskResult]) -> TaskResult:
-    """What took less than that. Twice, something else on the machine may have been in the way."""
-    for _ in range(3):
-        start = time.monotonic()
-        ran = run()
-        if time.monotonic() - start < seconds:
-            return ran
-    raise AssertionError(f"it took more than {seconds} s three times")
 
 
 def processes_running(program: str) -> list[str]:

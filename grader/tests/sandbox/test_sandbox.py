@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from sandboxes import PROGRAM, Misbehave, any_sandbox, hostile, in_time, misbehave, processes_running, sandbox, secret
+from sandboxes import PROGRAM, Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
 
 from raysteps.course.project import here
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
@@ -164,14 +164,15 @@ def test_the_grader_cannot_be_killed(sandbox: Sandbox, misbehave: Misbehave) -> 
 
 
 def test_sleeping_is_ended(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
-    ran = in_time(3, lambda: misbehave(any_sandbox, "stubborn", wall_seconds=1))
+    """It would never end by itself."""
+    ran = misbehave(any_sandbox, "stubborn", wall_seconds=1)
     assert ran.stopped == "wall"
     assert ran.outcome.timed_out
 
 
 @pytest.mark.parametrize("processes", [1, 2])
 def test_computing_is_ended(any_sandbox: Sandbox, misbehave: Misbehave, processes: int) -> None:
-    ran = in_time(10, lambda: misbehave(any_sandbox, "spin", str(processes), cpu_seconds=1, wall_seconds=20))
+    ran = misbehave(any_sandbox, "spin", str(processes), cpu_seconds=1, wall_seconds=10)
     assert ran.stopped == "cpu"
     assert not ran.outcome.timed_out
     assert 0.9 < ran.cpu_seconds < 3
@@ -186,8 +187,9 @@ def test_cpu_time_is_told(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
 def test_memory_is_limited(any_sandbox: Sandbox, misbehave: Misbehave, eaters: int) -> None:
     many = [str(eaters)] if eaters else []
     words = ("eat", "100" if eaters else "6000", *many)
-    ran = in_time(10, lambda: misbehave(any_sandbox, *words, memory_mb=300, wall_seconds=20))
+    ran = misbehave(any_sandbox, *words, memory_mb=300, wall_seconds=10)
     assert ran.outcome.code != 0
+    assert ran.stopped != "wall"
     assert "full" not in ran.outcome.stdout
     if eaters:
         assert ran.stopped == "memory"
@@ -203,7 +205,7 @@ def test_processes_are_limited(sandbox: Sandbox, misbehave: Misbehave) -> None:
 
 
 def test_a_fork_bomb_is_held(sandbox: Sandbox, misbehave: Misbehave) -> None:
-    ran = in_time(3, lambda: misbehave(sandbox, "bomb", processes=20, wall_seconds=1))
+    ran = misbehave(sandbox, "bomb", processes=20, wall_seconds=1)
     assert ran.stopped == "wall"
     assert processes_running(PROGRAM) == []
 
@@ -221,8 +223,9 @@ def test_a_neighbours_bomb_takes_no_threads(sandbox: Sandbox, misbehave: Misbeha
 
 
 def test_a_daemon_does_not_hold_the_grader(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
-    ran = in_time(5, lambda: misbehave(any_sandbox, "daemon"))
-    assert (ran.outcome.code, ran.outcome.stdout) == (0, "done\n")
+    """Who waited for it would be stopped by the clock."""
+    ran = misbehave(any_sandbox, "daemon", wall_seconds=5)
+    assert (ran.outcome.code, ran.outcome.stdout, ran.stopped) == (0, "done\n", "")
     assert processes_running(PROGRAM) == []
 
 
