@@ -7,6 +7,7 @@ import msgspec
 
 from raysteps.classroom.leaderboard import Leaderboard
 from raysteps.common.files import write_json
+from raysteps.inspector.model import Record
 from raysteps.judge.counterexamples import CaseFile
 from raysteps.results.class_model import ClassResults
 from raysteps.results.model import Results
@@ -16,6 +17,7 @@ DOCUMENTS: Mapping[str, type] = {
     "class": ClassResults,
     "leaderboard": Leaderboard,
     "case": CaseFile,
+    "inspect": Record,
 }
 
 
