@@ -2,7 +2,6 @@
 
 import json
 import tempfile
-from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rich.console import Console
@@ -12,26 +11,13 @@ from rich.table import Table
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.build_kit import build_kit
+from tools.bench.model import BoxesNumbers, BoxesRow
 from tools.bench.records import keep
 from tools.bench.tables import terminal_table
 from tools.selftest.programs import ACCELERATIONS, render_with
 
 _DEFAULTS = (("sphereflake", 4), ("tetrahedra", 6), ("gears", 2), ("mountain", 6))
 _SECONDS = 3600
-
-
-@dataclass(frozen=True)
-class Measurement:
-    """One scene rendered in one way."""
-
-    scene: str
-    accel: str
-    objects: int
-    share_tested: float
-    tests_per_ray: float
-    seconds: float
-    time_saved: float
-    speed_up: float
 
 
 def _measure(program: Path, scene: Path, accel: str, size: str, folder: Path) -> tuple[bytes, dict[str, float]]:
@@ -45,9 +31,9 @@ def _measure(program: Path, scene: Path, accel: str, size: str, folder: Path) ->
     return picture.read_bytes(), json.loads(stats.read_text(encoding="utf-8"))
 
 
-def measure_scene(program: Path, scene: Path, size: str) -> list[Measurement]:
+def measure_scene(program: Path, scene: Path, size: str) -> list[BoxesRow]:
     """All ways, which must give the same bytes."""
-    rows: list[Measurement] = []
+    rows: list[BoxesRow] = []
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         first = b""
         brute = 0.0
@@ -58,7 +44,7 @@ def measure_scene(program: Path, scene: Path, size: str) -> list[Measurement]:
             if picture != first:
                 raise GraderFault(f"{scene.name}: --accel {accel} gives another picture than --accel none")
             rows.append(
-                Measurement(
+                BoxesRow(
                     scene.stem,
                     accel,
                     int(stats["surfaces"]),
@@ -72,7 +58,7 @@ def measure_scene(program: Path, scene: Path, size: str) -> list[Measurement]:
     return rows
 
 
-def _table(rows: list[Measurement], size: str) -> Table:
+def _table(rows: list[BoxesRow], size: str) -> Table:
     headings = ("scene", "objects", "accel", "objects tested", "tests per ray", "time", "saved", "speed-up")
     table = terminal_table(f"{size}, step 6, one ray per pixel and its shadow and mirror rays", headings)
     for row in rows:
@@ -97,16 +83,11 @@ def boxes(project: Project, scenes: list[Path], size: str, console: Console) -> 
         raise UsageError(f"{missing[0]}: there is no such scene")
     program = build_kit(project).reference("raytrace")
     every = [generated(project, kind, factor) for kind, factor in _DEFAULTS] + scenes
-    rows: list[Measurement] = []
+    rows: list[BoxesRow] = []
     for scene in every:
         with console.status(f"measuring {escape(scene.name)}"):
             rows += measure_scene(program, scene, size)
     console.print(_table(rows, size))
     console.print("All ways gave the same picture, byte for byte, on every scene.")
-    keep(
-        project,
-        "boxes",
-        {"schema": "raysteps/bench-boxes/v1", "size": size, "rows": [asdict(row) for row in rows]},
-        console,
-    )
+    keep(project, BoxesNumbers(size=size, rows=rows), console)
     return 0

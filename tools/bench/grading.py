@@ -6,9 +6,9 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
+from typing import Literal
 
 from rich.console import Console
 from rich.table import Table
@@ -19,6 +19,7 @@ from raysteps.common.process import run
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.build_kit import build_kit
+from tools.bench.model import Cost, GradingNumbers
 from tools.bench.programs import children_seconds
 from tools.bench.records import keep
 from tools.bench.tables import terminal_table
@@ -28,18 +29,7 @@ _CLASS_SIZE = 8
 _PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "framework", "scenes", "solutions", "steps")
 
 
-@dataclass(frozen=True)
-class Cost:
-    """Of one submission, on average over one run."""
-
-    way: str
-    run: int
-    submissions: int
-    seconds: float
-    cpu_seconds: float
-
-
-def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
+def _measure(way: Literal["plain", "class"], number: int, submissions: int, work: Callable[[], None]) -> Cost:
     start, used = time.monotonic(), children_seconds()
     work()
     seconds, processor = time.monotonic() - start, children_seconds() - used
@@ -119,7 +109,5 @@ def grading(project: Project, rounds: int, console: Console) -> int:
                 together = partial(_class_way, project, submissions, Path(name) / f"out-{number}")
                 costs.append(_measure("class", number, _CLASS_SIZE, together))
     console.print(_table(costs))
-    keep(
-        project, "grading", {"schema": "raysteps/bench-grading/v1", "costs": [asdict(cost) for cost in costs]}, console
-    )
+    keep(project, GradingNumbers(costs=costs), console)
     return 0

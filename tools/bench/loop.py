@@ -3,9 +3,7 @@
 import shutil
 import sys
 import tempfile
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
@@ -16,8 +14,9 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import without_markers
 from raysteps.exports.autograders import kit_files
 from raysteps.toolchain.cmake import release_tree
+from tools.bench.model import LoopNumbers, LoopRow, Spread
 from tools.bench.programs import machine
-from tools.bench.records import keep, spread_of
+from tools.bench.records import keep
 from tools.bench.tables import terminal_table
 
 _SECONDS = 1800
@@ -50,13 +49,13 @@ def _edit(copy: Project, step: Step, number: int) -> None:
         file.write(f"// changed for the {number}. time\n")
 
 
-def _measured(copy: Project, step: Step, rounds: int) -> dict[str, Any]:
+def _measured(copy: Project, step: Step, rounds: int) -> LoopRow:
     _check(copy, step)  # builds the kit, which is not done again for a changed step
     seconds = []
     for number in range(1, rounds + 1):
         _edit(copy, step, number)
         seconds.append(_check(copy, step).seconds)
-    return {"step": step.id, "seconds": spread_of(seconds)}
+    return LoopRow(step.id, Spread.of(seconds))
 
 
 def bench_loop(project: Project, steps: list[str], rounds: int, console: Console) -> int:
@@ -71,8 +70,8 @@ def bench_loop(project: Project, steps: list[str], rounds: int, console: Console
         found = machine(release_tree(copy))
     table = terminal_table("from a saved file to the result of check", ("step", "median", "least", "most"))
     for row in rows:
-        spread = row["seconds"]
-        table.add_row(row["step"], f"{spread['median']:.2f} s", f"{spread['min']:.2f} s", f"{spread['max']:.2f} s")
+        spread = row.seconds
+        table.add_row(row.step, f"{spread.median:.2f} s", f"{spread.min:.2f} s", f"{spread.max:.2f} s")
     console.print(table)
-    keep(project, "loop", {"schema": "raysteps/bench-loop/v1", "machine": asdict(found), "rows": rows}, console)
+    keep(project, LoopNumbers(machine=found, rows=rows), console)
     return 0

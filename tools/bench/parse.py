@@ -1,13 +1,12 @@
 """The command `bench parse`: how fast scenes are read."""
 
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.course.project import Project, generated
+from tools.bench.model import ParseNumbers, ParseRow
 from tools.bench.programs import ask_pinned, checked, portable
 from tools.bench.records import keep
 from tools.bench.tables import median, quartiles, terminal_table
@@ -22,24 +21,22 @@ def bench_parse(project: Project, scenes: list[Path], rounds: int, console: Cons
         programs = portable(project)
     with console.status("making large scenes"):
         large = named or [generated(project, kind, size) for kind, size in _LARGE]
-    rows: list[dict[str, Any]] = []
+    rows: list[ParseRow] = []
     for scene in large:
         with console.status(f"reading {escape(scene.name)}"):
-            row = ask_pinned(programs.bench, "parse", scene, "--rounds", str(rounds))
-        del row["schema"]
-        rows.append({"scene": scene.stem, **row})
+            words = ("parse", scene, "--rounds", str(rounds))
+            rows.append(ask_pinned(ParseRow, programs.bench, *words, scene=scene.stem))
     headings = ("scene", "size", "surfaces", "speed", "quartiles")
     table = terminal_table("reading scenes, one thread, the text already in memory", headings)
     for row in rows:
-        speed = row["megabytes_per_second"]
+        speed = row.megabytes_per_second
         table.add_row(
-            escape(row["scene"]),
-            f"{row['bytes'] / 1e6:.1f} MB",
-            str(row["surfaces"]),
+            escape(row.scene),
+            f"{row.bytes / 1e6:.1f} MB",
+            str(row.surfaces),
             median(speed, 1, " MB/s"),
             quartiles(speed, 1),
         )
     console.print(table)
-    document = {"schema": "raysteps/bench-parse/v1", "machine": asdict(programs.machine), "rows": rows}
-    keep(project, "parse", document, console)
+    keep(project, ParseNumbers(machine=programs.machine, rows=rows), console)
     return 0

@@ -8,17 +8,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import shorten
 from raysteps.common.vectors import Vector, cross, length, minus, times, unit
+from tools.bench.model import PovrayRow, ProgramTimes, Spread
 from tools.bench.programs import Programs, children_seconds, flat_nff, pinned
-from tools.bench.records import spread_of
 
 # A scene of spheres, cones and triangles, from the NFF that `raysteps-bench nff` writes.
 
@@ -159,27 +159,32 @@ def pov_text(scene: FlatScene, depth: int) -> str:
 
 # Whether two programs drew the same scene.
 
+Picture = NDArray[np.float64]
+
 _BLOCK = 16  # pixels
 _WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
 
 
-def linear_picture(path: Path, *, tone_mapped: bool) -> Any:
+def linear_picture(path: Path, *, tone_mapped: bool) -> Picture:
     """The light of each pixel, cut off at 1. Step 07 maps c to c / (c + 1); that is undone here."""
     with Image.open(path) as image:
         values = np.asarray(image.convert("RGB"), dtype=np.float64) / 255.0
     if tone_mapped:
         values = values / np.maximum(1.0 - values, 1e-9)
-    return np.minimum(values, 1.0)
+    capped: Picture = np.minimum(values, 1.0)
+    return capped
 
 
-def _blocks(picture: Any) -> Any:
-    brightness = picture @ _WEIGHTS
+def _blocks(picture: Picture) -> Picture:
+    brightness: Picture = picture @ _WEIGHTS
     height, width = (max(1, side // _BLOCK) * min(_BLOCK, side) for side in brightness.shape)
     rows, columns = max(1, height // _BLOCK), max(1, width // _BLOCK)
-    return brightness[:height, :width].reshape(rows, height // rows, columns, width // columns).mean(axis=(1, 3))
+    blocks = brightness[:height, :width].reshape(rows, height // rows, columns, width // columns)
+    means: Picture = blocks.mean(axis=(1, 3))
+    return means
 
 
-def brightness_difference(a: Any, b: Any) -> float:
+def brightness_difference(a: Picture, b: Picture) -> float:
     """The mean over blocks of 16 x 16 pixels, from 0 to 1. Both pictures have the same size."""
     return float(np.abs(_blocks(a) - _blocks(b)).mean())
 
@@ -250,11 +255,11 @@ def _difference(folder: Path, tree: str) -> float:
     return brightness_difference(theirs, linear_picture(folder / f"{tree}.ppm", tone_mapped=True))
 
 
-def _skipped(scene: str, why: str) -> dict[str, Any]:
-    return {"scene": scene, "skipped": why, "brightness_difference": None, "programs": []}
+def _skipped(scene: str, why: str) -> PovrayRow:
+    return PovrayRow(scene, why, None, [])
 
 
-def _measured(folder: Path, scene: str, runners: dict[str, Runner], race: Race, bound: float) -> dict[str, Any]:
+def _measured(folder: Path, scene: str, runners: dict[str, Runner], race: Race, bound: float) -> PovrayRow:
     """A picture of one pixel takes reading and building, but no rays to speak of: the rest is tracing."""
     size = race.size
     times: dict[str, list[tuple[TraceTime, float]]] = {name: [] for name in runners}
@@ -268,19 +273,19 @@ def _measured(folder: Path, scene: str, runners: dict[str, Runner], race: Race, 
             whole, without_rays = runner(size), runner(1)
             times[name].append((whole, max(0.0, whole.processor - without_rays.processor)))
     programs = [
-        {
-            "program": name,
-            "trace_seconds": spread_of([one.trace for one, _ in taken]),
-            "trace_processor_seconds": spread_of([tracing for _, tracing in taken]),
-            "process_seconds": spread_of([one.process for one, _ in taken]),
-            "processor_seconds": spread_of([one.processor for one, _ in taken]),
-        }
+        ProgramTimes(
+            name,
+            Spread.of([one.trace for one, _ in taken]),
+            Spread.of([tracing for _, tracing in taken]),
+            Spread.of([one.process for one, _ in taken]),
+            Spread.of([one.processor for one, _ in taken]),
+        )
         for name, taken in times.items()
     ]
-    return {"scene": scene, "skipped": "", "brightness_difference": difference, "programs": programs}
+    return PovrayRow(scene, "", difference, programs)
 
 
-def race_povray(programs: Programs, scene: Path, race: Race) -> dict[str, Any]:
+def race_povray(programs: Programs, scene: Path, race: Race) -> PovrayRow:
     """Both get the same flat scene with a black background."""
     text = flat_nff(programs.bench, scene)
     flat = read_flat(text)

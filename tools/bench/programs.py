@@ -9,14 +9,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
+from raysteps.common.documents import Malformed, convert
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
 from raysteps.toolchain.link import read_description
+from tools.bench.model import Listing, Machine
 from tools.selftest.programs import accelerations_of
+
+T = TypeVar("T")
 
 # Holds the programs that are started here on one processor, so that they do not wander while they are measured.
 
@@ -40,19 +44,7 @@ def pinned() -> Iterator[bool]:
         os.sched_setaffinity(0, allowed)
 
 
-# What the numbers were measured on, without the name of the machine.
-
-
-@dataclass(frozen=True)
-class Machine:
-    """Processor, compiler and system."""
-
-    processor: str
-    cores: int
-    system: str
-    compiler: str
-    flags: str
-    pinned: bool
+# What the numbers were measured on.
 
 
 def _processor() -> str:
@@ -119,12 +111,12 @@ def accelerations(programs: Programs) -> list[str]:
     return [name for name in accelerations_of(programs.raytrace) if name not in ("none", "boxes")]
 
 
-def what_is_missing(listed: dict[str, Any]) -> list[str]:
-    """In words: who else could be measured, and how; `listed` is what `raysteps-bench list` says."""
+def what_is_missing(listed: Listing) -> list[str]:
+    """In words: who else could be measured, and how."""
     lines = []
-    if "wide" not in [side["name"] for side in listed["structures"]]:
+    if "wide" not in [side.name for side in listed.structures]:
         lines.append("Highway is not installed, so there are no wide trees to measure: apt-get install libhwy-dev")
-    if not listed["embree_version"]:
+    if not listed.embree_version:
         lines.append(
             "Embree 3 is not installed, so there is nothing to compare rays with: apt-get install libembree-dev"
         )
@@ -149,15 +141,26 @@ def _checked(outcome: Outcome) -> str:
     return outcome.stdout
 
 
-def ask(program: Path, *words: str | Path) -> Any:
-    """With all processors."""
-    return json.loads(_checked(run([program, *words], seconds=_SECONDS)))
+def ask(kind: type[T], program: Path, *words: str | Path, **more: str) -> T:
+    """With all processors. For a row of a table `more` stands in front, in place of the schema."""
+    told = json.loads(_checked(run([program, *words], seconds=_SECONDS)))
+    if more:
+        told = more | {key: value for key, value in told.items() if key != "schema"}
+    try:
+        return convert(told, kind)
+    except Malformed as error:
+        raise GraderFault(f"raysteps-bench {words[0]}: {error}") from error
 
 
-def ask_pinned(program: Path, *words: str | Path) -> Any:
+def ask_pinned(kind: type[T], program: Path, *words: str | Path, **more: str) -> T:
     """On one processor, where the system allows that."""
     with pinned():
-        return ask(program, *words)
+        return ask(kind, program, *words, **more)
+
+
+def listed(program: Path) -> Listing:
+    """What can be measured."""
+    return ask(Listing, program, "list")
 
 
 def flat_nff(program: Path, scene: Path) -> str:

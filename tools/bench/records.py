@@ -1,29 +1,28 @@
-"""What a benchmark leaves behind: JSON in build/bench, checked against its schema."""
+"""What a benchmark leaves behind: JSON in build/bench."""
 
-import json
 import math
-import statistics
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
 from rich.console import Console
 from rich.markup import escape
 
+from raysteps.common.documents import Malformed, convert, parse, plain
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_json
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.course.project import Project
+from tools.bench.model import Numbers
 
-NAMES = ("boxes", "grading", "render", "scale", "threads", "parse", "loop")
+T = TypeVar("T", bound=Numbers)
 
 
-def _checked(name: str, document: Any, where: str) -> Any:
-    problem = complaint(document, read_schema("tools.bench", "bench.schema.json", name))
-    if problem:
-        raise GraderFault(f"{where}: not what `bench {name}` writes: {problem}")
-    return document
+def _checked(document: Numbers) -> Numbers:
+    try:
+        return convert(plain(document), type(document))
+    except Malformed as error:
+        raise GraderFault(f"not what `bench {document.name}` writes: {error}") from error
 
 
 def place_of(project: Project, name: str) -> Path:
@@ -31,23 +30,23 @@ def place_of(project: Project, name: str) -> Path:
     return project.build / "bench" / f"{name}.json"
 
 
-def keep(project: Project, name: str, document: Any, console: Console) -> None:
+def keep(project: Project, document: Numbers, console: Console) -> None:
     """Writes build/bench/NAME.json and tells so."""
-    path = place_of(project, name)
-    write_json(path, _checked(name, document, name))
+    path = place_of(project, document.name)
+    write_json(path, plain(_checked(document)))
     console.print(f"Numbers: {escape(str(path))}", soft_wrap=True)
 
 
-def kept(project: Project, name: str) -> Any | None:
+def kept(project: Project, kind: type[T]) -> T | None:
     """What was measured last; nothing when it never was."""
-    path = place_of(project, name)
+    path = place_of(project, kind.name)
     if not path.is_file():
         return None
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise UsageError(f"{path}: not JSON: {error}; measure again: ./raysteps bench {name}") from error
-    return _checked(name, document, str(path))
+        return parse(path.read_bytes(), kind, complete=True)
+    except Malformed as error:
+        again = f"measure again: ./raysteps bench {kind.name}"
+        raise UsageError(f"{path}: not what `bench {kind.name}` writes: {error}; {again}") from error
 
 
 # Means and slopes.
@@ -77,20 +76,3 @@ def growth(points: Sequence[tuple[float, float]]) -> Growth:
     doublings = [math.log2(x) for x, _ in points]
     values = [y for _, y in points]
     return Growth(_slope(doublings, [math.log2(value) for value in values]), _slope(doublings, values))
-
-
-# What several measurements of the same thing say.
-
-
-def spread_of(values: Sequence[float]) -> dict[str, Any]:
-    """As raysteps-bench writes it: median, extremes, quartiles and every value."""
-    ordered = sorted(values)
-    quartiles = statistics.quantiles(ordered, n=4, method="inclusive") if len(ordered) > 1 else ordered * 3
-    return {
-        "median": statistics.median(ordered),
-        "min": ordered[0],
-        "max": ordered[-1],
-        "q1": quartiles[0],
-        "q3": quartiles[2],
-        "rounds": list(values),
-    }

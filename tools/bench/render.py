@@ -1,22 +1,23 @@
 """The command `bench render`: nanoseconds a ray, beside Embree and POV-Ray."""
 
 import shutil
-from dataclasses import asdict, dataclass
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.course.project import Project
+from tools.bench.model import BuildRays, PovrayRow, ProgramTimes, RenderNumbers, SceneRays, Spread
 from tools.bench.povray import Race, race_povray
 from tools.bench.programs import (
     Programs,
     accelerations,
-    ask,
     ask_pinned,
     checked,
     default_scenes,
+    listed,
     native,
     portable,
     what_is_missing,
@@ -27,71 +28,70 @@ from tools.bench.tables import counted, median, megabytes, milliseconds, quartil
 # Tables of `bench render`.
 
 PEER = "embree"
-_TIMES = ("trace_seconds", "trace_processor_seconds", "process_seconds", "processor_seconds")
-COMPARED = ("trace_seconds", "trace_processor_seconds")
+Times = Callable[[ProgramTimes], Spread]
+COMPARED: tuple[Times, Times] = (lambda side: side.trace_seconds, lambda side: side.trace_processor_seconds)
 
 
-def median_of(scene: dict[str, Any], name: str, what: str = "ns_per_ray") -> float | None:
+def median_of(scene: SceneRays, name: str) -> float | None:
     """Of one structure on one scene, if it was measured."""
-    found = [side[what] for side in scene["structures"] if side["name"] == name and side[what]]
-    return float(found[0]["median"]) if found else None
+    return next((float(side.ns_per_ray.median) for side in scene.structures if side.name == name), None)
 
 
-def names_of(scenes: list[dict[str, Any]]) -> list[str]:
+def names_of(scenes: list[SceneRays]) -> list[str]:
     """All structures, in the order of the program."""
-    return list(dict.fromkeys(side["name"] for scene in scenes for side in scene["structures"]))
+    return list(dict.fromkeys(side.name for scene in scenes for side in scene.structures))
 
 
-def against_embree(scenes: list[dict[str, Any]], name: str, what: str = "ns_per_ray") -> float | None:
+def against_embree(scenes: list[SceneRays], name: str) -> float | None:
     """The geometric mean over the scenes of a structure's time as a multiple of Embree's."""
-    pairs = [(median_of(scene, name, what), median_of(scene, PEER, what)) for scene in scenes]
+    pairs = [(median_of(scene, name), median_of(scene, PEER)) for scene in scenes]
     ratios = [ours / theirs for ours, theirs in pairs if ours and theirs]
     return geometric_mean(ratios) if ratios and len(ratios) == len(scenes) else None
 
 
-def all_against_embree(scenes: list[dict[str, Any]]) -> list[tuple[str, float]]:
+def all_against_embree(scenes: list[SceneRays]) -> list[tuple[str, float]]:
     """Of each other structure, where all scenes have both."""
     means = [(name, against_embree(scenes, name)) for name in names_of(scenes)]
     return [(name, mean) for name, mean in means if mean and name != PEER]
 
 
-def faster(theirs: dict[str, Any], ours: dict[str, Any], what: str) -> float:
+def faster(theirs: ProgramTimes, ours: ProgramTimes, what: Times) -> float:
     """How many times less we take than POV-Ray; 0 where a picture is too small to be measured."""
-    mine, other = float(ours[what]["median"]), float(theirs[what]["median"])
+    mine, other = float(what(ours).median), float(what(theirs).median)
     return other / mine if mine > 0.0 else 0.0
 
 
-def against_povray(rows: list[dict[str, Any]], what: str) -> list[tuple[str, float]]:
+def against_povray(rows: list[PovrayRow], what: Times) -> list[tuple[str, float]]:
     """For each of our programs: how many times faster, as the geometric mean of the scenes."""
     found: dict[str, list[float]] = {}
     for row in rows:
-        for side in row["programs"][1:]:
-            found.setdefault(side["program"], []).append(faster(row["programs"][0], side, what))
+        for side in row.programs[1:]:
+            found.setdefault(side.program, []).append(faster(row.programs[0], side, what))
     return [(name, geometric_mean(ratios)) for name, ratios in found.items() if min(ratios) > 0.0]
 
 
-def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> None:
+def print_rays(scenes: list[SceneRays], build: str, console: Console) -> None:
     """One line for each structure on each scene, and their means."""
     headings = ("scene", "structure", "rays", "ns/ray", "quartiles", "to Embree", "picture", "build", "memory",
                 "surfaces/ray", "boxes/ray", "seen differently")  # fmt: skip
     table = terminal_table(f"{build} build, one thread: every ray of the picture again", headings)
     for scene in scenes:
-        for number, side in enumerate(scene["structures"]):
-            spread = side["ns_per_ray"]
+        for number, side in enumerate(scene.structures):
+            spread = side.ns_per_ray
             table.add_row(
-                f"{escape(scene['scene'])} ({scene['surfaces']})" if number == 0 else "",
-                side["name"],
-                str(side["rays"]),
+                f"{escape(scene.scene)} ({scene.surfaces})" if number == 0 else "",
+                side.name,
+                str(side.rays),
                 median(spread, 1),
                 quartiles(spread, 1),
-                ratio(spread["median"], median_of(scene, PEER), " x"),
-                median(side["picture_seconds"], 3, " s"),
-                milliseconds(side["build_seconds"], 2, " ms"),
-                megabytes(side["bytes"], unit=" MB"),
-                counted(side["surface_tests_per_ray"], 2),
-                counted(side["box_tests_per_ray"], 2),
-                str(side["differing"]),
-                end_section=side is scene["structures"][-1],
+                ratio(spread.median, median_of(scene, PEER), " x"),
+                median(side.picture_seconds, 3, " s"),
+                milliseconds(side.build_seconds, 2, " ms"),
+                megabytes(side.bytes, unit=" MB"),
+                counted(side.surface_tests_per_ray, 2),
+                counted(side.box_tests_per_ray, 2),
+                str(side.differing),
+                end_section=side is scene.structures[-1],
             )
     console.print(table)
     told = [f"{name} {mean:.2f} x" for name, mean in all_against_embree(scenes)]
@@ -100,24 +100,25 @@ def print_rays(scenes: list[dict[str, Any]], build: str, console: Console) -> No
         console.print(f"Time of a ray against Embree's, {mean}: {', '.join(told)}")
 
 
-def print_pictures(rows: list[dict[str, Any]], console: Console) -> None:
+def print_pictures(rows: list[PovrayRow], console: Console) -> None:
     """Whole pictures beside POV-Ray's."""
     headings = ("scene", "program", "tracing", "tracing, processor", "process", "process, processor",
                 "POV-Ray / ours: tracing", "and of the processor", "difference of brightness")  # fmt: skip
     table = terminal_table("whole pictures beside POV-Ray, one thread each", headings)
     for row in rows:
-        if row["skipped"]:
-            table.add_row(escape(row["scene"]), escape(row["skipped"]), end_section=True)
+        if row.skipped:
+            table.add_row(escape(row.scene), escape(row.skipped), end_section=True)
             continue
-        theirs = row["programs"][0]
-        for number, side in enumerate(row["programs"]):
+        theirs = row.programs[0]
+        for number, side in enumerate(row.programs):
+            times = (side.trace_seconds, side.trace_processor_seconds, side.process_seconds, side.processor_seconds)
             table.add_row(
-                escape(row["scene"]) if number == 0 else "",
-                side["program"],
-                *[median(side[what], 3, " s") for what in _TIMES],
+                escape(row.scene) if number == 0 else "",
+                side.program,
+                *[median(time, 3, " s") for time in times],
                 *["" if number == 0 else f"{faster(theirs, side, what):.2f} x" for what in COMPARED],
-                f"{row['brightness_difference']:.4f}" if number == 0 else "",
-                end_section=side is row["programs"][-1],
+                f"{row.brightness_difference:.4f}" if number == 0 else "",
+                end_section=side is row.programs[-1],
             )
     console.print(table)
     for what, words in zip(COMPARED, ("on the clock", "of the processor"), strict=True):
@@ -140,22 +141,22 @@ class RenderWish:
     povray: bool = True
 
 
-def _rays(programs: Programs, scene: Path, wish: RenderWish) -> Any:
+def _rays(programs: Programs, scene: Path, wish: RenderWish) -> SceneRays:
     words = ["--size", wish.size, "--depth", wish.depth, "--rounds", wish.rounds, "--every", wish.every]
     words += ["--structures", wish.structures] if wish.structures else []
-    return ask_pinned(programs.bench, "render", scene, *[str(word) for word in words])
+    return ask_pinned(SceneRays, programs.bench, "render", scene, *[str(word) for word in words])
 
 
-def _measure(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> dict[str, Any]:
+def _measure(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> BuildRays:
     rows = []
     for scene in scenes:
         with console.status(f"{programs.build} build: the rays of {escape(scene.name)}"):
             rows.append(_rays(programs, scene, wish))
     print_rays(rows, programs.build, console)
-    return {"build": programs.build, "machine": asdict(programs.machine), "scenes": rows}
+    return BuildRays(programs.build, programs.machine, rows)
 
 
-def _race(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> list[dict[str, Any]]:
+def _race(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> list[PovrayRow]:
     if shutil.which("povray") is None or not wish.povray:
         return []
     rows = []
@@ -174,7 +175,7 @@ def bench_render(project: Project, wish: RenderWish, console: Console) -> int:
     scenes = checked(wish.scenes) or default_scenes(project)
     with console.status("building the benchmarks"):
         programs = portable(project)
-    for line in what_is_missing(ask(programs.bench, "list")):
+    for line in what_is_missing(listed(programs.bench)):
         console.print(line, soft_wrap=True)
     builds = [_measure(programs, scenes, wish, console)]
     if wish.native:
@@ -182,5 +183,5 @@ def bench_render(project: Project, wish: RenderWish, console: Console) -> int:
             tuned = native(project)
         builds.append(_measure(tuned, scenes, wish, console))
     pictures = _race(programs, scenes, wish, console)
-    keep(project, "render", {"schema": "raysteps/bench-render/v1", "builds": builds, "povray": pictures}, console)
+    keep(project, RenderNumbers(builds=builds, povray=pictures), console)
     return 0

@@ -1,14 +1,14 @@
 """The command `bench scale`: how building, memory and tests grow with the number of surfaces."""
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
-from tools.bench.programs import Programs, ask, ask_pinned, portable
+from tools.bench.model import GrowthRow, ScaleNumbers, ScaleRow
+from tools.bench.programs import Programs, ask, ask_pinned, listed, portable
 from tools.bench.records import growth, keep
 from tools.bench.tables import median, megabytes, milliseconds, terminal_table
 
@@ -34,60 +34,53 @@ def sizes(most: int) -> list[int]:
     return found
 
 
-def _measured(programs: Programs, kind: str, size: int, structure: str, rounds: int) -> dict[str, Any]:
+def _measured(programs: Programs, kind: str, size: int, structure: str, rounds: int) -> ScaleRow:
     """Building on all processors; then the rays, alone on one."""
     words = ("scale", kind, str(size), structure)
-    built = ask(programs.bench, *words, "--rounds", str(rounds), "--size", "16")
-    asked = ask_pinned(programs.bench, *words, "--rounds", str(rounds))
-    row = {"structure": structure, **asked, "build_seconds": built["build_seconds"], "peak_bytes": built["peak_bytes"]}
-    del row["schema"]
-    return row
+    built = ask(ScaleRow, programs.bench, *words, "--rounds", str(rounds), "--size", "16", structure=structure)
+    asked = ask_pinned(ScaleRow, programs.bench, *words, "--rounds", str(rounds), structure=structure)
+    return replace(asked, build_seconds=built.build_seconds, peak_bytes=built.peak_bytes)
 
 
-def tests_of(row: dict[str, Any]) -> float:
-    """Surfaces and boxes together."""
-    return float(row["surface_tests_per_ray"] + row["box_tests_per_ray"])
-
-
-def growth_of(rows: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+def growth_of(rows: list[ScaleRow]) -> Iterator[GrowthRow]:
     """For each structure on each kind of scene, from a thousand surfaces on."""
-    for structure, scene in dict.fromkeys((row["structure"], row["scene"]) for row in rows):
-        line = [row for row in rows if (row["structure"], row["scene"]) == (structure, scene)]
-        line = [row for row in line if row["surfaces"] >= 0.9 * _FIT_FROM and tests_of(row) > 0]
+    for structure, scene in dict.fromkeys((row.structure, row.scene) for row in rows):
+        line = [row for row in rows if (row.structure, row.scene) == (structure, scene)]
+        line = [row for row in line if row.surfaces >= 0.9 * _FIT_FROM and row.tests_per_ray > 0]
         if len(line) >= 2:
-            tests = growth([(row["surfaces"], tests_of(row)) for row in line])
-            time = growth([(row["surfaces"], row["ns_per_ray"]["median"]) for row in line])
+            tests = growth([(row.surfaces, row.tests_per_ray) for row in line])
+            time = growth([(row.surfaces, row.ns_per_ray.median) for row in line])
             yield {
                 "structure": structure,
                 "scene": scene,
-                "from": line[0]["surfaces"],
-                "to": line[-1]["surfaces"],
+                "from": line[0].surfaces,
+                "to": line[-1].surfaces,
                 "tests_exponent": tests.exponent,
                 "tests_per_doubling": tests.per_doubling,
                 "time_exponent": time.exponent,
             }
 
 
-def _print(rows: list[dict[str, Any]], console: Console) -> None:
+def _print(rows: list[ScaleRow], console: Console) -> None:
     headings = ("scene", "structure", "surfaces", "build", "structure's memory", "peak memory", "surfaces/ray",
                 "boxes/ray", "ns/ray")  # fmt: skip
     table = terminal_table("how the structures grow", headings)
     for row in rows:
         table.add_row(
-            row["scene"],
-            row["structure"],
-            str(row["surfaces"]),
-            milliseconds(row["build_seconds"], 2, " ms"),
-            megabytes(row["bytes"], unit=" MB"),
-            megabytes(row["peak_bytes"], 0, " MB"),
-            f"{row['surface_tests_per_ray']:.2f}",
-            f"{row['box_tests_per_ray']:.2f}",
-            median(row["ns_per_ray"], 0),
+            row.scene,
+            row.structure,
+            str(row.surfaces),
+            milliseconds(row.build_seconds, 2, " ms"),
+            megabytes(row.bytes, unit=" MB"),
+            megabytes(row.peak_bytes, 0, " MB"),
+            f"{row.surface_tests_per_ray:.2f}",
+            f"{row.box_tests_per_ray:.2f}",
+            median(row.ns_per_ray, 0),
         )
     console.print(table)
 
 
-def _print_growth(lines: list[dict[str, Any]], console: Console) -> None:
+def _print_growth(lines: list[GrowthRow], console: Console) -> None:
     for line in lines:
         console.print(
             f"{line['scene']}, {line['structure']}, {line['from']} to {line['to']} surfaces: tests grow as "
@@ -97,11 +90,11 @@ def _print_growth(lines: list[dict[str, Any]], console: Console) -> None:
 
 
 def _chosen(programs: Programs, wish: ScaleWish) -> list[str]:
-    listed = ask(programs.bench, "list")["structures"]
-    trees = [side["name"] for side in listed if not side["slow"] and not side["foreign"]]
+    structures = listed(programs.bench).structures
+    trees = [side.name for side in structures if not side.slow and not side.foreign]
     asked = wish.structures.split(",") if wish.structures else trees
     for name in asked:
-        if name not in [side["name"] for side in listed]:
+        if name not in [side.name for side in structures]:
             raise UsageError(f"--structures: expected names among {', '.join(trees)}, found '{name}'")
     return asked
 
@@ -110,7 +103,7 @@ def bench_scale(project: Project, wish: ScaleWish, console: Console) -> int:
     """Measures, prints a table and the slopes, and writes build/bench/scale.json."""
     with console.status("building the benchmarks"):
         programs = portable(project)
-    rows: list[dict[str, Any]] = []
+    rows: list[ScaleRow] = []
     for kind in KINDS:
         for structure in _chosen(programs, wish):
             for size in sizes(wish.most):
@@ -119,6 +112,5 @@ def bench_scale(project: Project, wish: ScaleWish, console: Console) -> int:
     lines = list(growth_of(rows))
     _print(rows, console)
     _print_growth(lines, console)
-    document = {"schema": "raysteps/bench-scale/v1", "machine": asdict(programs.machine), "rows": rows, "growth": lines}
-    keep(project, "scale", document, console)
+    keep(project, ScaleNumbers(machine=programs.machine, rows=rows, growth=lines), console)
     return 0

@@ -3,9 +3,10 @@
 A page names a unit in the heading, the terminal behind each figure."""
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 from rich.table import Table
+
+from tools.bench.model import Spread
 
 _LEFT = ("accel", "program", "scene", "step", "structure", "way")  # these columns stand left; numbers stand right
 
@@ -33,24 +34,24 @@ def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 # Figures; nothing where something was not measured.
 
 
-def median(spread: dict[str, Any] | None, digits: int, unit: str = "") -> str:
-    return f"{spread['median']:.{digits}f}{unit}" if spread else ""
+def median(spread: Spread | None, digits: int, unit: str = "") -> str:
+    return f"{spread.median:.{digits}f}{unit}" if spread else ""
 
 
-def quartiles(spread: dict[str, Any], digits: int) -> str:
-    return f"{spread['q1']:.{digits}f} to {spread['q3']:.{digits}f}"
+def quartiles(spread: Spread, digits: int) -> str:
+    return f"{spread.q1:.{digits}f} to {spread.q3:.{digits}f}"
 
 
-def spread(found: dict[str, Any] | None, digits: int) -> str:
+def spread(found: Spread | None, digits: int) -> str:
     """The median, and the quartiles in brackets."""
     return f"{median(found, digits)} ({quartiles(found, digits)})" if found else ""
 
 
-def milliseconds(seconds: dict[str, Any], digits: int, unit: str = "") -> str:
-    return f"{seconds['median'] * 1e3:.{digits}f}{unit}"
+def milliseconds(seconds: Spread, digits: int, unit: str = "") -> str:
+    return f"{seconds.median * 1e3:.{digits}f}{unit}"
 
 
-def megabytes(size: int, digits: int = 2, unit: str = "") -> str:
+def megabytes(size: int | None, digits: int = 2, unit: str = "") -> str:
     return f"{size / 1e6:.{digits}f}{unit}" if size else ""
 
 

@@ -3,9 +3,8 @@
 import json
 import os
 import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -13,8 +12,9 @@ from rich.markup import escape
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
 from raysteps.course.project import Project
+from tools.bench.model import Spread, ThreadsNumbers, ThreadsRow
 from tools.bench.programs import Programs, accelerations, checked, default_scenes, portable
-from tools.bench.records import keep, spread_of
+from tools.bench.records import keep
 from tools.bench.tables import median, milliseconds, terminal_table
 
 _SECONDS = 3600
@@ -49,7 +49,7 @@ def _render(programs: Programs, scene: Path, accel: str, threads: int, size: int
         return document["render_seconds"], document["build_seconds"]
 
 
-def _measured(programs: Programs, scene: Path, accel: str, wish: ThreadsWish) -> list[dict[str, Any]]:
+def _measured(programs: Programs, scene: Path, accel: str, wish: ThreadsWish) -> list[ThreadsRow]:
     """All counts in turns; the first round warms up."""
     counts = thread_counts(os.cpu_count() or 1)
     times: dict[int, list[tuple[float, float]]] = {count: [] for count in counts}
@@ -59,33 +59,25 @@ def _measured(programs: Programs, scene: Path, accel: str, wish: ThreadsWish) ->
             if number > 0:
                 times[count].append(taken)
     rows = []
-    alone = spread_of([seconds for seconds, _ in times[1]])["median"]
+    alone = Spread.of([seconds for seconds, _ in times[1]]).median
     for count in counts:
-        seconds = spread_of([taken for taken, _ in times[count]])
-        rows.append(
-            {
-                "scene": scene.stem,
-                "accel": accel,
-                "threads": count,
-                "render_seconds": seconds,
-                "build_seconds": spread_of([building for _, building in times[count]]),
-                "speed_up": alone / seconds["median"],
-            }
-        )
+        seconds = Spread.of([taken for taken, _ in times[count]])
+        building = Spread.of([built for _, built in times[count]])
+        rows.append(ThreadsRow(scene.stem, accel, count, seconds, building, alone / seconds.median))
     return rows
 
 
-def _print(rows: list[dict[str, Any]], console: Console) -> None:
+def _print(rows: list[ThreadsRow], console: Console) -> None:
     headings = ("scene", "accel", "threads", "picture", "building", "speed-up")
     table = terminal_table("one picture on several threads", headings)
     for row in rows:
         table.add_row(
-            escape(row["scene"]),
-            row["accel"],
-            str(row["threads"]),
-            median(row["render_seconds"], 3, " s"),
-            milliseconds(row["build_seconds"], 2, " ms"),
-            f"{row['speed_up']:.2f} x",
+            escape(row.scene),
+            row.accel,
+            str(row.threads),
+            median(row.render_seconds, 3, " s"),
+            milliseconds(row.build_seconds, 2, " ms"),
+            f"{row.speed_up:.2f} x",
         )
     console.print(table)
 
@@ -95,12 +87,11 @@ def bench_threads(project: Project, wish: ThreadsWish, console: Console) -> int:
     scenes = checked(wish.scenes) or default_scenes(project)
     with console.status("building the benchmarks"):
         programs = portable(project)
-    rows: list[dict[str, Any]] = []
+    rows: list[ThreadsRow] = []
     for scene in scenes:
         for accel in accelerations(programs):
             with console.status(f"{escape(scene.name)} with {accel}"):
                 rows += _measured(programs, scene, accel, wish)
     _print(rows, console)
-    document = {"schema": "raysteps/bench-threads/v1", "machine": asdict(programs.machine), "rows": rows}
-    keep(project, "threads", document, console)
+    keep(project, ThreadsNumbers(machine=programs.machine, rows=rows), console)
     return 0

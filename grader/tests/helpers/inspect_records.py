@@ -1,12 +1,9 @@
 """Small records of pixels for tests of what is made of them; form raysteps/inspect/v1."""
 
-import json
-from pathlib import Path
 from typing import Any
 
-import jsonschema
-
-import raysteps.inspector
+from raysteps.common.documents import convert
+from raysteps.inspector.model import Record
 
 _COUNTS = {"box_tests": 2, "boxes_entered": 1, "candidates": 1, "surface_tests": 1, "unique_surfaces": 1}
 _BALL = {"color": [0.9, 0.4, 0.1], "kd": 0.7, "ks": 0.3, "shine": 30, "transmittance": 0, "index": 1}
@@ -38,7 +35,7 @@ def _hit(surface: int, position: list[float]) -> dict[str, Any]:
     return hit | {"mirrored": [0, 0, 1], "refracted": None, "fill": dict(_BALL)}
 
 
-def ball_record(*, lit: bool = True) -> dict[str, Any]:
+def ball_record(*, lit: bool = True) -> Record:
     """The middle pixel of a picture of a ball that mirrors the sky, with one light before it."""
     shadow = _ray(
         "shadow", 1, [0, 0, 1.001], [0, 0, 1], limit=7.0, any=not lit, hit=None if lit else _hit(1, [0, 0, 1.5])
@@ -75,6 +72,4 @@ def ball_record(*, lit: bool = True) -> dict[str, Any]:
     record |= {"counts": dict(_COUNTS), "left_out": {"rays": 0, "boxes": 0, "tests": 0}}
     near = {"kind": "sphere", "radii": [1], "color": [0.9, 0.4, 0.1]}
     record["near"] = [{"surface": 0, "points": [[0, 0, 0]], **near}, {"surface": 1, "points": [[0, 0, 2.5]], **near}]
-    schema = Path(raysteps.inspector.__file__).with_name("inspect.schema.json")
-    jsonschema.validate(record, json.loads(schema.read_text(encoding="utf-8")))
-    return record
+    return convert(record, Record)

@@ -74,7 +74,7 @@ def test_the_place_of_a_mistake_is_marked(project: Project, steps: list[Step], w
         reference = inspect(workshop.reference("inspect"), options).record
         assert mine is not None
         assert reference is not None
-        assert mine["bytes"] == pictures[0][y, x].tolist()
+        assert mine.bytes == pictures[0][y, x].tolist()
         divergence = find_divergence(mine, reference)
         assert divergence is not None, name
         return (number, mistake, lesson, divergence.place, divergence.function)

@@ -4,39 +4,45 @@ import io
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 from inspect_records import ball_record
 from rich.console import Console
 
+from raysteps.common.documents import Malformed, as_text, convert, plain
 from raysteps.inspector.divergence import find_divergence
+from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import page_html
 from raysteps.inspector.programs import InspectOptions, inspect
-from raysteps.inspector.records import Record
 from raysteps.inspector.side_by_side import print_trees
 
 Change = Callable[[Record], None]
 
 
 def _no_window(record: Record) -> None:
-    record["frame"] |= {"half_width": "nan", "forward": ["nan", "nan", "nan"]}
+    record.frame.half_width = "nan"
+    record.frame.forward = ["nan", "nan", "nan"]
 
 
 def _lost_hit(record: Record) -> None:
-    record["ray"]["hit"] |= {"position": ["nan", "nan", "nan"], "normal": ["nan", "nan", "nan"], "distance": "nan"}
-    record["ray"]["lights"][0]["rays"][0] |= {"origin": ["nan", "nan", "nan"], "limit": "nan"}
-    record["ray"]["color"] = record["color"] = ["nan", "nan", "nan"]
+    hit, shadow = record.ray.hit, record.ray.lights[0].rays[0]
+    assert hit is not None
+    hit.distance = shadow.limit = "nan"
+    hit.position = hit.normal = shadow.origin = ["nan", "nan", "nan"]
+    record.ray.color = record.color = ["nan", "nan", "nan"]
 
 
 def _normal_of_any_length(record: Record) -> None:
     """The cosine is 900: to the power of 300 that is more than a number can hold."""
-    record["ray"]["lights"][0] |= {"r_v": 900.0, "specular": ["inf", "inf", "inf"]}
+    record.ray.lights[0].r_v = 900.0
+    record.ray.lights[0].specular = ["inf", "inf", "inf"]
 
 
 def _endless_ray(record: Record) -> None:
-    record["ray"]["bounces"][0] |= {"direction": ["inf", 0, 0], "origin": ["-inf", 0, 0]}
+    record.ray.bounces[0].direction = ["inf", 0, 0]
+    record.ray.bounces[0].origin = ["-inf", 0, 0]
 
 
 @pytest.mark.parametrize(
@@ -51,7 +57,8 @@ def _endless_ray(record: Record) -> None:
 def test_it_is_compared_and_drawn_all_the_same(change: Change, function: str | None) -> None:
     mine, reference = ball_record(), ball_record()
     for record in (mine, reference):
-        record["ray"]["hit"]["fill"]["shine"] = 300
+        assert record.ray.hit is not None
+        record.ray.hit.fill.shine = 300
     change(mine)
     divergence = find_divergence(mine, reference)
     assert (divergence.function if divergence else None) == function
@@ -61,9 +68,28 @@ def test_it_is_compared_and_drawn_all_the_same(change: Change, function: str | N
     print_trees(Console(file=io.StringIO(), width=150), mine, reference, divergence)
 
 
+@pytest.mark.parametrize(
+    ("change", "place"),
+    [
+        ({"more": 1}, "$: unknown key 'more'"),
+        ({"camera": {"at": [0, 0, 0]}}, "$.camera: object missing required field"),
+        ({"background": [0, 0]}, "$.background: expected array of length >= 3"),
+        ({"mapped": [0, 0, "none"]}, "$.mapped[2]: invalid enum value 'none'"),
+        ({"counts": {}}, "$.counts: object missing required field box_tests"),
+    ],
+)
+def test_what_is_no_record_is_refused_with_the_place(change: dict[str, object], place: str) -> None:
+    document = plain(ball_record())
+    assert isinstance(document, dict)
+    with pytest.raises(Malformed, match=re.escape(place)):
+        convert(document | change, Record)
+    camera = document["camera"] | {"more": 1}
+    with pytest.raises(Malformed, match=r"\$\.camera: unknown key 'more'; known are from, at"):
+        convert(document | {"camera": camera}, Record)
+
+
 def test_a_scene_whose_name_is_no_text_can_be_inspected(tmp_path: Path) -> None:
-    record: dict[str, Any] = ball_record() | {"scene": "NAME"}
-    data = json.dumps(record).encode().replace(b"NAME", b"b\xff.nff")
+    data = as_text(replace(ball_record(), scene="NAME")).encode().replace(b"NAME", b"b\xff.nff")
     (tmp_path / "made.json").write_bytes(data)
     program = tmp_path / "inspect-mine"
     program.write_text(f'#!/bin/sh\nwhile [ "$1" != --json ]; do shift; done\ncp "{tmp_path}/made.json" "$2"\n')

@@ -10,13 +10,26 @@ import pytest
 from rich.console import Console
 
 from raysteps.cli.app import main
+from raysteps.common.documents import plain
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import run
 from raysteps.course.project import Project
 from tools.bench.docs import bench_docs
+from tools.bench.model import (
+    ListedStructure,
+    Listing,
+    Machine,
+    ParseNumbers,
+    ParseRow,
+    ScaleNumbers,
+    SceneRays,
+    Spread,
+)
 from tools.bench.programs import ask, can_pin_processor, checked, pinned, portable, what_is_missing
 from tools.bench.records import keep, kept
 from tools.bench.scale import KINDS
+
+_MACHINE = Machine("a processor", 2, "Linux x86_64", "g++", "-O2", pinned=True)
 
 
 @pytest.mark.parametrize(
@@ -59,11 +72,15 @@ def test_two_scenes_of_one_name_could_not_be_told_apart(tmp_path: Path) -> None:
 
 def test_what_is_missing_are_named_with_the_way_to_install_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
-    highway, embree, povray = what_is_missing({"embree_version": "", "structures": [{"name": "bvh"}]})
+    without, complete = (
+        Listing("raysteps/bench-structures/v1", version, [ListedStructure(name, False, False)])
+        for version, name in (("", "bvh"), ("3.13.5", "wide"))
+    )
+    highway, embree, povray = what_is_missing(without)
     assert "apt-get install libhwy-dev" in highway
     assert "apt-get install libembree-dev" in embree
     assert "apt-get install povray" in povray
-    assert what_is_missing({"embree_version": "3.13.5", "structures": [{"name": "wide"}]}) == [povray]
+    assert what_is_missing(complete) == [povray]
 
 
 @pytest.mark.skipif(not can_pin_processor(), reason="this system pins no programs")
@@ -78,8 +95,36 @@ def test_pinning_ends_with_the_measurement() -> None:
 def test_only_what_fits_its_schema_is_written(tmp_path: Path) -> None:
     project = Project(tmp_path)
     with pytest.raises(GraderFault, match="not what `bench parse` writes"):
-        keep(project, "parse", {"schema": "raysteps/bench-parse/v1"}, Console(quiet=True))
-    assert kept(project, "parse") is None
+        keep(project, ParseNumbers(machine=_MACHINE, rows=[]), Console(quiet=True))
+    assert kept(project, ParseNumbers) is None
+
+
+def test_what_was_measured_is_read_again(tmp_path: Path) -> None:
+    project, time = Project(tmp_path), Spread.of([1.0, 2.0])
+    numbers = ParseNumbers(machine=_MACHINE, rows=[ParseRow("rings", 10, 2, time)])
+    keep(project, numbers, Console(quiet=True))
+    assert kept(project, ParseNumbers) == numbers
+    place = tmp_path / "build" / "bench" / "parse.json"
+    document = json.loads(place.read_text(encoding="utf-8"))
+    assert list(document) == ["schema", "machine", "rows"]
+    del document["rows"][0]["megabytes_per_second"]["q1"]
+    place.write_text(json.dumps(document), encoding="utf-8")
+    with pytest.raises(UsageError, match=r"parse\.json: .*\$\.rows\[0\]\.megabytes_per_second: .* q1; measure again"):
+        kept(project, ParseNumbers)
+
+
+def test_only_what_the_program_should_say_is_taken(tmp_path: Path) -> None:
+    program = tmp_path / "raysteps-bench"
+    told: dict[str, object] = {"schema": "raysteps/bench-reading/v1", "bytes": 10, "surfaces": 2}
+    told["megabytes_per_second"] = plain(Spread.of([3.0]))
+    for said in (told, told | {"more": 1}):
+        program.write_text(f"#!/bin/sh\necho '{json.dumps(said)}'\n", encoding="utf-8")
+        program.chmod(0o755)
+        if said is told:
+            assert ask(ParseRow, program, "parse", scene="rings") == ParseRow("rings", 10, 2, Spread.of([3.0]))
+        else:
+            with pytest.raises(GraderFault, match=r"raysteps-bench parse: \$: unknown key 'more'"):
+                ask(ParseRow, program, "parse", scene="rings")
 
 
 def test_docs_without_any_measurement(tmp_path: Path) -> None:
@@ -95,7 +140,7 @@ def test_numbers_that_somebody_broke(tmp_path: Path) -> None:
     place.parent.mkdir(parents=True)
     place.write_text("{", encoding="utf-8")
     with pytest.raises(UsageError, match=r"not JSON.*measure again: \./raysteps bench scale"):
-        kept(project, "scale")
+        kept(project, ScaleNumbers)
 
 
 @pytest.fixture
@@ -132,14 +177,17 @@ def test_the_recorded_rays_are_those_of_the_picture(project: Project, tmp_path: 
     scene, stats = project.scenes / "lessons" / "glass.nff", tmp_path / "stats.json"
     drawn: list[str | Path] = [programs.raytrace, scene, "-o", tmp_path / "glass.ppm", "--stats", stats, "--quiet"]
     assert run([*drawn, "--size", "48x48", "--accel", "octree"], seconds=300).code == 0
-    measured = ask(programs.bench, "render", scene, "--size", "48", "--rounds", "1", "--structures", "octree")
+    measured = ask(
+        SceneRays, programs.bench, "render", scene, "--size", "48", "--rounds", "1", "--structures", "octree"
+    )
     told = json.loads(stats.read_text(encoding="utf-8"))
     kinds = ("eye", "shadow", "reflect", "refract")
-    assert {kind: measured["rays"][kind] for kind in kinds} == {kind: told["rays"][kind] for kind in kinds}
-    assert all(measured["rays"][kind] > 0 for kind in kinds)
-    (side,) = measured["structures"]
-    assert side["surface_tests_per_ray"] == pytest.approx(told["tests_per_ray"], rel=1e-6)
-    assert side["box_tests_per_ray"] * side["rays"] == pytest.approx(told["box_tests"], rel=1e-6)
+    found = {kind: getattr(measured.rays, kind) for kind in kinds}
+    assert found == {kind: told["rays"][kind] for kind in kinds}
+    assert all(number > 0 for number in found.values())
+    (side,) = measured.structures
+    assert side.surface_tests_per_ray == pytest.approx(told["tests_per_ray"], rel=1e-6)
+    assert side.box_tests_per_ray * side.rays == pytest.approx(told["box_tests"], rel=1e-6)
 
 
 @pytest.mark.slow

@@ -5,7 +5,8 @@ import math
 import pytest
 
 from tools.bench.charts import linear_axis, log_axis, tick_text
-from tools.bench.records import geometric_mean, growth, spread_of
+from tools.bench.model import ScaleRow, Spread
+from tools.bench.records import geometric_mean, growth
 from tools.bench.scale import growth_of, sizes
 from tools.bench.threads import thread_counts
 
@@ -30,10 +31,9 @@ def test_a_logarithm_grows_by_the_same_with_each_doubling() -> None:
 
 
 def test_growth_is_fitted_from_a_thousand_surfaces_on() -> None:
-    def row(surfaces: int, tests: float) -> dict[str, object]:
-        time = {"median": 10.0 * tests}
-        common = {"structure": "octree", "scene": "cloud", "surfaces": surfaces, "ns_per_ray": time}
-        return {**common, "surface_tests_per_ray": tests / 2, "box_tests_per_ray": tests / 2}
+    def row(surfaces: int, tests: float) -> ScaleRow:
+        time = Spread.of([10.0 * tests])
+        return ScaleRow("octree", "cloud", surfaces, 9, 9, 9, 9, tests / 2, tests / 2, None, time, time)
 
     rows = [row(100, 999.0), row(1000, 10.0), row(10000, 20.0)]
     (found,) = growth_of(rows)
@@ -44,10 +44,10 @@ def test_growth_is_fitted_from_a_thousand_surfaces_on() -> None:
 
 
 def test_a_spread_tells_median_quartiles_and_every_round() -> None:
-    found = spread_of([5.0, 1.0, 4.0, 2.0, 3.0])
-    assert (found["min"], found["q1"], found["median"], found["q3"], found["max"]) == (1.0, 2.0, 3.0, 4.0, 5.0)
-    assert found["rounds"] == [5.0, 1.0, 4.0, 2.0, 3.0]
-    assert spread_of([7.0])["q1"] == 7.0
+    found = Spread.of([5.0, 1.0, 4.0, 2.0, 3.0])
+    assert (found.min, found.q1, found.median, found.q3, found.max) == (1.0, 2.0, 3.0, 4.0, 5.0)
+    assert found.rounds == [5.0, 1.0, 4.0, 2.0, 3.0]
+    assert Spread.of([7.0]).q1 == 7.0
 
 
 def test_sizes_and_threads() -> None:

@@ -1,5 +1,7 @@
 """Benchmarks: charts, tables and the page that holds them."""
 
+from typing import get_args
+
 import defusedxml.ElementTree
 import pytest
 
@@ -7,7 +9,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.course.project import Project
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
 from tools.bench.docs import replace_part
-from tools.bench.records import NAMES
+from tools.bench.model import Numbers, RayKinds, SceneRays, Spread, StructureTimes
 from tools.bench.render import against_embree, names_of
 from tools.bench.tables import markdown
 
@@ -66,14 +68,16 @@ def test_only_the_part_between_the_marks_is_replaced() -> None:
 
 def test_the_page_has_a_part_for_each_benchmark(project: Project) -> None:
     page = (project.root / "docs" / "benchmarks.md").read_text(encoding="utf-8")
-    for name in NAMES:
-        assert "\nnew\n" in replace_part(page, name, "new")
+    for kind in get_args(Numbers):
+        assert "\nnew\n" in replace_part(page, kind.name, "new")
 
 
 def test_ratios_are_those_of_the_same_scene() -> None:
-    def scene(ours: float, theirs: float) -> dict[str, object]:
-        times = (("octree", ours), ("embree", theirs))
-        return {"structures": [{"name": name, "ns_per_ray": {"median": time}} for name, time in times]}
+    def scene(ours: float, theirs: float) -> SceneRays:
+        times = (("octree", Spread.of([ours])), ("embree", Spread.of([theirs])))
+        sides = [StructureTimes(name, 9, 0, time, 9, 9, 9, 9, 9, time, None) for name, time in times]
+        kinds = RayKinds(9, 9, 0, 0, 0, 0)
+        return SceneRays("raysteps/bench-rays/v1", "rings", 9, 64, 5, 1, "3", kinds, sides)
 
     scenes = [scene(400.0, 100.0), scene(100.0, 100.0)]
     assert names_of(scenes) == ["octree", "embree"]

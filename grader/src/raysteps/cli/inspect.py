@@ -10,14 +10,16 @@ from rich.markup import escape
 
 from raysteps.cli.render import build_program, whose
 from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
+from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
+from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import write_page
 from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
-from raysteps.inspector.records import Difference, Record
+from raysteps.inspector.records import Difference
 from raysteps.toolchain.cmake import release_tree
 
 
@@ -86,7 +88,7 @@ def _tell_problem(inspected: InspectResult, program: Path, options: InspectOptio
 
 def _write_json(arguments: argparse.Namespace, inspected: InspectResult, console: Console) -> None:
     if arguments.json is not None and inspected.record is not None:
-        write_out(arguments.json, encoded(inspected.record))
+        write_out(arguments.json, encoded(plain(inspected.record)))
         console.print(f"Record: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
 
 
@@ -115,7 +117,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     assert inspected.record is not None
     sys.stdout.write(inspected.text)
     _write_html(arguments.html, console, inspected.record)
-    return 1 if inspected.record["endless"] else 0
+    return 1 if inspected.record.endless else 0
 
 
 def _write_html(

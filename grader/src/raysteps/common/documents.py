@@ -4,7 +4,7 @@ import codecs
 import json
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Annotated, TypeVar
@@ -35,19 +35,24 @@ def _position(data: bytes, error: msgspec.DecodeError) -> str:
     return f"line {line}, column {column}"
 
 
+def _refuse_unknown(told: Iterable[object], known: Collection[str], place: str) -> None:
+    for name in told:
+        if name not in known:
+            raise Malformed(f"{place}: unknown key {name!r}; known are {', '.join(known)}")
+
+
 def _children(told: object, found: object, place: str, *, complete: bool) -> Iterator[tuple[object, object, str]]:
     """What was told beside what was made of it; a key too many or too few ends it."""
     if is_dataclass(found) and isinstance(told, dict):
         known = {field.name: field for field in fields(found)}
-        for name in told:
-            if name not in known:
-                raise Malformed(f"{place}: unknown key {name!r}; known are {', '.join(known)}")
+        _refuse_unknown(told, known, place)
         for name, field in known.items():
             if name in told:
                 yield told[name], getattr(found, name), f"{place}.{name}"
             elif complete and not field.metadata:
                 raise Malformed(f"{place}: {name!r} is missing")
     elif isinstance(found, dict) and isinstance(told, dict):
+        _refuse_unknown(told, found, place)
         yield from ((told[name], value, f"{place}.{name}") for name, value in found.items())
     elif isinstance(found, (list, tuple)) and isinstance(told, (list, tuple)):
         yield from ((told[at], value, f"{place}[{at}]") for at, value in enumerate(found))

@@ -2,10 +2,9 @@
 
 import math
 
+from raysteps.inspector.model import Accel, Hit, Light, LightShare, Missed, Number, Ray, Way
 from raysteps.inspector.records import (
     CLOSE,
-    Number,
-    Record,
     Vector,
     as_float,
     brief,
@@ -34,13 +33,13 @@ def intersect_of(kind: str) -> str:
     return f"{_OWN[kind]}::intersect" if kind in _OWN else ""
 
 
-def lost_by(missed: Record, accel: str, *, shadow: bool) -> str:
+def lost_by(missed: Missed, accel: Accel, *, shadow: bool) -> str:
     """Why a surface was not found, although its own intersect finds it."""
-    reason = missed["reason"]
+    reason = missed.reason
     if reason == "box-missed":
         return "Box::clip"
     if reason == "no-overlap":
-        return f"{_OWN[missed['kind']]}::overlaps" if missed["kind"] in _OWN else _BUILD[accel]
+        return f"{_OWN[missed.kind]}::overlaps" if missed.kind in _OWN else _BUILD[accel]
     if reason in _SPACE:
         return _SPACE[reason]
     if reason in ("not-listed", "no-box"):
@@ -48,43 +47,43 @@ def lost_by(missed: Record, accel: str, *, shadow: bool) -> str:
     return _SEARCH[accel][shadow]
 
 
-def _answer(ray: Record, surface: int) -> tuple[bool, float | None]:
+def _answer(ray: Ray, surface: int) -> tuple[bool, float | None]:
     """Whether the ray asked the surface, and at which distance it was hit."""
-    for test in ray["tests"]:
-        if test["surface"] == surface:
-            return True, None if test["distance"] is None else as_float(test["distance"])
+    for test in ray.tests:
+        if test.surface == surface:
+            return True, None if test.distance is None else as_float(test.distance)
     return False, None
 
 
-def _changed_on_the_way(ray: Record) -> bool:
+def _changed_on_the_way(ray: Ray) -> bool:
     """Whether the search gave a hit that no surface had answered."""
-    hit = ray["hit"]
+    hit = ray.hit
     if hit is None:
         return False
-    if hit["surface"] is None:
+    if hit.surface is None:
         return True
-    asked, distance = _answer(ray, hit["surface"])
-    return asked and (distance is None or abs(distance - as_float(hit["distance"])) > CLOSE * max(1.0, distance))
+    asked, distance = _answer(ray, hit.surface)
+    return asked and (distance is None or abs(distance - as_float(hit.distance)) > CLOSE * max(1.0, distance))
 
 
-def blame_hit(mine: Record, reference: Record, accel: str) -> str:
+def blame_hit(mine: Ray, reference: Ray, accel: Accel) -> str:
     """The same ray meets another surface, or none, or at another distance."""
-    shadow = mine["role"] == "shadow"
-    if mine["missed"] is not None:
-        return lost_by(mine["missed"], accel, shadow=shadow)
+    shadow = mine.role == "shadow"
+    if mine.missed is not None:
+        return lost_by(mine.missed, accel, shadow=shadow)
     if _changed_on_the_way(mine):
         return _SEARCH[accel][shadow]
-    nearest = reference["hit"]
-    own = mine["hit"]
-    too_far = own is None or (nearest is not None and as_float(own["distance"]) >= as_float(nearest["distance"]))
+    nearest = reference.hit
+    own = mine.hit
+    too_far = own is None or (nearest is not None and as_float(own.distance) >= as_float(nearest.distance))
     culprit = nearest if too_far and nearest is not None else own
-    return intersect_of(culprit["kind"]) if culprit is not None else ""
+    return intersect_of(culprit.kind) if culprit is not None else ""
 
 
-def start_problem(ray: Record, hit: Record, side: int) -> str:
+def start_problem(ray: Ray, hit: Hit, side: int) -> str:
     """What is wrong with where a ray begins; `side`: 1 where the normal points to, -1 behind the surface."""
-    away = minus(ray["origin"], hit["position"])
-    height = dot(away, hit["normal"])
+    away = minus(ray.origin, hit.position)
+    height = dot(away, hit.normal)
     if not length(away) <= _FARTHEST_START:
         return f"it begins {length(away):.3g} away from the hit, and 0.01 is the most that the contract allows"
     if height * side < -1e-6:
@@ -94,35 +93,35 @@ def start_problem(ray: Record, hit: Record, side: int) -> str:
     return ""
 
 
-def _nearer(hit: Record | None, limit: object) -> bool:
+def _nearer(hit: Hit | None, limit: Number | None) -> bool:
     """Whether the hit lies before the light."""
-    return hit is not None and (not isinstance(limit, int | float) or as_float(hit["distance"]) < limit)
+    return hit is not None and (not isinstance(limit, int | float) or as_float(hit.distance) < limit)
 
 
-def blame_shadow(mine: Record, reference: Record, hit: Record, accel: str, *, lit: bool) -> tuple[str, str]:
+def blame_shadow(mine: Ray, reference: Ray, hit: Hit, accel: Accel, *, lit: bool) -> tuple[str, str]:
     """A shadow ray that points to the light, but has another answer: the function, and why."""
     problem = start_problem(mine, hit, 1)
     if problem:
         return "shadow_ray", problem
-    apart = length(minus(mine["origin"], reference["origin"]))
-    if apart > _SAME_START and mine["missed"] is None:
+    apart = length(minus(mine.origin, reference.origin))
+    if apart > _SAME_START and mine.missed is None:
         return "shadow_ray", f"it begins {apart:.2g} away from the reference's, and that decides whether it gets past"
     if lit:  # the reference's is blocked
-        if mine["hit"] is not None:
+        if mine.hit is not None:
             return "is_lit", "your ray met something, too"
-        if mine["missed"] is not None or _nearer(reference["hit"], mine["limit"]):
+        if mine.missed is not None or _nearer(reference.hit, mine.limit):
             return blame_hit(mine, reference, accel) or "is_lit", ""
         return "is_lit", "your ray asked for nearer hits only"
-    if mine["hit"] is None and mine["any"]:
+    if mine.hit is None and mine.any:
         return _SEARCH[accel][1], "the search says that something is near, though no surface that it tested is"
-    if mine["hit"] is None:
+    if mine.hit is None:
         return "is_lit", "your ray met nothing, either"
-    if not _nearer(mine["hit"], reference["limit"]):
-        return "is_lit", f"that is behind the light, which is {brief(reference['limit'])} away"
+    if reference.limit is not None and not _nearer(mine.hit, reference.limit):
+        return "is_lit", f"that is behind the light, which is {brief(reference.limit)} away"
     return blame_hit(mine, reference, accel) or "is_lit", ""
 
 
-def blame_bounce(mine: Record, own: Vector | None, theirs: Vector | None, whole: str, part: str) -> str:
+def blame_bounce(own: Vector | None, theirs: Vector | None, whole: str, part: str) -> str:
     """A bounced ray has another direction: `part` computes it, `whole` makes the ray."""
     if own is None or theirs is None:
         return whole if own is theirs else part
@@ -151,22 +150,22 @@ def mirrored(direction: Vector, normal: Vector) -> list[float]:
     return [d - along * n for d, n in zip(_floats(direction), _floats(normal), strict=True)]
 
 
-def refracted(hit: Record) -> list[float] | None:
+def refracted(hit: Hit) -> list[float] | None:
     """Snell's law, into or out of the hit's glass; nothing where it mirrors."""
-    index = as_float(hit["fill"]["index"]) or 1.0
-    eta = 1 / index if hit["from_outside"] else index
-    cosine = -dot(hit["ray_direction"], hit["normal"])
+    index = as_float(hit.fill.index) or 1.0
+    eta = 1 / index if hit.from_outside else index
+    cosine = -dot(hit.ray_direction, hit.normal)
     rest = 1 - eta * eta * (1 - cosine * cosine)
     if not rest >= 0:
         return None
     bend = eta * cosine - math.sqrt(rest)
-    pairs = zip(_floats(hit["ray_direction"]), _floats(hit["normal"]), strict=True)
+    pairs = zip(_floats(hit.ray_direction), _floats(hit.normal), strict=True)
     return _unit([eta * d + bend * n for d, n in pairs])
 
 
-def diffuse(hit: Record, light: Record, source: Record) -> list[float]:
-    weight = as_float(hit["fill"]["kd"]) * max(as_float(light["l_n"]), 0.0)
-    pairs = zip(_floats(hit["fill"]["color"]), _floats(source["color"]), strict=True)
+def diffuse(hit: Hit, light: LightShare, source: Light) -> list[float]:
+    weight = as_float(hit.fill.kd) * max(as_float(light.l_n), 0.0)
+    pairs = zip(_floats(hit.fill.color), _floats(source.color), strict=True)
     return [weight * a * b for a, b in pairs]
 
 
@@ -178,41 +177,40 @@ def _power(base: float, exponent: float) -> float:
         return math.inf
 
 
-def specular(hit: Record, light: Record, source: Record) -> list[float]:
-    if as_float(light["l_n"]) <= 0:
+def specular(hit: Hit, light: LightShare, source: Light) -> list[float]:
+    if as_float(light.l_n) <= 0:
         return [0.0, 0.0, 0.0]
-    weight = as_float(hit["fill"]["ks"]) * _power(max(as_float(light["r_v"]), 0.0), as_float(hit["fill"]["shine"]))
-    return [weight * value for value in _floats(source["color"])]
+    weight = as_float(hit.fill.ks) * _power(max(as_float(light.r_v), 0.0), as_float(hit.fill.shine))
+    return [weight * value for value in _floats(source.color)]
 
 
-def direct(lights: list[Record]) -> list[float]:
-    terms = [_floats(light[name]) for light in lights if light["lit"] for name in ("diffuse", "specular")]
+def direct(lights: list[LightShare]) -> list[float]:
+    terms = [_floats(term) for light in lights if light.lit for term in (light.diffuse, light.specular)]
     return [sum(values) for values in zip(*terms, strict=True)] if terms else list(_BLACK)
 
 
-def is_unseen(ray: Record) -> bool:
+def is_unseen(ray: Ray) -> bool:
     """A step 05 that calls itself tells nobody what its reflected rays bring."""
-    return ray["color"] is None and ray["role"] == "reflect"
+    return ray.color is None and ray.role == "reflect"
 
 
-def _color_of(ray: Record) -> Color:
+def _color_of(ray: Ray) -> Color:
     """Where nobody saw it, what the contract makes of the ray's parts."""
     if not is_unseen(ray):
-        seen: Color = ray["color"]
-        return seen
-    return _BLACK if ray["hit"] is None else added(ray["local"], brought(ray, "ks", "reflect"))
+        return ray.color
+    return _BLACK if ray.hit is None else added(ray.local, brought(ray, "reflect"))
 
 
-def brought(ray: Record, weight: str, *roles: str) -> Color:
-    """What the ray's own bounces bring, weighed by the fill; nothing where it is not known."""
-    if ray["hit"] is None:
+def brought(ray: Ray, way: Way) -> Color:
+    """What the ray's own bounces that way bring, weighed by the fill; nothing where it is not known."""
+    if ray.hit is None:
         return None
-    colors = [_color_of(bounce) for bounce in ray["bounces"] if bounce["role"] in roles]
+    colors = [_color_of(bounce) for bounce in ray.bounces_of(way)]
     if not colors:
         return _BLACK
     if len(colors) > 1 or colors[0] is None:
         return None
-    share = as_float(ray["hit"]["fill"][weight])
+    share = as_float(ray.hit.fill.ks if way == "reflect" else ray.hit.fill.transmittance)
     return [share * value for value in _floats(colors[0])]
 
 

@@ -4,14 +4,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.files import write_out
 from raysteps.common.text import count
+from raysteps.inspector.model import BoxEvent, Hit, LightShare, Ray, Record, Way
 from raysteps.inspector.records import (
     EYE,
     Difference,
-    Record,
     Vector,
     as_float,
     brief,
@@ -34,7 +33,7 @@ TITLES = {
     "refract": "refracted ray",
     "internal": "ray mirrored inside the glass",
 }
-_KINDS = {"internal": "refract"}
+_WAYS: tuple[Way, ...] = ("refract", "reflect")
 
 
 @dataclass(frozen=True)
@@ -47,72 +46,71 @@ class Line:
     cost: bool = False
 
 
-def _search(ray: Record, key: Key, level: int) -> Iterator[Line]:
-    counts = ray["counts"]
-    if counts["box_tests"]:
-        text = f"boxes: {counts['box_tests']} asked, {counts['boxes_entered']} entered"
+def _search(ray: Ray, key: Key, level: int) -> Iterator[Line]:
+    counts = ray.counts
+    if counts.box_tests:
+        text = f"boxes: {counts.box_tests} asked, {counts.boxes_entered} entered"
         yield Line((*key, "boxes"), level, text, cost=True)
-    if counts["surface_tests"]:
-        text = f"{count(counts['surface_tests'], 'surface test')}, {counts['unique_surfaces']} different"
+    if counts.surface_tests:
+        text = f"{count(counts.surface_tests, 'surface test')}, {counts.unique_surfaces} different"
         yield Line((*key, "tests"), level, text, cost=True)
 
 
-def _hit(ray: Record, key: Key, level: int) -> Iterator[Line]:
-    hit = ray["hit"]
+def _hit(ray: Ray, key: Key, level: int) -> Iterator[Line]:
+    hit = ray.hit
     yield Line((*key, "hit"), level, meets(hit))
     if hit is not None:
-        side = "outside" if hit["from_outside"] else "inside"
-        yield Line((*key, "position"), level + 1, f"position {point(hit['position'])}, from {side}")
-        yield Line((*key, "normal"), level + 1, f"normal {point(hit['normal'])}")
+        side = "outside" if hit.from_outside else "inside"
+        yield Line((*key, "position"), level + 1, f"position {point(hit.position)}, from {side}")
+        yield Line((*key, "normal"), level + 1, f"normal {point(hit.normal)}")
 
 
-def light_words(light: Record) -> str:
-    if light["lit"]:
-        return "visible" if light["rays"] else "counts"
-    hit = light["rays"][-1]["hit"] if light["rays"] else None
-    return "hidden" if hit is None else f"blocked by {surface_name(hit)} at distance {brief(hit['distance'])}"
+def light_words(light: LightShare) -> str:
+    if light.lit:
+        return "visible" if light.rays else "counts"
+    hit = light.rays[-1].hit if light.rays else None
+    return "hidden" if hit is None else f"blocked by {surface_name(hit)} at distance {brief(hit.distance)}"
 
 
-def _light(light: Record, key: Key, level: int) -> Iterator[Line]:
-    number = light["light"] + 1
+def _light(light: LightShare, key: Key, level: int) -> Iterator[Line]:
+    number = light.light + 1
     yield Line((*key, f"light{number}"), level, f"light {number}: {light_words(light)}")
-    for ray in light["rays"]:
-        text = f"shadow ray {point(ray['origin'])} towards {point(ray['direction'])}"
+    for ray in light.rays:
+        text = f"shadow ray {point(ray.origin)} towards {point(ray.direction)}"
         yield Line((*key, f"shadow{number}"), level + 1, text)
         yield from _search(ray, (*key, f"shadow{number}"), level + 2)
-    text = f"l.n {brief(light['l_n'])}  diffuse {point(light['diffuse'])}  specular {point(light['specular'])}"
+    text = f"l.n {brief(light.l_n)}  diffuse {point(light.diffuse)}  specular {point(light.specular)}"
     yield Line((*key, f"terms{number}"), level + 1, text)
 
 
-def _ray(ray: Record, key: Key, level: int, step: int) -> Iterator[Line]:
-    depth = "" if ray["role"] == "eye" else f", depth {ray['depth']}"
-    text = f"{TITLES[ray['role']]}{depth}: {point(ray['origin'])} towards {point(ray['direction'])}"
+def _ray(ray: Ray, key: Key, level: int, step: int) -> Iterator[Line]:
+    depth = "" if ray.role == "eye" else f", depth {ray.depth}"
+    text = f"{TITLES[ray.role]}{depth}: {point(ray.origin)} towards {point(ray.direction)}"
     yield Line((*key, "ray"), level, text)
     if step > 1:
         yield from _search(ray, key, level + 1)
         yield from _hit(ray, key, level + 1)
-    for light in ray["lights"]:
+    for light in ray.lights:
         yield from _light(light, key, level + 1)
-    if ray["direct"] is not None:
-        yield Line((*key, "direct"), level + 1, f"sum over the lights {point(ray['direct'])}")
-    for kind in ("refract", "reflect"):
-        for bounce in ray["bounces"]:
-            if _KINDS.get(bounce["role"], bounce["role"]) == kind:
-                yield from _ray(bounce, (*key, kind), level + 1, step)
-        if kind == "refract" and ray["transmitted"] is not None and any(map(float, ray["transmitted"])):
-            yield Line((*key, "transmitted"), level + 1, f"shines through {point(ray['transmitted'])}")
-    color = "unknown" if ray["color"] is None else point(ray["color"])
+    if ray.direct is not None:
+        yield Line((*key, "direct"), level + 1, f"sum over the lights {point(ray.direct)}")
+    for way in _WAYS:
+        for bounce in ray.bounces_of(way):
+            yield from _ray(bounce, (*key, way), level + 1, step)
+        if way == "refract" and ray.transmitted is not None and any(map(float, ray.transmitted)):
+            yield Line((*key, "transmitted"), level + 1, f"shines through {point(ray.transmitted)}")
+    color = "unknown" if ray.color is None else point(ray.color)
     yield Line((*key, "color"), level + 1, f"colour {color}")
 
 
 def lines_of(record: Record) -> list[Line]:
     """From the camera to the bytes."""
-    frame = record["frame"]
-    lines = [Line(("frame",), 0, f"camera: forward {point(frame['forward'])}, up {point(frame['up'])}")]
-    lines += _ray(record["ray"], (EYE,), 0, record["step"])
-    if record["mapped"] is not None:
-        lines.append(Line(("mapped",), 0, f"tone mapping {point(record['mapped'])}"))
-    ending = "the rays never end" if record["endless"] else f"bytes {' '.join(map(str, record['bytes'] or []))}"
+    frame = record.frame
+    lines = [Line(("frame",), 0, f"camera: forward {point(frame.forward)}, up {point(frame.up)}")]
+    lines += _ray(record.ray, (EYE,), 0, record.step)
+    if record.mapped is not None:
+        lines.append(Line(("mapped",), 0, f"tone mapping {point(record.mapped)}"))
+    ending = "the rays never end" if record.endless else f"bytes {' '.join(map(str, record.bytes or []))}"
     return [*lines, Line(("bytes",), 0, ending)]
 
 
@@ -126,7 +124,7 @@ class PageRay:
     key: Key
     title: str
     ending: str
-    record: Record
+    record: Ray
     lines: list[str] = field(default_factory=list)  # of the hit
     sums: list[str] = field(default_factory=list)  # of the light, in the order of computation
     color: str = ""  # as HTML names colours
@@ -153,80 +151,79 @@ def shown_color(color: Vector | None) -> str:
     return "#" + "".join(f"{round(255 * min(max(part, 0.0), 1.0)) if part == part else 0:02x}" for part in parts)
 
 
-def _box_words(box: Record) -> str:
-    level = "" if box["level"] is None else f"level {box['level']}: "
-    if box["enter"] is None:
+def _box_words(box: BoxEvent) -> str:
+    level = "" if box.level is None else f"level {box.level}: "
+    if box.enter is None or box.leave is None:
         return f"{level}missed"
-    listed = f", lists {count(box['listed'], 'surface')}" if box["listed"] else ""
-    return f"{level}enters at {brief(box['enter'])}, leaves at {brief(box['leave'])}{listed}"
+    listed = f", lists {count(box.listed, 'surface')}" if box.listed else ""
+    return f"{level}enters at {brief(box.enter)}, leaves at {brief(box.leave)}{listed}"
 
 
-def _search_lines(ray: Record, surfaces: int) -> list[str]:
-    counts = ray["counts"]
+def _search_lines(ray: Ray, surfaces: int) -> list[str]:
+    counts = ray.counts
 
     def share(number: int) -> str:
         return f"{100 * number / surfaces:.3g} % of {surfaces}" if surfaces else "of none"
 
     lines = []
-    if counts["box_tests"]:
-        lines.append(f"{counts['box_tests']} boxes asked, {counts['boxes_entered']} entered")
-    if counts["candidates"]:
-        lines.append(f"{counts['candidates']} candidates, duplicates counted ({share(counts['candidates'])})")
-    if counts["surface_tests"]:
-        unique = counts["unique_surfaces"]
-        lines.append(f"{count(counts['surface_tests'], 'test')} on {unique} different surfaces ({share(unique)})")
+    if counts.box_tests:
+        lines.append(f"{counts.box_tests} boxes asked, {counts.boxes_entered} entered")
+    if counts.candidates:
+        lines.append(f"{counts.candidates} candidates, duplicates counted ({share(counts.candidates)})")
+    if counts.surface_tests:
+        unique = counts.unique_surfaces
+        lines.append(f"{count(counts.surface_tests, 'test')} on {unique} different surfaces ({share(unique)})")
     return lines
 
 
-def _hit_lines(hit: Record) -> list[str]:
-    fill = hit["fill"]
-    glass = f"  transmittance {brief(fill['transmittance'])}  index {brief(fill['index'])}"
+def _hit_lines(hit: Hit) -> list[str]:
+    fill = hit.fill
+    glass = f"  transmittance {brief(fill.transmittance)}  index {brief(fill.index)}"
     return [
-        f"position {point(hit['position'])}, from {'outside' if hit['from_outside'] else 'inside'}",
-        f"normal {point(hit['normal'])}",
-        f"colour {point(fill['color'])}  kd {brief(fill['kd'])}  ks {brief(fill['ks'])}  shine {brief(fill['shine'])}"
-        + (glass if as_float(fill["transmittance"]) else ""),
+        f"position {point(hit.position)}, from {'outside' if hit.from_outside else 'inside'}",
+        f"normal {point(hit.normal)}",
+        f"colour {point(fill.color)}  kd {brief(fill.kd)}  ks {brief(fill.ks)}  shine {brief(fill.shine)}"
+        + (glass if as_float(fill.transmittance) else ""),
     ]
 
 
-def _new(ray: Record, key: Key, title: str, surfaces: int) -> PageRay:
-    made = PageRay(key, title, meets(ray["hit"]), ray, role=ray["role"])
-    made.lines = [f"from {point(ray['origin'])} towards {point(ray['direction'])}", *_search_lines(ray, surfaces)]
-    made.boxes = [_box_words(box) for box in ray["boxes"]]
-    if ray["hit"] is not None and ray["role"] != "shadow":
-        made.lines += _hit_lines(ray["hit"])
+def _new(ray: Ray, key: Key, title: str, surfaces: int) -> PageRay:
+    made = PageRay(key, title, meets(ray.hit), ray, role=ray.role)
+    made.lines = [f"from {point(ray.origin)} towards {point(ray.direction)}", *_search_lines(ray, surfaces)]
+    made.boxes = [_box_words(box) for box in ray.boxes]
+    if ray.hit is not None and ray.role != "shadow":
+        made.lines += _hit_lines(ray.hit)
     return made
 
 
-def _shadow_rays(light: Record, key: Key, surfaces: int) -> Iterator[PageRay]:
-    number = light["light"] + 1
-    for again, ray in enumerate(light["rays"]):
+def _shadow_rays(light: LightShare, key: Key, surfaces: int) -> Iterator[PageRay]:
+    number = light.light + 1
+    for again, ray in enumerate(light.rays):
         more = (f"ray{again + 1}",) if again else ()
         shadow = _new(ray, (*key, f"light{number}", *more), f"shadow ray to light {number}", surfaces)
         shadow.ending = light_words(light)
-        shadow.role = "lit" if light["lit"] else "blocked"
+        shadow.role = "lit" if light.lit else "blocked"
         yield shadow
 
 
-def page_ray(ray: Record, surfaces: int, key: Key = ("eye",)) -> PageRay:
+def page_ray(ray: Ray, surfaces: int, key: Key = ("eye",)) -> PageRay:
     """The ray with its shadow rays and bounces."""
-    depth = "" if ray["role"] == "eye" else f", depth {ray['depth']}"
-    made = _new(ray, key, TITLES[ray["role"]] + depth, surfaces)
-    made.role = "refract" if ray["role"] == "internal" else ray["role"]
-    made.color = shown_color(ray["color"])
-    for light in ray["lights"]:
+    depth = "" if ray.role == "eye" else f", depth {ray.depth}"
+    made = _new(ray, key, TITLES[ray.role] + depth, surfaces)
+    made.role = ray.way
+    made.color = shown_color(ray.color)
+    for light in ray.lights:
         made.children += _shadow_rays(light, key, surfaces)
-        terms = f"diffuse {point(light['diffuse'])}  specular {point(light['specular'])}"
-        number = light["light"] + 1
-        made.sums.append(f"light {number}, {light_words(light)}: l.n {brief(light['l_n'])}  {terms}")
-    if ray["direct"] is not None:
-        made.sums.append(f"sum over the lights {point(ray['direct'])}")
-    for bounce in ray["bounces"]:
-        kind = "refract" if bounce["role"] == "internal" else bounce["role"]
-        made.children.append(page_ray(bounce, surfaces, (*key, kind)))
-    if ray["transmitted"] is not None and any(map(as_float, ray["transmitted"])):
-        made.sums.append(f"shines through {point(ray['transmitted'])}")
-    made.sums.append("colour unknown" if ray["color"] is None else f"colour {point(ray['color'])}")
+        terms = f"diffuse {point(light.diffuse)}  specular {point(light.specular)}"
+        number = light.light + 1
+        made.sums.append(f"light {number}, {light_words(light)}: l.n {brief(light.l_n)}  {terms}")
+    if ray.direct is not None:
+        made.sums.append(f"sum over the lights {point(ray.direct)}")
+    for bounce in ray.bounces:
+        made.children.append(page_ray(bounce, surfaces, (*key, bounce.way)))
+    if ray.transmitted is not None and any(map(as_float, ray.transmitted)):
+        made.sums.append(f"shines through {point(ray.transmitted)}")
+    made.sums.append("colour unknown" if ray.color is None else f"colour {point(ray.color)}")
     return made
 
 
@@ -244,42 +241,44 @@ def _along(origin: Vector, direction: Vector, distance: float) -> list[float]:
     return _plain([a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)])
 
 
-def _end(ray: Record, size: float) -> list[float]:
-    if ray["hit"] is not None and is_finite(ray["hit"]["position"]):
-        return _plain(ray["hit"]["position"])
-    limit = _FAR * size if ray["limit"] is None else min(as_float(ray["limit"]), 10 * _FAR * size)
-    return _along(ray["origin"], ray["direction"], limit)
+def _end(ray: Ray, size: float) -> list[float]:
+    if ray.hit is not None and is_finite(ray.hit.position):
+        return _plain(ray.hit.position)
+    limit = _FAR * size if ray.limit is None else min(as_float(ray.limit), 10 * _FAR * size)
+    return _along(ray.origin, ray.direction, limit)
 
 
-def _ray_in_space(page_ray: PageRay, size: float) -> dict[str, Any]:
+def _ray_in_space(page_ray: PageRay, size: float) -> dict[str, object]:
     ray = page_ray.record
     return {
         "id": page_ray.id,
         "role": page_ray.role,
-        "origin": _plain(ray["origin"]),
+        "origin": _plain(ray.origin),
         "end": _end(ray, size),
-        "hit": None if ray["hit"] is None else ray["hit"]["surface"],
+        "hit": None if ray.hit is None else ray.hit.surface,
         "boxes": [
-            {"min": _plain(b["min"]), "max": _plain(b["max"]), "entered": b["enter"] is not None, "level": b["level"]}
-            for b in ray["boxes"]
+            {"min": _plain(b.min), "max": _plain(b.max), "entered": b.enter is not None, "level": b.level}
+            for b in ray.boxes
         ],
         "tests": [
-            {"surface": test["surface"], "hit": test["distance"] is not None, "before": test["boxes_before"]}
-            for test in ray["tests"]
+            {"surface": test.surface, "hit": test.distance is not None, "before": test.boxes_before}
+            for test in ray.tests
         ],
     }
 
 
-def _camera(record: Record) -> dict[str, Any]:
-    camera, frame = record["camera"], record["frame"]
-    half_width, half_height = as_float(frame["half_width"]), as_float(frame["half_height"])
-    axes = [_plain(frame[name]) for name in ("forward", "right", "up")]
+def _camera(record: Record) -> dict[str, object]:
+    camera, frame = record.camera, record.frame
+    half_width, half_height = as_float(frame.half_width), as_float(frame.half_height)
+    axes = [_plain(axis) for axis in (frame.forward, frame.right, frame.up)]
 
     def corner(right: int, up: int) -> list[float]:
         return _plain([f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)])
 
     return {
-        **{name: _plain(camera[name]) for name in ("from", "at", "up")},
+        "from": _plain(camera["from"]),
+        "at": _plain(camera["at"]),
+        "up": _plain(camera["up"]),
         "halfHeight": math.tan(math.radians(as_float(camera["angle"])) / 2),
         "aspect": camera["width"] / camera["height"],
         "corners": [corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1)],
@@ -288,31 +287,31 @@ def _camera(record: Record) -> dict[str, Any]:
 
 def _goal(record: Record) -> list[float]:
     """What the pixel shows; a sky far behind the scene is no good place to look at."""
-    camera, hit = record["camera"], record["ray"]["hit"]
-    if hit is not None and is_finite(hit["position"]):
+    camera, hit = record.camera, record.ray.hit
+    if hit is not None and is_finite(hit.position):
         far = _FAR * length(minus(camera["at"], camera["from"]))
-        if length(minus(hit["position"], camera["from"])) <= far:
-            return _plain(hit["position"])
+        if length(minus(hit.position, camera["from"])) <= far:
+            return _plain(hit.position)
     return _plain(camera["at"])
 
 
-def space_of(record: Record, tree: PageRay) -> dict[str, Any]:
+def space_of(record: Record, tree: PageRay) -> dict[str, object]:
     """Camera, lights, surfaces near the rays, and the rays; `size` is how far the eye is from the goal."""
     goal = _goal(record)
-    size = max(length(minus(goal, record["camera"]["from"])), 1e-3)
+    size = max(length(minus(goal, record.camera["from"])), 1e-3)
     return {
         "camera": _camera(record),
         "goal": goal,
         "size": size,
-        "lights": [_plain(light["position"]) for light in record["lights"]],
+        "lights": [_plain(light.position) for light in record.lights],
         "surfaces": [
             {
-                "surface": near["surface"],
-                "points": [_plain(corner) for corner in near["points"]],
-                "radii": _plain(near["radii"]),
-                "color": _plain(near["color"]),
+                "surface": near.surface,
+                "points": [_plain(corner) for corner in near.points],
+                "radii": _plain(near.radii),
+                "color": _plain(near.color),
             }
-            for near in record["near"]
+            for near in record.near
         ],
         "rays": [_ray_in_space(ray, size) for ray in tree.all_rays()],
     }
@@ -333,18 +332,18 @@ def _parts_at(tree: PageRay, divergence: Difference | None) -> str:
 def page_html(record: Record, reference: Record | None = None, divergence: Difference | None = None) -> str:
     """The document; with a reference both trees stand side by side, and the first difference is marked."""
     records = {"mine": record} if reference is None else {"mine": record, "reference": reference}
-    trees = {name: page_ray(one["ray"], one["surfaces"]) for name, one in records.items()}
-    pixel = record["pixel"]
+    trees = {name: page_ray(one.ray, one.surfaces) for name, one in records.items()}
+    pixel = record.pixel
     context = {
         "record": record,
         "reference": reference,
         "trees": trees,
         "divergence": divergence,
         "parts_at": {name: _parts_at(tree, divergence) for name, tree in trees.items()},
-        "swatch": shown_color([byte / 255 for byte in record["bytes"]] if record["bytes"] else None),
+        "swatch": shown_color([byte / 255 for byte in record.bytes] if record.bytes else None),
     }
     spaces = {name: space_of(one, trees[name]) for name, one in records.items()}
-    title = f"Inside pixel ({pixel['x']}, {pixel['y']})"
+    title = f"Inside pixel ({pixel.x}, {pixel.y})"
     return render_page("inspect", title, context, scripts=_SCRIPTS, styles=("inspect",), data=spaces)
 
 

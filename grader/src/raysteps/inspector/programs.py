@@ -1,14 +1,14 @@
 """The program inspect: run, and its record read."""
 
-import json
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.common.documents import Malformed, parse
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import in_seconds, printable
-from raysteps.inspector.records import Record
+from raysteps.inspector.model import Record
 
 _SECONDS = 30
 _MAX_BYTES = 64 << 20
@@ -47,13 +47,15 @@ def _problem(outcome: Outcome) -> str:
     return f"gave up with exit code {outcome.code}" if outcome.code != 0 else ""
 
 
-def _read(path: Path) -> Record | None:
+def _read(path: Path) -> tuple[Record | None, str]:
+    """Or what is wrong with it."""
     try:
-        record = json.loads(path.read_text(encoding="utf-8", errors="replace"))  # a scene's name may be any bytes
-    except (OSError, ValueError, RecursionError):
-        return None
-    is_record = isinstance(record, dict) and record.get("schema") == "raysteps/inspect/v1"
-    return record if is_record else None
+        text = path.read_text(encoding="utf-8", errors="replace")  # a scene's name may be any bytes
+        return parse(text.encode(), Record), ""
+    except OSError:
+        return None, "left no record that can be read"
+    except (Malformed, RecursionError) as error:
+        return None, f"left no record that can be read: {error}"
 
 
 def inspect(program: Path, options: InspectOptions, *, seconds: float = _SECONDS) -> InspectResult:
@@ -65,9 +67,7 @@ def inspect(program: Path, options: InspectOptions, *, seconds: float = _SECONDS
         if outcome.code == _USAGE and not outcome.timed_out:
             raise UsageError(said.removeprefix("raysteps inspect: ") or "inspect gave up without a word")
         problem = _problem(outcome)
-        record = None if problem else _read(file)
-    if not problem and record is None:
-        problem = "left no record that can be read"
+        record, problem = (None, problem) if problem else _read(file)
     return InspectResult(printable(outcome.stdout), record, said, problem)
 
 

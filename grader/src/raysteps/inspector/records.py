@@ -4,10 +4,10 @@ is not finite is a word: they have an algebra of their own."""
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-Record = dict[str, Any]  # form raysteps/inspect/v1, or a part of it
-Number = float | str  # one that is not finite is a word
+from raysteps.inspector.model import Accel, Hit, Light, Number, Ray
+
 Vector = Sequence[Number]
 
 CLOSE = 1e-4  # share by which rounding alone may move a number of a right solution
@@ -63,9 +63,9 @@ def same_color(one: Vector | None, other: Vector | None, close: float) -> bool:
     return all(same_number(a, b, close, _DARKEST) for a, b in zip(one, other, strict=True))
 
 
-def coarser(one: Record, other: Record) -> float:
+def coarser(one: Ray, other: Ray) -> float:
     """How close two rays can be expected to end that begin like these."""
-    apart = length(minus(one["origin"], other["origin"])) + length(minus(one["direction"], other["direction"]))
+    apart = length(minus(one.origin, other.origin)) + length(minus(one.direction, other.direction))
     return min(_COARSEST, CLOSE + 30 * apart) if math.isfinite(apart) else CLOSE
 
 
@@ -107,26 +107,33 @@ class Difference(NamedTuple):
 class Pair:
     """The same ray in both records, `place` being its line in the tree."""
 
-    mine: Record
-    reference: Record
+    mine: Ray
+    reference: Ray
     place: tuple[str, ...]
     name: str
     close: float
     step: int
-    accel: str
-    lights: list[Record]
+    accel: Accel
+    lights: list[Light]
 
     def at(self, item: str, words: str, function: str, why: str = "") -> Difference:
         plain = self.place == (EYE,) and not words.startswith("yours")  # what else happens at the eye ray needs no name
         return Difference((*self.place, item), words if plain else f"{self.name}: {words}", function, why, self.shaky)
 
     @property
+    def hits(self) -> tuple[Hit, Hit]:
+        """Of two rays that both meet something."""
+        assert self.mine.hit is not None
+        assert self.reference.hit is not None
+        return self.mine.hit, self.reference.hit
+
+    @property
     def shaky(self) -> bool:
         return self.close > 2 * CLOSE
 
 
-def surface_name(hit: Record) -> str:
-    return "something that is no surface" if hit["surface"] is None else f"surface {hit['surface']} ({hit['kind']})"
+def surface_name(hit: Hit) -> str:
+    return "something that is no surface" if hit.surface is None else f"surface {hit.surface} ({hit.kind})"
 
 
 def not_unit(direction: Vector) -> str:
@@ -135,15 +142,13 @@ def not_unit(direction: Vector) -> str:
     return "" if abs(size - 1) < 1e-3 else f"its length is {size:.4g} and not 1"
 
 
-def meets(hit: Record | None) -> str:
-    return "meets nothing" if hit is None else f"meets {surface_name(hit)} at distance {brief(hit['distance'])}"
+def meets(hit: Hit | None) -> str:
+    return "meets nothing" if hit is None else f"meets {surface_name(hit)} at distance {brief(hit.distance)}"
 
 
-def same_meeting(one: Record | None, other: Record | None, close: float) -> bool:
+def same_meeting(one: Hit | None, other: Hit | None, close: float) -> bool:
     """Two surfaces at the same distance are the same where they look the same."""
     if one is None or other is None:
         return one is other
-    alike = one["surface"] == other["surface"] or (
-        one["fill"] == other["fill"] and same_direction(one["normal"], other["normal"], close)
-    )
-    return alike and same_number(one["distance"], other["distance"], close, 1e-5)
+    alike = one.surface == other.surface or (one.fill == other.fill and same_direction(one.normal, other.normal, close))
+    return alike and same_number(one.distance, other.distance, close, 1e-5)

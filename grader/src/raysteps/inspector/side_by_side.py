@@ -11,8 +11,9 @@ from rich.text import Text
 
 from raysteps.common.text import count
 from raysteps.course.manifest import Step
+from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import Key, Line, lines_of
-from raysteps.inspector.records import Difference, Record
+from raysteps.inspector.records import Difference
 
 _WIDE = 110  # columns; below, one tree stands under the other
 _WIDEST = 180
@@ -103,11 +104,10 @@ def step_of(steps: list[Step], function: str) -> Step | None:
 
 def cost_words(mine: Record, reference: Record) -> str:
     """What the pixel cost both; nothing where it is the same."""
-    if mine["counts"] == reference["counts"]:
+    if mine.counts == reference.counts:
         return ""
     told = [
-        f"{count(record['counts']['box_tests'], 'box test')} and "
-        f"{count(record['counts']['surface_tests'], 'surface test')}"
+        f"{count(record.counts.box_tests, 'box test')} and {count(record.counts.surface_tests, 'surface test')}"
         for record in (mine, reference)
     ]
     return f"Cost: yours {told[0]}, the reference {told[1]}."

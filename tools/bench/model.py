@@ -1,0 +1,310 @@
+"""What the commands `raysteps bench ...` write to build/bench: these classes are its forms."""
+
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal, TypedDict
+
+from msgspec import Meta
+
+from raysteps.common.documents import Amount, Count
+
+Number = int | float
+Several = Annotated[int, Meta(ge=1)]
+Values = Annotated[list[Amount], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What the numbers were measured on, without the name of the machine."""
+
+    processor: str
+    cores: Several
+    system: str
+    compiler: str
+    flags: str
+    pinned: bool
+
+
+@dataclass(frozen=True)
+class Spread:
+    """What several measurements of the same thing say; as raysteps-bench writes it."""
+
+    median: Amount
+    min: Amount
+    max: Amount
+    q1: Amount
+    q3: Amount
+    rounds: Values
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> "Spread":
+        ordered = sorted(values)
+        quartiles = statistics.quantiles(ordered, n=4, method="inclusive") if len(ordered) > 1 else ordered * 3
+        return cls(statistics.median(ordered), ordered[0], ordered[-1], quartiles[0], quartiles[2], list(values))
+
+
+# bench render
+
+
+@dataclass(frozen=True)
+class ListedStructure:
+    """What raysteps-bench can measure."""
+
+    name: str
+    slow: bool
+    foreign: bool
+
+
+@dataclass(frozen=True)
+class Listing:
+    """The answer to `raysteps-bench list`."""
+
+    schema: Literal["raysteps/bench-structures/v1"]
+    embree_version: str
+    structures: list[ListedStructure]
+
+
+@dataclass(frozen=True)
+class StructureTimes:
+    """The rays of a picture, asked of one structure."""
+
+    name: str
+    rays: Count
+    differing: Count
+    build_seconds: Spread
+    boxes: Count
+    references: Count
+    bytes: Count
+    surface_tests_per_ray: Amount
+    box_tests_per_ray: Amount
+    ns_per_ray: Spread
+    picture_seconds: Spread | None
+
+
+@dataclass(frozen=True)
+class RayKinds:
+    """How many rays a picture takes."""
+
+    all: Count
+    eye: Count
+    shadow: Count
+    reflect: Count
+    refract: Count
+    any_hit: Count
+
+
+@dataclass(frozen=True)
+class SceneRays:
+    """The answer to `raysteps-bench render`."""
+
+    schema: Literal["raysteps/bench-rays/v1"]
+    scene: str
+    surfaces: Count
+    size: Count
+    depth: Count
+    every: Count
+    embree_version: str
+    rays: RayKinds
+    structures: Annotated[list[StructureTimes], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class BuildRays:
+    """All scenes with one build."""
+
+    build: str
+    machine: Machine
+    scenes: Annotated[list[SceneRays], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class ProgramTimes:
+    """One picture by one program."""
+
+    program: str
+    trace_seconds: Spread
+    trace_processor_seconds: Spread
+    process_seconds: Spread
+    processor_seconds: Spread
+
+
+@dataclass(frozen=True)
+class PovrayRow:
+    """One picture by POV-Ray, then by ours; or why it was skipped."""
+
+    scene: str
+    skipped: str
+    brightness_difference: Number | None
+    programs: list[ProgramTimes]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderNumbers:
+    """Rays beside Embree's, and pictures beside POV-Ray's."""
+
+    name: ClassVar[str] = "render"
+    schema: Literal["raysteps/bench-render/v1"] = "raysteps/bench-render/v1"
+    builds: Annotated[list[BuildRays], Meta(min_length=1)]
+    povray: list[PovrayRow]
+
+
+# bench scale
+
+
+@dataclass(frozen=True)
+class ScaleRow:
+    """One structure on one scene of one size."""
+
+    structure: str
+    scene: str
+    surfaces: Count
+    rays: Count
+    boxes: Count
+    references: Count
+    bytes: Count
+    surface_tests_per_ray: Amount
+    box_tests_per_ray: Amount
+    peak_bytes: int | None
+    build_seconds: Spread
+    ns_per_ray: Spread
+
+    @property
+    def tests_per_ray(self) -> float:
+        """Surfaces and boxes together."""
+        return float(self.surface_tests_per_ray + self.box_tests_per_ray)
+
+
+GrowthRow = TypedDict(  # a dataclass has no field that is called `from`
+    "GrowthRow",
+    {
+        "structure": str,
+        "scene": str,
+        "from": Count,
+        "to": Count,
+        "tests_exponent": Number,
+        "tests_per_doubling": Number,
+        "time_exponent": Number,
+    },
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScaleNumbers:
+    """How building, memory and tests grow."""
+
+    name: ClassVar[str] = "scale"
+    schema: Literal["raysteps/bench-scale/v1"] = "raysteps/bench-scale/v1"
+    machine: Machine
+    rows: Annotated[list[ScaleRow], Meta(min_length=1)]
+    growth: list[GrowthRow]
+
+
+# bench threads, parse, loop, boxes and grading
+
+
+@dataclass(frozen=True)
+class ThreadsRow:
+    """One scene with one structure on so many threads."""
+
+    scene: str
+    accel: str
+    threads: Several
+    render_seconds: Spread
+    build_seconds: Spread
+    speed_up: Amount
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThreadsNumbers:
+    """What more processors bring."""
+
+    name: ClassVar[str] = "threads"
+    schema: Literal["raysteps/bench-threads/v1"] = "raysteps/bench-threads/v1"
+    machine: Machine
+    rows: Annotated[list[ThreadsRow], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class ParseRow:
+    """One scene, read."""
+
+    scene: str
+    bytes: Count
+    surfaces: Count
+    megabytes_per_second: Spread
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParseNumbers:
+    """How fast scenes are read."""
+
+    name: ClassVar[str] = "parse"
+    schema: Literal["raysteps/bench-parse/v1"] = "raysteps/bench-parse/v1"
+    machine: Machine
+    rows: Annotated[list[ParseRow], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class LoopRow:
+    """One step, changed and checked."""
+
+    step: str
+    seconds: Spread
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoopNumbers:
+    """From a saved file to the result of check."""
+
+    name: ClassVar[str] = "loop"
+    schema: Literal["raysteps/bench-loop/v1"] = "raysteps/bench-loop/v1"
+    machine: Machine
+    rows: Annotated[list[LoopRow], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class BoxesRow:
+    """One scene rendered in one way."""
+
+    scene: str
+    accel: str
+    objects: Count
+    share_tested: Amount
+    tests_per_ray: Amount
+    seconds: Amount
+    time_saved: Number
+    speed_up: Amount
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoxesNumbers:
+    """What boxes save."""
+
+    name: ClassVar[str] = "boxes"
+    schema: Literal["raysteps/bench-boxes/v1"] = "raysteps/bench-boxes/v1"
+    size: str
+    rows: Annotated[list[BoxesRow], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of one submission, on average over one run."""
+
+    way: Literal["plain", "class"]
+    run: Count
+    submissions: Count
+    seconds: Amount
+    cpu_seconds: Amount
+
+
+@dataclass(frozen=True, kw_only=True)
+class GradingNumbers:
+    """A submission in a class, against the plain way."""
+
+    name: ClassVar[str] = "grading"
+    schema: Literal["raysteps/bench-grading/v1"] = "raysteps/bench-grading/v1"
+    costs: Annotated[list[Cost], Meta(min_length=1)]
+
+
+Numbers = BoxesNumbers | GradingNumbers | RenderNumbers | ScaleNumbers | ThreadsNumbers | ParseNumbers | LoopNumbers
