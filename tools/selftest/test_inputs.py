@@ -15,7 +15,7 @@ from pathlib import PurePosixPath
 
 from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
-from raysteps.toolchain.build_kit import fingerprint
+from raysteps.toolchain.fingerprint import fingerprint
 from tools.selftest import stamps
 
 _SOURCES, _TOOLS, _TESTS = "grader/src/", "tools/", "grader/tests/"

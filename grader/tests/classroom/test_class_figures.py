@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sqlite3
 from pathlib import Path
 from typing import Any
 
@@ -170,3 +171,40 @@ def test_a_graded_class_has_a_page_that_links_to_what_is_there_and_can_be_made_a
     with pytest.raises(UsageError, match=r"class.json: is not a class.json of this kit"):
         remake_class_page(alone / "class.json")
     assert class_source(tmp_path / "in") is None
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "UPDATE runs SET steps = '[1]'",
+        "UPDATE runs SET steps = 'no list'",
+        "UPDATE runs SET steps = '[{\"more\": 1}]'",
+        "UPDATE runs SET settings = '{\"more\": 1}'",
+        "UPDATE runs SET shard = 'q'",
+        "UPDATE results SET status = 'great'",
+    ],
+)
+def test_a_database_with_what_no_run_wrote_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, change: str
+) -> None:
+    out = _graded_once(tmp_path, monkeypatch)
+    with sqlite3.connect(out / "class.sqlite") as connection:
+        connection.execute("PRAGMA ignore_check_constraints = ON")
+        assert connection.execute(change).rowcount > 0
+    with pytest.raises(UsageError, match="cannot be read as the database of a class: "):
+        remake_class_page(out / "class.sqlite")
+
+
+@pytest.mark.parametrize("told", ["'{}'", "x'00ff'"])
+def test_results_of_another_form_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, told: str) -> None:
+    out = _graded_once(tmp_path, monkeypatch)
+    with sqlite3.connect(out / "class.sqlite") as connection:
+        assert connection.execute(f"UPDATE results SET document = {told}").rowcount == 1
+    assert "another form" in remake_class_page(out / "class.sqlite").read_text("utf-8")
+
+
+def _graded_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
+    write_entry(folder / "in", "ann", "// points 7\n")
+    assert grade_class(folder / "in", "--out", folder / "grades") == 0
+    return folder / "grades"

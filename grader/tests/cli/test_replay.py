@@ -93,6 +93,7 @@ def test_names_of_files(steps: list[Step]) -> None:
             {"schema": "raysteps/class/v1"},
             r"it is JSON of another kind \(raysteps/class/v1\); expected the file of one",
         ),
+        ({"schema": "raysteps/\x1b[31m" + "x" * 100}, r"another kind \(raysteps/[^\x1b]{40,80}\); expected"),
         ({"schema": None}, "it is other JSON; expected the file of one hidden case, such as cases/02-closest-hit.json"),
         ({"colour": 1}, "colour"),
         ({"step": "09-none"}, "step: expected one of 01-camera-rays, .*found '09-none'"),

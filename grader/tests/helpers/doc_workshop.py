@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 from raysteps.common.markdown import blocks
 from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
-from raysteps.toolchain.build_kit import fingerprint
+from raysteps.toolchain.fingerprint import fingerprint
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _GRADEBOOK = """Student,ID,SIS User ID,SIS Login ID,Section,Ray tracer (12)

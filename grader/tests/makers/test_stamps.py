@@ -229,5 +229,5 @@ def test_who_builds_a_kit_depends_on_what_builds_it(project: Project) -> None:
     sources = _sources(project)
     for place in sources.tests():
         inputs = sources.of_test(place)
-        for module in ("build_kit", "link", "cmake", "symbols", "description"):
+        for module in ("build_kit", "compile", "cmake", "link", "kit_artifacts"):
             assert inputs.belongs(f"grader/src/raysteps/toolchain/{module}.py"), (place, module)

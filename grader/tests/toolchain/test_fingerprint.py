@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.course.project import Project
-from raysteps.toolchain.build_kit import fingerprint
+from raysteps.toolchain.fingerprint import fingerprint
 
 pytestmark = pytest.mark.portable
 
@@ -19,7 +19,7 @@ FILES = {
     "solutions/01-camera-rays/camera_rays.cpp": "// answer",
     "solutions/01-camera-rays/cases.toml": "x = 1",
     "scenes/lessons/a.nff": "b 0 0 0",
-    "grader/src/raysteps/cli.py": "pass",
+    "grader/src/raysteps/judge/worker.py": "pass",
     "grader/src/raysteps/results/model.py": "pass",
 }
 

@@ -39,6 +39,9 @@ def _mistakes(step: StepResult) -> list[str]:
     return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
 
 
+_OTHER_FORM = "graded by a kit of another form; grade it again"
+
+
 class Standings:
     """Of the submissions of a class, after these last runs: one, or one for each shard."""
 
@@ -93,6 +96,7 @@ class Standings:
     def of(self, row: sqlite3.Row) -> GradedSubmission:
         current = self._database.current(row["name"])
         results = stored_results(current["document"]) if current is not None else None
+        is_unread = results is None and current is not None and bool(current["document"])
         steps = results.steps if results is not None else []
         mistakes = {step.id: titles for step in steps if (titles := _mistakes(step))}
         self._mistakes.update((step, title) for step, titles in mistakes.items() for title in titles)
@@ -123,8 +127,8 @@ class Standings:
             before=self._before(row["id"], run),
             isolation=results.isolation.name if results is not None else "",
             fault=current["fault"] if current is not None else "",
-            note=row["note"],
-            results=f"submissions/{row['name']}/results.json" if current and current["document"] else None,
+            note=" ".join(filter(None, (row["note"], _OTHER_FORM if is_unread else ""))),
+            results=f"submissions/{row['name']}/results.json" if results is not None else None,
         )
 
 
@@ -181,7 +185,7 @@ class _Report:
             schema="raysteps/class/v1",
             run=self._run(self._last),
             runs=[self._run(row) for row in self._runs],
-            steps=[GradedStep(**step) for step in json.loads(self._last["steps"])],
+            steps=convert(json.loads(self._last["steps"]), list[GradedStep]),
             late_policy=self._last["late_policy"] or None,
             submissions=submissions,
             students_without_submission=[NotedStudent(**row) for row in absent],

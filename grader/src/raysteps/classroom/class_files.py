@@ -92,7 +92,10 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
         return
     stored = stored_results(row["document"])
     if stored is None and row["document"]:
-        _warn(f"{name}: a kit of another form graded it, its files stay as they are; grade it again")
+        _warn(f"{name}: a kit of another form graded it; grade it again")
+        _forget_files(folder, set())
+        for left in ("results.json", REPORT):
+            (folder / left).unlink(missing_ok=True)
         return
     results = withhold(stored, database.feedback()) if stored is not None else None
     files = database.pictures(row["submission"], row["run"])
@@ -177,7 +180,8 @@ def _from_database(path: Path) -> ClassResults:
     with open_readonly(path) as connection:
         try:
             return class_document(ClassDatabase(path.parent, connection))
-        except sqlite3.Error as error:
+        except (sqlite3.Error, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            # of these, all but the first say that a column holds what no run wrote
             raise UsageError(
                 f"{path}: cannot be read as the database of a class: {error}; if an older kit wrote it, "
                 "run grade-class with --resume"

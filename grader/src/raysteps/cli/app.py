@@ -134,9 +134,13 @@ _NO_TERMINAL = 10_000  # columns
 _SIGPIPE = 128 + 13  # as a shell has it of programs that a closed pipe ends
 
 
+class _ReaderIsGone(BrokenPipeError):
+    """Nobody reads what is printed."""
+
+
 class _Console(Console):
     def on_broken_pipe(self) -> None:
-        raise BrokenPipeError  # not an exit code of 1: see `exit_code_of`
+        raise _ReaderIsGone  # not an exit code of 1: see `exit_code_of`
 
 
 def console_here() -> Console:
@@ -151,7 +155,7 @@ def _reader_is_gone(error: BaseException) -> bool:
     except BrokenPipeError:
         pass
     else:
-        return isinstance(error, BrokenPipeError)
+        return isinstance(error, _ReaderIsGone)
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return True
 
@@ -183,7 +187,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             parser = new_parser(project, "")
             if words and not words[0].startswith("-"):
                 names = [one.name for one in _commands(project)]
-                parser.error(f"{words[0]}: there is no such command{_nearest(words[0], names)} See ./raysteps --help")
+                parser.error(
+                    f"{words[0]}: there is no such command{_nearest(words[0], names) or '.'} See ./raysteps --help"
+                )
             if words:
                 parser.parse_args(words)  # which says what is wrong with them, or prints the help
             parser.print_help(sys.stderr)

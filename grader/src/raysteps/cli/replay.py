@@ -35,6 +35,9 @@ def _find(project: Project, path: Path) -> Path:
     return below if not path.exists() and below.is_file() else path
 
 
+_LARGEST = 64 << 20  # bytes of a results.json
+
+
 def _inside(parts: list[Any], name: str) -> list[Any]:
     """What the lists of that name hold; anything may stand in a file."""
     lists = [part.get(name) for part in parts if isinstance(part, dict)]
@@ -44,14 +47,19 @@ def _inside(parts: list[Any], name: str) -> list[Any]:
 def _refuse_what_is_no_case(path: Path) -> None:
     """Another document of the kit, above all the results.json beside the cases, or none of it."""
     try:
-        document = json.loads(path.read_bytes())
+        with path.open("rb") as file:
+            document = json.loads(file.read(_LARGEST))
     except (OSError, ValueError, RecursionError):
         return  # read_case says what is wrong
     schema = str(document.get("schema")) if isinstance(document, dict) else ""
     if schema.startswith("raysteps/case/"):
         return
     if not schema.startswith("raysteps/results/"):
-        found = f"it is JSON of another kind ({schema})" if schema.startswith("raysteps/") else "it is other JSON"
+        found = (
+            f"it is JSON of another kind ({printable(shorten(schema, 60))})"
+            if schema.startswith("raysteps/")
+            else "it is other JSON"
+        )
         raise UsageError(f"{path}: {found}; expected the file of one hidden case, such as cases/02-closest-hit.json")
     items = _inside(_inside([document], "steps"), "hidden")
     cases = [str(item["case"]) for item in items if isinstance(item, dict) and item.get("case")]

@@ -13,19 +13,28 @@ import msgspec
 from msgspec import Meta
 
 from raysteps.common.errors import GraderFault, reason
+from raysteps.common.text import shorten
 
 T = TypeVar("T")
 
-Count = Annotated[int, Meta(ge=0)]
-Amount = Annotated[int, Meta(ge=0)] | Annotated[float, Meta(ge=0)]  # a whole number is written again as it was read
+_MOST = 2**63 - 1
+Count = Annotated[int, Meta(ge=0, le=_MOST)]
+# a whole number is written again as it was read
+Amount = Annotated[int, Meta(ge=0, le=_MOST)] | Annotated[float, Meta(ge=0, le=float(_MOST))]
 Share = Annotated[int, Meta(ge=0, le=1)] | Annotated[float, Meta(ge=0, le=1)]
 Text = Annotated[str, Meta(min_length=1)]
 
 OPTIONAL = {"optional": True}  # metadata of a field that older kits did not write
 
 
+_LONGEST = 300  # characters of what is told of a stranger's file
+
+
 class Malformed(ValueError):
     """What is wrong with a document, and where."""
+
+    def __init__(self, problem: str) -> None:
+        super().__init__(shorten(problem, _LONGEST))
 
 
 def _position(data: bytes, error: msgspec.DecodeError) -> str:
@@ -71,6 +80,8 @@ def convert(document: object, kind: type[T], *, complete: bool = False) -> T:
     except msgspec.ValidationError as error:
         what, _, place = str(error).replace("`", "").partition(" - at ")
         raise Malformed(f"{place or '$'}: {what[0].lower()}{what[1:]}") from error
+    except UnicodeError as error:
+        raise Malformed("holds half a character") from error
     _check_keys(document, made, "$", complete=complete)
     return made
 

@@ -171,7 +171,8 @@ def grade_submission(
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:
-        write_results(withhold(results, settings.feedback), out)
+        shown = results if settings.feedback == "full" else withhold(results, settings.feedback)
+        write_results(shown, out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     return results

@@ -103,7 +103,7 @@ def _share_tested(stats: bytes) -> float | None:
     """From the statistics of raytrace: how much of the scene each ray was tested against."""
     try:
         share = float(json.loads(stats)["share_tested"])
-    except (ValueError, KeyError, TypeError, RecursionError):
+    except (ArithmeticError, ValueError, KeyError, TypeError, RecursionError):
         return None
     return share if math.isfinite(share) and share >= 0 else None
 

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from raysteps.common.documents import Malformed, convert, parse, plain
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.results.model import Results
 
@@ -34,7 +34,7 @@ _WANTED = "expected is a results.json as `./raysteps grade` writes it"
 def _unread(error: OSError) -> str:
     if isinstance(error, FileNotFoundError):
         return "is not there"
-    return "is a folder" if isinstance(error, IsADirectoryError) else f"cannot be read: {error.strerror}"
+    return "is a folder" if isinstance(error, IsADirectoryError) else f"cannot be read: {reason(error)}"
 
 
 def parse_results(data: bytes) -> Results:
@@ -42,11 +42,12 @@ def parse_results(data: bytes) -> Results:
     return parse(data, Results, complete=True)
 
 
-def stored_results(text: str) -> Results | None:
-    """The results that the database of a class keeps; None where it has none, or a kit of another form wrote them."""
+def stored_results(text: object) -> Results | None:
+    """The results that the database of a class keeps; None where it has none, or a kit of another form wrote them.
+    Anything may stand in a column."""
     try:
-        return parse(text.encode(), Results)
-    except Malformed:
+        return parse(text.encode(), Results) if isinstance(text, str) else None
+    except ValueError:  # Malformed, or half a character
         return None
 
 

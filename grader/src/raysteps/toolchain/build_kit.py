@@ -1,13 +1,10 @@
 """Builds the kit for grading, into a folder named by its fingerprint."""
 
-import hashlib
 import json
 import os
-import re
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
@@ -18,6 +15,7 @@ from raysteps.course.project import Project
 from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
+from raysteps.toolchain.fingerprint import fingerprint
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from raysteps.toolchain.link import (
     Description,
@@ -189,44 +187,6 @@ class Assembly:
         shown = f"-Wl,--dynamic-list={self._folder / 'steps' / f'{numbers[-1]}.dynamic'}"
         words: list[str | Path] = [*parts, *whole, *self._others, "-Wl,--no-as-needed", *libraries, shown]
         link(self._description, words, self._folder / "bin" / name)
-
-
-# The fingerprint tells one state of the kit from another.
-
-# Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps,
-# nor the packages that change no grade.
-_NO_GRADE = "bootstrap|cli|exports|gallery|inspector|progress|release|report|updater|watch"
-_SOURCES = {
-    "framework": r".*\.(hpp|cpp|cmake|txt)",
-    "cmake": r".*\.cmake",
-    "scenes": r".*\.(nff|py)",
-    "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml|py)",
-    "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
-    "grader/stubs": r".*\.cpp",
-    "reference": r".*\.(png|json)",
-    "grader/src": rf"raysteps/(?!({_NO_GRADE})/).*\.(py|json)",
-}
-
-
-def _files(project: Project) -> Iterator[Path]:
-    yield project.root / "CMakeLists.txt"
-    yield project.root / "CMakePresets.json"
-    for name, pattern in _SOURCES.items():
-        folder = project.root / name
-        for path in sorted(folder.rglob("*")):
-            counts = re.fullmatch(pattern, path.relative_to(folder).as_posix()) and not path.name.startswith(".")
-            if counts and path.is_file():
-                yield path
-
-
-def fingerprint(project: Project) -> str:
-    """Changes with everything that a grade depends on in the repository; not with a student's own steps."""
-    digest = hashlib.sha256()
-    for path in _files(project):
-        data = path.read_bytes()
-        digest.update(f"{path.relative_to(project.root).as_posix()}\0{len(data)}\0".encode())
-        digest.update(data)
-    return digest.hexdigest()[:16]
 
 
 _KEPT = 3

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Literal
 
-from raysteps.common.documents import convert
+from raysteps.common.documents import Malformed, convert
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -118,8 +118,12 @@ class Runner:
     def _listen(self, process: _Process, run: int) -> None:
         assert process.popen.stdout is not None
         for line in process.popen.stdout:
-            with suppress(ValueError):
-                self._post(WorkerMessage(run, convert(json.loads(line), WorkerLine)))
+            with suppress(json.JSONDecodeError):  # what a library printed
+                told = json.loads(line)
+                try:
+                    self._post(WorkerMessage(run, convert(told, WorkerLine)))
+                except Malformed as fault:
+                    self._post(WorkerMessage(run, WorkerLine(error=f"the kit's own answer: {fault}")))
         code = process.popen.wait()
         said = ""
         with suppress(OSError, ValueError):
