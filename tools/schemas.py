@@ -12,6 +12,7 @@ from raysteps.inspector.model import Record
 from raysteps.judge.counterexamples import CaseFile
 from raysteps.results.class_model import ClassResults
 from raysteps.results.model import Results
+from raysteps.updater.release_list import Release
 from tools.bench.model import Numbers
 
 DOCUMENTS: Mapping[str, type] = {
@@ -20,16 +21,17 @@ DOCUMENTS: Mapping[str, type] = {
     "leaderboard": Leaderboard,
     "case": CaseFile,
     "inspect": Record,
+    "release": Release,
     **{f"bench-{kind.name}": kind for kind in get_args(Numbers)},
 }
 
 
 def schema_of(kind: type) -> dict[str, object]:
-    """No object of ours takes a key that it does not know, and each says its form."""
+    """No object of ours takes a key that it does not know, but for the list of a release; each says its form."""
     schema = msgspec.json.schema(kind)
     for made in schema["$defs"].values():
         if "properties" in made:
-            made["additionalProperties"] = False
+            made["additionalProperties"] = kind is Release
             made["required"] = [key for key in made["properties"] if key == "schema" or key in made.get("required", [])]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 

@@ -11,7 +11,9 @@ import pytest
 from class_documents import STEPS, document, missing, result, student, submission
 from class_fakes import grade_class, write_entry
 
+from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import class_source, remake_class_page
+from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import UsageError
 from raysteps.report.class_attention import common_mistakes, groups, marks
@@ -200,7 +202,9 @@ def test_results_of_another_form_are_named(tmp_path: Path, monkeypatch: pytest.M
     out = _graded_once(tmp_path, monkeypatch)
     with sqlite3.connect(out / "class.sqlite") as connection:
         assert connection.execute(f"UPDATE results SET document = {told}").rowcount == 1
-    assert "another form" in remake_class_page(out / "class.sqlite").read_text("utf-8")
+    with open_readonly(out / "class.sqlite") as connection:
+        (one,) = class_document(ClassDatabase(out, connection)).submissions
+    assert (one.note, one.results) == ("graded by a kit of another form; grade it again", None)
 
 
 def _graded_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:

@@ -127,6 +127,20 @@ def test_a_list_of_a_later_kit(mine: Path, newer: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("keys", "problem"),
+    [
+        ({"course": ""}, r"\$\.course: expected str of length >= 1"),
+        ({"steps": []}, r"\$\.steps: expected array of length >= 1"),
+        ({"files": [{"path": "a", "mark": "0", "owner": "kit", "executable": False}]}, r"\$\.files\[0\]\.mark"),
+        ({"files": [{"path": "a", "mark": "0" * 64, "executable": False}]}, r"\$\.files\[0\]: 'owner' is missing"),
+    ],
+)
+def test_a_list_that_breaks_its_form(mine: Path, newer: Path, keys: dict[str, object], problem: str) -> None:
+    _with(newer, **keys)
+    _refused(mine, newer, f"is not the list of a release's files: {problem}")
+
+
+@pytest.mark.parametrize(
     "path",
     [
         "/etc/passwd", "../a", "a/../b", "a\\b", "C:/a", "a//b", "a/", "./a", "steps/./a", ".", "..", ".. ", "a/...",

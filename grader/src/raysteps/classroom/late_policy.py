@@ -8,13 +8,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, date, datetime, time, timedelta
 from decimal import ROUND_CEILING, Decimal
-from typing import Any
+from typing import Annotated
 
-import jsonschema
+from msgspec import Meta
 
 from raysteps.classroom.entry_names import folded
+from raysteps.common.documents import Malformed, convert
 from raysteps.common.errors import UsageError
-from raysteps.common.schemas import read_schema
 from raysteps.common.text import count, number
 from raysteps.results.class_model import Lateness
 
@@ -30,14 +30,44 @@ class LatePolicy:
     extensions: Mapping[str, datetime] = field(default_factory=dict)  # by folded student id
 
 
-def _plain(value: Any) -> Any:
-    """As JSON would hold it; `nan` and `inf` become words, because they are numbers of no use here."""
+# What the file may say; dates and times are words here.
+
+_MOMENT = r"^2[0-9]{3}-[0-9]{2}-[0-9]{2}[T ][0-9]{2}:[0-9]{2}(:[0-9]{2}(\.[0-9]+)?)?(Z|[+-][0-9]{2}:[0-9]{2})$"
+Moment = Annotated[str, Meta(pattern=_MOMENT)]
+
+
+@dataclass(frozen=True)
+class _File:
+    deadline: Moment
+    percent_per_day: Annotated[float, Meta(ge=0, le=100)]
+    grace_minutes: Annotated[float, Meta(ge=0, le=100000)] = 0
+    max_days: Annotated[int, Meta(ge=0, le=10000)] | None = None
+    extensions: dict[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Extension:
+    end: Moment | Annotated[float, Meta(ge=0, le=10000)]
+
+
+_EXPECTED = {
+    "deadline": "a date and time with a time zone, such as 2026-11-20T23:59:00+01:00",
+    "grace_minutes": "a number from 0 to 100000",
+    "percent_per_day": "a number from 0 to 100",
+    "max_days": "a whole number from 0 to 10000",
+    "extensions": "a table of student ids, each with a new deadline or a number of days",
+}
+_EXTENSION = "a number of days from 0 to 10000, or a date and time with a time zone, such as 2026-11-23T23:59:00+01:00"
+
+
+def _plain(value: object) -> object:
+    """As JSON would hold it, 5.0 as 5; `nan` and `inf` become words, because they are numbers of no use here."""
     if isinstance(value, dict):
         return {key: _plain(inner) for key, inner in value.items()}
     if isinstance(value, list):
         return [_plain(inner) for inner in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)
+    if isinstance(value, float):
+        return str(value) if not math.isfinite(value) else int(value) if value.is_integer() else value
     return value.isoformat() if isinstance(value, (datetime, date, time)) else value
 
 
@@ -57,52 +87,53 @@ def _line_of(text: str, path: list[str]) -> int:
     return found
 
 
-def _complaint(error: jsonschema.ValidationError) -> tuple[list[str], str]:
-    """The key that is wrong, and what is wrong with it."""
-    path = [str(part) for part in error.absolute_path]
-    schema: Any = error.schema
-    instance: Any = error.instance
-    if error.validator == "required":
-        missing = next(key for key in schema["required"] if key not in instance)
-        return path, f"expected the key `{missing}`, {schema['properties'][missing].get('description', '')}".rstrip(
-            ", "
-        )
-    if error.validator == "additionalProperties":
-        unknown = next(key for key in instance if key not in schema["properties"])
-        return [*path, unknown], f"`{unknown}` is no key of a late policy; they are {', '.join(schema['properties'])}"
-    expected = schema.get("description") or error.message
-    return path, f"`{'.'.join(path)}`: expected {expected}, found {json.dumps(instance)}"
+def _read(text: str, name: str) -> tuple[_File, dict[str, str | float]]:
+    """What the file says, and its extensions."""
+
+    def refuse(path: list[str], words: str) -> UsageError:
+        return UsageError(f"{name}:{_line_of(text, path)}: {words}")
+
+    def wrong(path: list[str], expected: str, found: object) -> UsageError:
+        return refuse(path, f"`{'.'.join(path)}`: expected {expected}, found {json.dumps(found)}")
+
+    try:
+        table = {key: _plain(value) for key, value in tomllib.loads(text).items()}
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(f"{name}: is not TOML: {error}") from error
+    for key in table:
+        if key not in _EXPECTED:
+            raise refuse([key], f"`{key}` is no key of a late policy; they are {', '.join(_EXPECTED)}")
+    for key in ("deadline", "percent_per_day"):
+        if key not in table:
+            raise refuse([], f"expected the key `{key}`, {_EXPECTED[key]}")
+    try:
+        file = convert(table, _File)
+    except Malformed as error:
+        key = str(error).partition(":")[0].removeprefix("$.")
+        raise wrong([key], _EXPECTED[key], table[key]) from error
+    ends = {}
+    for student, end in file.extensions.items():
+        try:
+            ends[student] = convert({"end": end}, _Extension).end
+        except Malformed as error:
+            raise wrong(["extensions", student], _EXTENSION, end) from error
+    return file, ends
 
 
 def parse_late_policy(text: str, name: str) -> LatePolicy:
     """Reads the text of a late policy; `name` stands in messages."""
-    try:
-        table = _plain(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{name}: is not TOML: {error}") from error
-    schema = read_schema("raysteps.classroom", "late_policy.schema.json")
-    problem = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(table))
-    if problem is not None:
-        while problem.parent is not None:  # the branch of an `anyOf` says less than the whole
-            problem = problem.parent
-        path, words = _complaint(problem)
-        raise UsageError(f"{name}:{_line_of(text, path)}: {words}")
-    deadline = _moment(table["deadline"], f"{name}:{_line_of(text, ['deadline'])}")
+    file, ends = _read(text, name)
+    deadline = _moment(file.deadline, f"{name}:{_line_of(text, ['deadline'])}")
     extensions: dict[str, datetime] = {}
-    for student, value in table.get("extensions", {}).items():
+    for student, value in ends.items():
         where = f"{name}:{_line_of(text, ['extensions', student])}"
         extended = _moment(value, where) if isinstance(value, str) else deadline + timedelta(days=value)
         if extended < deadline:
             raise UsageError(f"{where}: `extensions.{student}` ends before the deadline")
         if extensions.setdefault(folded(student), extended) is not extended:
             raise UsageError(f"{where}: `extensions.{student}` stands there twice, in upper and lower case")
-    return LatePolicy(
-        deadline,
-        float(table["percent_per_day"]),
-        timedelta(minutes=table.get("grace_minutes", 0)),
-        int(table["max_days"]) if "max_days" in table else None,
-        extensions,
-    )
+    grace = timedelta(minutes=file.grace_minutes)
+    return LatePolicy(deadline, file.percent_per_day, grace, file.max_days, extensions)
 
 
 def _moment(text: str, where: str) -> datetime:

@@ -50,11 +50,14 @@ def _refuse_unknown(told: Iterable[object], known: Collection[str], place: str) 
             raise Malformed(f"{place}: unknown key {name!r}; known are {', '.join(known)}")
 
 
-def _children(told: object, found: object, place: str, *, complete: bool) -> Iterator[tuple[object, object, str]]:
+def _children(
+    told: object, found: object, place: str, *, complete: bool, extra: bool
+) -> Iterator[tuple[object, object, str]]:
     """What was told beside what was made of it; a key too many or too few ends it."""
     if is_dataclass(found) and isinstance(told, dict):
         known = {field.name: field for field in fields(found)}
-        _refuse_unknown(told, known, place)
+        if not extra:
+            _refuse_unknown(told, known, place)
         for name, field in known.items():
             if name in told:
                 yield told[name], getattr(found, name), f"{place}.{name}"
@@ -67,14 +70,14 @@ def _children(told: object, found: object, place: str, *, complete: bool) -> Ite
         yield from ((told[at], value, f"{place}[{at}]") for at, value in enumerate(found))
 
 
-def _check_keys(told: object, found: object, place: str, *, complete: bool) -> None:
-    for child in _children(told, found, place, complete=complete):
-        _check_keys(*child, complete=complete)
+def _check_keys(told: object, found: object, place: str, *, complete: bool, extra: bool) -> None:
+    for child in _children(told, found, place, complete=complete, extra=extra):
+        _check_keys(*child, complete=complete, extra=extra)
 
 
-def convert(document: object, kind: type[T], *, complete: bool = False) -> T:
-    """A document as JSON or TOML gives it. Unknown keys are refused; `complete` says that nothing may be left out,
-    whether or not it has a default."""
+def convert(document: object, kind: type[T], *, complete: bool = False, extra: bool = False) -> T:
+    """A document as JSON or TOML gives it. `complete` says that nothing may be left out, whether or not it has a
+    default; `extra`, that there may be keys which nobody knows."""
     try:
         made = msgspec.convert(document, kind)
     except msgspec.ValidationError as error:
@@ -82,7 +85,7 @@ def convert(document: object, kind: type[T], *, complete: bool = False) -> T:
         raise Malformed(f"{place or '$'}: {what[0].lower()}{what[1:]}") from error
     except UnicodeError as error:
         raise Malformed("holds half a character") from error
-    _check_keys(document, made, "$", complete=complete)
+    _check_keys(document, made, "$", complete=complete, extra=extra)
     return made
 
 

@@ -9,7 +9,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.errors import UsageError, reason
 
@@ -110,7 +109,7 @@ def forget_unfinished(folder: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def write_json(path: Path, value: Any) -> None:
+def write_json(path: Path, value: object) -> None:
     """Writes readable JSON."""
     write_bytes(path, (json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode())
 
@@ -123,7 +122,7 @@ def write_out(path: Path, data: bytes) -> None:
         raise UsageError(f"{path}: cannot be written: {reason(error)}") from error
 
 
-def encoded(document: Any) -> bytes:
+def encoded(document: object) -> bytes:
     """JSON for other programs, as it is written."""
     return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
 

@@ -1,4 +1,4 @@
-"""JSON schemas that lie beside the code."""
+"""JSON schemas of forms that others have made."""
 
 import json
 from functools import cache
@@ -9,10 +9,10 @@ import jsonschema
 
 
 @cache
-def read_schema(package: str, place: str, part: str = "") -> Any:
-    """The schema in a file of a package, or one of the parts under its `$defs`."""
-    schema = json.loads(files(package).joinpath(*place.split("/")).read_text(encoding="utf-8"))
-    return {"$schema": schema["$schema"], "$ref": f"#/$defs/{part}", "$defs": schema["$defs"]} if part else schema
+def read_schema(package: str, place: str) -> object:
+    """The schema in a file of a package."""
+    schema: object = json.loads(files(package).joinpath(*place.split("/")).read_text(encoding="utf-8"))
+    return schema
 
 
 @cache
@@ -24,7 +24,7 @@ def _validator(text: str) -> Any:
     return kind(schema)
 
 
-def complaint(document: Any, schema: Any) -> str:
+def complaint(document: object, schema: object) -> str:
     """Where and how a document breaks a schema; nothing when it does not."""
     error = jsonschema.exceptions.best_match(_validator(json.dumps(schema)).iter_errors(document))
     return "" if error is None else f"{error.json_path}: {error.message[:300]}"

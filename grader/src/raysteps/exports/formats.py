@@ -2,7 +2,7 @@
 
 import shutil
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import encoded, write_out
@@ -11,14 +11,14 @@ from raysteps.common.schemas import complaint, read_schema
 Format = Literal["gradescope", "classroom50", "github-legacy", "autolab", "prairielearn"]
 
 
-def validate(document: Any, name: Format) -> None:
+def validate(document: object, name: Format) -> None:
     """A document against the schema is the kit's fault."""
     problem = complaint(document, read_schema("raysteps.exports", f"schemas/{name}.schema.json"))
     if problem:
         raise GraderFault(f"the {name} result would break its schema: {problem}")
 
 
-def write(document: Any, name: Format, path: Path) -> None:
+def write(document: object, name: Format, path: Path) -> None:
     """Checks, then writes."""
     validate(document, name)
     write_out(path, encoded(document))

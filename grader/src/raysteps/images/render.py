@@ -197,7 +197,7 @@ def describe_exit(ran: TaskResult, what: str) -> tuple[Termination, str]:
 _MAX_COUNT = 2**63  # a counter of the framework has 64 bits
 
 
-def _count(value: Any) -> int:
+def _count(value: object) -> int:
     if type(value) is not int or not 0 <= value < _MAX_COUNT:
         raise ValueError("not a counter")
     return value

@@ -109,14 +109,8 @@ def needed_modules(source: Path) -> list[Path]:
     return sorted(found.values())
 
 
-def _belongs_elsewhere(path: Path, modules: Collection[Path]) -> bool:
-    """Whether it is the schema of a module that does not go out."""
-    module = path.with_name(path.name.removesuffix(".schema.json") + ".py")
-    return module.is_file() and module not in modules
-
-
 def package_files(source: Path) -> list[Path]:
-    """The modules, and the schemas, templates and scripts that lie in their packages."""
+    """The modules, and the templates and scripts that lie in their packages."""
     modules = needed_modules(source)
     found = set(modules)
     for package in {path.parent for path in modules if path.name == "__init__.py"}:
@@ -124,7 +118,7 @@ def package_files(source: Path) -> list[Path]:
         for path in (path for room in rooms if room.is_dir() for path in room.iterdir()):
             if path.is_file() and path.suffix in _DATA:
                 found.add(path)
-    return sorted(path for path in found if not _belongs_elsewhere(path, modules))
+    return sorted(found)
 
 
 # Stand-ins for steps that a kit does not have: the framework calls their functions.

@@ -13,7 +13,7 @@ from raysteps.common.text import number
 from raysteps.course.manifest import Step
 from raysteps.grading.scoring import max_points
 
-_DATA = ["py.typed", "*/*.schema.json", "report/static/*", "report/templates/*"]
+_DATA = ["py.typed", "report/static/*", "report/templates/*"]
 
 
 def _picture(steps: list[Step]) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 from raysteps.common.errors import GraderFault, reason
 from raysteps.course.manifest import read_all_steps
@@ -36,7 +35,7 @@ def solution_code(project: Project) -> Texts:
     yield from _files(project, project.solutions, "*/worker.cpp")
 
 
-def _strings(value: Any) -> Iterator[str]:
+def _strings(value: object) -> Iterator[str]:
     if isinstance(value, str):
         yield value
     elif isinstance(value, dict):

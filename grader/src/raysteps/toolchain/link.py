@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
@@ -55,11 +55,11 @@ class Description:
         return [folder for folder in self.system_includes if str(folder) not in _KNOWN_TO_COMPILER]
 
 
-def _words(values: list[Any]) -> list[str]:
+def _words(values: list[object]) -> list[str]:
     return [str(value) for value in values if str(value)]
 
 
-def _paths(values: list[Any]) -> list[Path]:
+def _paths(values: list[object]) -> list[Path]:
     return [Path(value) for value in _words(values)]
 
 

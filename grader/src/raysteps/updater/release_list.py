@@ -3,14 +3,16 @@
 import json
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Literal
+
+from msgspec import Meta
 
 from raysteps import __version__
+from raysteps.common.documents import OPTIONAL, Malformed, Text, convert
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash
-from raysteps.common.schemas import complaint, read_schema
 from raysteps.updater.generated_files import all_places
 
 # Which paths a list of files may hold: each leads to a place of its own, inside the folder, on every system.
@@ -56,18 +58,19 @@ def path_problem(paths: Iterable[str]) -> str:
 
 
 PLACE = ".raysteps/release.json"
-_FORM = "raysteps/release/v1"
+_FORM: Literal["raysteps/release/v1"] = "raysteps/release/v1"
 _MAX_BYTES = 16 << 20
 
 Owner = Literal["kit", "student"]
+StepId = Annotated[str, Meta(pattern="^[0-9]{2}-[a-z0-9-]+$")]
 
 
 @dataclass(frozen=True)
 class ListedFile:
     """One file. Those that the student writes are the student's from the first day on."""
 
-    path: str
-    mark: str
+    path: Text  # from the root, with /
+    mark: Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]  # SHA-256; of a text with LF
     owner: Owner = "kit"
     executable: bool = False
 
@@ -78,39 +81,36 @@ class ListedFile:
 
 @dataclass(frozen=True)
 class Release:
-    """What a course has given out."""
+    """What a course has given out: the form of the list. A later kit may add keys; this one reads past them."""
 
-    course: str
+    course: Text
     kit: str  # fingerprint of the kit that it was made from
-    steps: tuple[str, ...]
+    steps: Annotated[tuple[StepId, ...], Meta(min_length=1)]
     files: tuple[ListedFile, ...]
-    version: str = __version__  # of that kit; empty where one before 0.2.0 made the release
+    version: str = field(default=__version__, metadata=OPTIONAL)  # of that kit; empty where one before 0.2.0 made it
+    schema: Literal["raysteps/release/v1"] = _FORM
 
     def by_path(self) -> dict[str, ListedFile]:
         return {file.path: file for file in self.files}
 
 
 def encoded(release: Release) -> bytes:
-    """The document; one that breaks its schema is the kit's fault, a file that no repository may have the course's."""
-    document = {"schema": _FORM, "version": release.version, **asdict(release)}
-    document["steps"], document["files"] = list(release.steps), [asdict(file) for file in release.files]
-    problem = complaint(document, read_schema("raysteps.updater", "release.schema.json"))
-    if problem:
-        raise GraderFault(f"release.json would break its schema: {problem}")
+    """The document; one that breaks its form is the kit's fault, a file that no repository may have the course's."""
+    document = {"schema": release.schema, "version": release.version, **asdict(release)}
+    try:
+        convert(document, Release)
+    except Malformed as error:
+        raise GraderFault(f"release.json would break its form: {error}") from error
     wrong = path_problem(file.path for file in release.files)
     if wrong:
         raise UsageError(f"the release {wrong}. Give the file another name")
     return (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode()
 
 
-def _listed(file: dict[str, Any]) -> ListedFile:
-    return ListedFile(file["path"], file["mark"], file["owner"], file["executable"])
-
-
 def parse(data: bytes, where: str) -> Release:
     """What somebody says is a release. Keys that nobody knows are of a later kit, and may stand there."""
     try:
-        document: Any = json.loads(data[:_MAX_BYTES])
+        document = json.loads(data[:_MAX_BYTES])
     except (ValueError, RecursionError) as error:
         raise UsageError(f"{where}: is not JSON; expected the list of a release's files") from error
     form = document.get("schema") if isinstance(document, dict) else None
@@ -119,14 +119,15 @@ def parse(data: bytes, where: str) -> Release:
             f"{where}: is a list of the form {form}, and this kit reads {_FORM}. Let the newer kit do the update: "
             "unpack it, and in its own folder type\n  python raysteps update --into YOUR-REPOSITORY"
         )
-    problem = complaint(document, read_schema("raysteps.updater", "release.schema.json"))
-    if problem:
-        raise UsageError(f"{where}: is not the list of a release's files: {problem}")
-    files = tuple(_listed(file) for file in document["files"])
-    wrong = path_problem(file.path for file in files)
+    told = {"version": ""} | document if isinstance(document, dict) else document
+    try:
+        release = convert(told, Release, complete=True, extra=True)
+    except Malformed as error:
+        raise UsageError(f"{where}: is not the list of a release's files: {error}") from error
+    wrong = path_problem(file.path for file in release.files)
     if wrong:
         raise UsageError(f"{where}: {wrong}")
-    return Release(document["course"], document["kit"], tuple(document["steps"]), files, document.get("version", ""))
+    return release
 
 
 def read_release(folder: Path) -> Release | None:
