@@ -52,7 +52,7 @@ def points_on(surfaces: tuple[Surface, ...]) -> tuple[Points, ...]:
 # Many boxes at once, and which points lie in them.
 
 _Flags: TypeAlias = npt.NDArray[np.bool_]
-_AT_ONCE = 1 << 16  # pairs, which bounds the memory for any tree
+_SURFACES_AT_ONCE = 8  # which bounds the memory for any tree, and soon ends the search in a wrong one
 
 
 class Boxes:
@@ -81,16 +81,15 @@ class Boxes:
     def holding(self, points: Points, pairs: _Flags, margin: float) -> _Flags:
         """Of each point (column) of each set (row) whether it lies in one of the boxes that the set is paired with."""
         held: _Flags = np.zeros(points.shape[:2], dtype=np.bool_)
-        sets, boxes = np.nonzero(pairs)
-        for start in range(0, len(sets), _AT_ONCE):
-            chosen, box = sets[start : start + _AT_ONCE], boxes[start : start + _AT_ONCE]
-            inside: _Flags = np.ones((len(chosen), points.shape[1]), dtype=np.bool_)
-            for axis in range(3):
-                along = points[chosen, :, axis]
-                inside &= along >= (self._low[axis, box] - margin)[:, np.newaxis]
-                inside &= along <= (self._high[axis, box] + margin)[:, np.newaxis]
-            first = np.flatnonzero(np.diff(chosen, prepend=-1))  # of each set's pairs, which lie together
-            held[chosen[first]] |= np.logical_or.reduceat(inside, first, axis=0)
+        sets, box = np.nonzero(pairs)
+        inside: _Flags = np.ones((len(sets), points.shape[1]), dtype=np.bool_)
+        for axis in range(3):
+            along = points[sets, :, axis]
+            inside &= along >= (self._low[axis, box] - margin)[:, np.newaxis]
+            inside &= along <= (self._high[axis, box] + margin)[:, np.newaxis]
+        first = np.flatnonzero(np.diff(sets, prepend=-1))  # of each set's pairs, which lie together
+        if len(first):
+            held[sets[first]] = np.logical_or.reduceat(inside, first, axis=0)
         return held
 
 
@@ -177,12 +176,21 @@ def tree_words(tree: Tree) -> str:
 
 def _lost(tree: Tree, surfaces: tuple[Surface, ...], own: _Table, every: _Table) -> str:
     points = np.stack(points_on(surfaces))
-    least, most = points.min(axis=1), points.max(axis=1)
-    margin = _MARGIN * float((most.max(axis=0) - least.min(axis=0)).max())
+    margin = _MARGIN * float((points.max(axis=(0, 1)) - points.min(axis=(0, 1))).max())
     boxes = Boxes([node.low for node in tree.nodes], [node.high for node in tree.nodes])
     leaves = np.array([node.is_leaf for node in tree.nodes])
-    known = every.T
-    holders = own.T | (leaves & known)
+    for start in range(0, len(points), _SURFACES_AT_ONCE):
+        some = slice(start, start + _SURFACES_AT_ONCE)
+        problem = _lost_of(boxes, leaves, points[some], own.T[some], every.T[some], margin)
+        if problem:
+            return problem
+    return ""
+
+
+def _lost_of(boxes: Boxes, leaves: _Flags, points: Points, own: _Table, known: _Table, margin: float) -> str:
+    """Of some surfaces, one in each row; what is wrong with the first one that is lost."""
+    least, most = points.min(axis=1), points.max(axis=1)
+    holders = own | (leaves & known)
     # Most boxes hold a whole surface or are far from it, which is quickly seen.
     whole: _Flags = np.any(holders & boxes.around(least, most, margin), axis=1)
     near = holders & boxes.touching(least, most, margin) & ~whole[:, np.newaxis]
