@@ -110,8 +110,10 @@ def test_the_largest_tree_is_judged_at_once() -> None:
     halves = [box.replace("10 10 1", f"{i % 10} {i // 10} 0", 1) for i, box in enumerate(boxes)]
     line = f"{_WHOLE_HUNDRED} {MOST_NODES - 1} " + " ".join([*(halves * MOST_NODES)[: MOST_NODES - 2], boxes[0]])
     start = time.process_time()
-    verdict = TREE.verdict("build_octree", _HUNDRED, _GOOD_HUNDRED, line)
-    assert time.process_time() - start < 0.3
+    TREE.parse(line)
+    read = time.process_time()
+    verdict = TREE.verdict("build_octree", _HUNDRED, _GOOD_HUNDRED, line)  # which reads it, too
+    assert time.process_time() - read < 12 * (read - start), "judging a tree takes much longer than reading it"
     assert verdict.actual.startswith(f"a tree of {MOST_NODES} boxes")
 
 
