@@ -11,7 +11,7 @@ from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
-from raysteps.common.documents import Malformed, convert, parse, plain
+from raysteps.common.documents import Malformed, checked, convert, parse
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.results.class_model import (
     ClassResults,
@@ -215,12 +215,7 @@ class _Report:
 
 def class_document(database: ClassDatabase) -> ClassResults:
     """Checked: what is not of its form is the kit's fault."""
-    document = _Report(database).document()
-    try:
-        convert(plain(document), ClassResults)
-    except Malformed as error:
-        raise GraderFault(f"class.json would not be of its form: {error}") from error
-    return document
+    return checked(_Report(database).document(), "class.json")
 
 
 def read_class_document(path: Path) -> ClassResults:

@@ -14,8 +14,8 @@ from rich.table import Table
 
 from raysteps.classroom.class_document import read_class_document
 from raysteps.classroom.database import FILE, LATEST, open_readonly
-from raysteps.common.documents import Amount, Count, Malformed, Text, convert, plain
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.documents import Amount, Count, Text, checked
+from raysteps.common.errors import UsageError
 from raysteps.common.text import count, printable, size
 from raysteps.course.manifest import Step
 from raysteps.results.model import Results
@@ -319,7 +319,4 @@ def leaderboard(boards: Sequence[Board], *, anonymous: bool) -> Leaderboard:
     made = Leaderboard(
         "raysteps/leaderboard/v1", anonymous, [_ranked_step(board, anonymous=anonymous) for board in boards]
     )
-    try:
-        return convert(plain(made), Leaderboard)
-    except Malformed as error:
-        raise GraderFault(f"the leaderboard would not be of its form: {error}") from error
+    return checked(made, "the leaderboard")

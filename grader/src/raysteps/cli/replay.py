@@ -50,7 +50,7 @@ def _refuse_what_is_no_case(path: Path) -> None:
         with path.open("rb") as file:
             document = json.loads(file.read(_LARGEST))
     except (OSError, ValueError, RecursionError):
-        return  # read_case says what is wrong
+        return  # what read_case said is right
     schema = str(document.get("schema")) if isinstance(document, dict) else ""
     if schema.startswith("raysteps/case/"):
         return
@@ -71,8 +71,11 @@ def _refuse_what_is_no_case(path: Path) -> None:
 
 
 def _read(project: Project, path: Path) -> tuple[CaseFile, Step, Case]:
-    _refuse_what_is_no_case(path)
-    file = read_case(path)
+    try:
+        file = read_case(path)
+    except UsageError:
+        _refuse_what_is_no_case(path)
+        raise
     steps = read_steps(project)
     step = next((step for step in steps if step.id == file.step), None)
     if step is None:

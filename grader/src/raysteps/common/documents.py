@@ -108,6 +108,15 @@ def plain(document: object) -> object:
     return msgspec.to_builtins(document)
 
 
+def checked(document: T, name: str) -> T:
+    """The document. One that is not of the form of its class is the kit's fault."""
+    try:
+        convert(plain(document), type(document))
+    except Malformed as error:
+        raise GraderFault(f"{name} would not be of its form: {error}") from error
+    return document
+
+
 def as_text(document: object) -> str:
     """The document as it is written to a file."""
     return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"

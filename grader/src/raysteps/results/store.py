@@ -3,18 +3,15 @@
 import re
 from pathlib import Path
 
-from raysteps.common.documents import Malformed, convert, parse, plain
-from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.documents import Malformed, checked, parse, plain
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.results.model import Results
 
 
 def validate(results: Results) -> None:
     """A result that is not of the form of its class is the kit's fault."""
-    try:
-        convert(plain(results), Results, complete=True)
-    except Malformed as error:
-        raise GraderFault(f"results.json would not be of its form: {error}") from error
+    checked(results, "results.json")
 
 
 def write_results(results: Results, folder: Path) -> Path:
