@@ -16,8 +16,11 @@ public:
     Color background = k_black;
     std::vector<Light> lights;
 
-    void add(std::unique_ptr<Surface> surface) {
-        surface->order_ = surfaces_.size();
+    void add(std::unique_ptr<Surface> surface) { add(std::move(surface), surfaces_.size()); }
+
+    /// With the order that it has in another scene, of which this one is a part.
+    void add(std::unique_ptr<Surface> surface, std::size_t order) {
+        surface->order_ = order;
         surfaces_.push_back(surface.get());
         owned_.push_back(std::move(surface));
     }

@@ -16,13 +16,24 @@ std::atomic<int>& chosen_threads() {
     return count;
 }
 
+std::atomic<WorkRunner>& chosen_runner() {
+    static std::atomic<WorkRunner> runner{nullptr};
+    return runner;
+}
+
 }  // namespace
+
+void set_work_runner(WorkRunner runner) { chosen_runner() = runner; }
 
 int default_threads() { return chosen_threads(); }
 
 void set_default_threads(int count) { chosen_threads() = std::max(1, count); }
 
 void run_on_threads(int count, const std::function<void()>& work) {
+    if (const WorkRunner runner = chosen_runner()) {
+        runner(count, work);
+        return;
+    }
     std::exception_ptr failed;
     std::mutex guard;
     const auto guarded = [&] {

@@ -16,6 +16,10 @@ void set_default_threads(int count);
 /// that leaves work is thrown again in the caller once all threads have ended.
 void run_on_threads(int count, const std::function<void()>& work);
 
+/// Takes the place of run_on_threads from now on: for a program whose work waits for another one.
+using WorkRunner = void (*)(int count, const std::function<void()>& work);
+void set_work_runner(WorkRunner runner);
+
 /// Calls work(0) to work(count - 1), each once, in any order and on default_threads() threads, which take `portion`
 /// numbers at a time. Where there is one portion only, the caller does it alone.
 template <typename Work>

@@ -1,0 +1,64 @@
+// The box: answers what a program asks of the student's functions, and holds nothing else. `box NN...` is told which
+// steps are the student's. The wire is its stdin and stdout.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "remote/box/own_steps.hpp"
+#include "remote/session.hpp"
+
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#define dup _dup
+#define dup2 _dup2
+#else
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
+namespace raysteps::remote {
+namespace {
+
+bool g_own_intersections = false;
+
+// Takes the real stdin and stdout away: what a step prints goes to stderr and never between the messages, and what it
+// reads is nothing.
+Wire::Pipes take_pipes() {
+    const Wire::Pipes pipes{dup(0), dup(1)};
+    dup2(2, 1);
+#ifdef _WIN32
+    _setmode(pipes.in, _O_BINARY);
+    _setmode(pipes.out, _O_BINARY);
+    const int nothing = _open("NUL", _O_RDONLY);
+#else
+    const int nothing = open("/dev/null", O_RDONLY);
+#endif
+    if (nothing >= 0) {
+        dup2(nothing, 0);
+    }
+    return pipes;
+}
+
+void farewell(int code, const char* why) {
+    if (code == Wire::k_closed) {  // the program has asked all that it wanted to know
+        std::fflush(nullptr);
+        std::_Exit(0);
+    }
+    std::fprintf(stderr, "box: %s\n", why);
+}
+
+}  // namespace
+
+bool has_own_intersections() { return g_own_intersections; }
+
+}  // namespace raysteps::remote
+
+int main(int argc, char** argv) {
+    using namespace raysteps::remote;
+    for (int i = 1; i < argc; ++i) {
+        g_own_intersections = g_own_intersections || std::strcmp(argv[i], "02") == 0;
+    }
+    Session session(Session::End::box, take_pipes(), farewell);
+    session.wire().serve();
+}

@@ -1,0 +1,40 @@
+#pragma once
+// A function with a stack of its own, which can stop in the middle and go on later: so that many pixels can wait for the
+// box at the same time, on one thread.
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace raysteps::remote {
+
+/// Resumed by the thread that made it only. What it still waits for when it is destroyed never comes: its stack is
+/// given back as it is.
+class Fiber {
+public:
+    /// Starts at the first resume. Whatever leaves `body` must be caught in it.
+    explicit Fiber(std::function<void()> body);
+    ~Fiber();
+    Fiber(const Fiber&) = delete;
+    Fiber& operator=(const Fiber&) = delete;
+
+    /// Runs until the body ends or stops.
+    void resume();
+    /// Called in the body: goes back to whoever resumed it.
+    void stop();
+    [[nodiscard]] bool ended() const { return ended_; }
+
+    /// Systems without them have none at all.
+    [[nodiscard]] static bool available();
+
+private:
+    struct State;
+    void begin();
+    void run();
+    static void enter(unsigned high, unsigned low);
+
+    std::function<void()> body_;
+    bool ended_ = false;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace raysteps::remote

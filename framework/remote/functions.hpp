@@ -1,0 +1,163 @@
+#pragma once
+// A function of the other end, called as if it were here; and a function of this end, called from there.
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "remote/lent.hpp"
+#include "remote/session.hpp"
+#include "remote/travel.hpp"
+#include "remote/trees.hpp"
+
+namespace raysteps::remote {
+
+/// How a parameter travels. send: writes it, and gives what has to exist while the question is open. Received is what
+/// it becomes at the other end, where `give` makes the parameter of it.
+template <typename P>
+struct Parameter {
+    using Received = std::remove_cvref_t<P>;
+    static int send(Writer& out, const Received& value) {
+        write(out, value);
+        return 0;
+    }
+    static Received receive(Reader& in) { return read<Received>(in); }
+    static const Received& give(const Received& value) { return value; }
+};
+
+template <>
+struct Parameter<const SceneQuery&> {
+    using Received = ReceivedQuery;
+    static auto send(Writer& out, const SceneQuery& query) { return write_query(out, query); }
+    static Received receive(Reader& in) { return read_query(in); }
+    static const SceneQuery& give(const Received& received) { return *received.query; }
+};
+
+template <>
+struct Parameter<Tracer&> {
+    using Received = ReceivedTracer;
+    static auto send(Writer& out, Tracer& tracer) { return write_tracer(out, tracer); }
+    static Received receive(Reader& in) { return read_tracer(in); }
+    static Tracer& give(const Received& received) { return *received.tracer; }
+};
+
+template <>
+struct Parameter<std::span<const Light>> {
+    using Received = std::vector<Light>;
+    static int send(Writer& out, std::span<const Light> lights) {
+        Travel<Received>::write(out, lights);
+        return 0;
+    }
+    static Received receive(Reader& in) { return read<Received>(in); }
+    static std::span<const Light> give(const Received& lights) { return lights; }
+};
+
+template <>
+struct Parameter<const SurfaceList&> {
+    using Received = std::shared_ptr<CopiedGroup>;
+    static Loan send(Writer& out, const SurfaceList& surfaces) { return Loan(Groups::all().write(out, surfaces)); }
+    static Received receive(Reader& in) { return Groups::all().read(in); }
+    static const SurfaceList& give(const Received& copies) { return copies->scene.surfaces(); }
+};
+
+template <typename Tree>
+struct TreeParameter {
+    using Received = std::shared_ptr<const KnownTree<Tree>>;
+    static Loan send(Writer& out, const Tree& tree) { return write_tree(out, tree); }
+    static Received receive(Reader& in) { return read_tree<Tree>(in); }
+    static const Tree& give(const Received& received) { return received->tree; }
+};
+template <>
+struct Parameter<const Node&> : TreeParameter<Node> {};
+template <>
+struct Parameter<const Bvh&> : TreeParameter<Bvh> {};
+
+/// Asks the other end and hands its words to `read_result`.
+template <typename... Parameters, typename ReadResult>
+auto ask_and_read(FunctionId id, const ReadResult& read_result, std::type_identity_t<Parameters>... values) {
+    Session& session = Session::current();
+    using Open = std::tuple<decltype(Parameter<Parameters>::send(std::declval<Writer&>(), values))...>;
+    std::optional<Open> open;
+    const Message answer = session.ask([&](std::string& bytes) {
+        Writer out(bytes);
+        out.put(id);
+        open.emplace(Open{Parameter<Parameters>::send(out, values)...});
+    });
+    try {
+        Reader in(answer.bytes);
+        return read_result(in, *open);
+    } catch (const BadMessage& error) {
+        session.broken(error.what());
+    }
+}
+
+/// ask<Result, Parameter...>(id, value...)
+template <typename Result, typename... Parameters>
+Result ask(FunctionId id, std::type_identity_t<Parameters>... values) {
+    const auto read_result = [](Reader& in, const auto& /*open*/) { return read<Result>(in); };
+    return ask_and_read<Parameters...>(id, read_result, values...);
+}
+
+template <typename Result, typename... Parameters>
+Result ask_as(Result (*/*type*/)(Parameters...), FunctionId id, std::type_identity_t<Parameters>... values) {
+    return ask<Result, Parameters...>(id, values...);
+}
+template <typename Class, typename Result, typename... Parameters>
+Result ask_as(Result (Class::*/*type*/)(Parameters...) const, FunctionId id, const Class& self,
+              std::type_identity_t<Parameters>... values) {
+    return ask<Result, const Class&, Parameters...>(id, self, values...);
+}
+
+/// ask<&point_at>(FunctionId::point_at, ray, distance): a stand-in asks for the function that it stands for. Members
+/// are asked with their object first.
+template <auto Function, typename... Values>
+auto ask(FunctionId id, Values&... values) {
+    return ask_as(Function, id, values...);
+}
+
+template <typename Call, typename... Parameters>
+void call_with(Reader& in, const Call& call, std::tuple<Parameters...>* /*types*/) {
+    const std::tuple<typename Parameter<Parameters>::Received...> received{Parameter<Parameters>::receive(in)...};
+    std::apply([&](const auto&... one) { call(Parameter<Parameters>::give(one)...); }, received);
+}
+
+template <typename Result>
+void send_result(Wire& wire, const Result& result) {
+    wire.send(Kind::answer, [&](std::string& bytes) {
+        Writer out(bytes);
+        write<Result>(out, result);
+    });
+}
+
+template <auto Function>
+struct ServiceOf;
+
+template <typename Result, typename... Parameters, Result (*Function)(Parameters...)>
+struct ServiceOf<Function> {
+    static void serve(Reader& in, Wire& wire) {
+        call_with(
+            in,
+            [&](Parameters... values) { send_result<Result>(wire, Function(std::forward<Parameters>(values)...)); },
+            static_cast<std::tuple<Parameters...>*>(nullptr));
+    }
+};
+
+template <typename Class, typename Result, typename... Parameters, Result (Class::*Function)(Parameters...) const>
+struct ServiceOf<Function> {
+    static void serve(Reader& in, Wire& wire) {
+        call_with(
+            in,
+            [&](const Class& self, Parameters... values) { send_result<Result>(wire, (self.*Function)(values...)); },
+            static_cast<std::tuple<const Class&, Parameters...>*>(nullptr));
+    }
+};
+
+/// offer_function<&point_at>(FunctionId::point_at): the other end may call it. Always true.
+template <auto Function>
+bool offer_function(FunctionId id) {
+    return offer(id, &ServiceOf<Function>::serve);
+}
+
+}  // namespace raysteps::remote

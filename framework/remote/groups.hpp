@@ -1,0 +1,85 @@
+#pragma once
+// Surfaces that both ends know. The end that has them describes them once; the other makes copies, and asks back
+// whenever one is tested.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "core/scene.hpp"
+#include "remote/message.hpp"
+
+namespace raysteps::remote {
+
+using GroupId = std::uint32_t;
+
+/// Its surfaces, at the end that has them.
+struct OwnGroup {
+    GroupId id = 0;
+    SurfaceList surfaces;
+    std::string description;
+    int lent = 0;  ///< open questions that may lead to one of these surfaces
+};
+
+/// Its copies at the other end, in the same order.
+struct CopiedGroup {
+    GroupId id = 0;
+    Scene scene;
+};
+
+struct PlaceInGroup {
+    GroupId group = 0;
+    std::uint32_t index = 0;
+};
+
+/// All groups of this end. What nothing else holds is forgotten when enough others have come.
+class Groups {
+public:
+    [[nodiscard]] static Groups& all();
+
+    /// Writes which group these surfaces are, and what they look like if the other end does not know it yet.
+    std::shared_ptr<OwnGroup> write(Writer& out, const SurfaceList& surfaces);
+
+    /// The copies of what `write` wrote at the other end.
+    [[nodiscard]] std::shared_ptr<CopiedGroup> read(Reader& in);
+
+    /// A surface of an own group that an open question has lent. Throws BadMessage for any other.
+    [[nodiscard]] const Surface& lent(PlaceInGroup place) const;
+
+    /// Null for a surface that is no copy.
+    [[nodiscard]] const PlaceInGroup* place_of(const Surface* surface) const;
+
+private:
+    std::shared_ptr<CopiedGroup> make_copies(GroupId id, std::string_view description);
+
+    std::map<GroupId, std::shared_ptr<OwnGroup>> own_;
+    std::map<GroupId, std::shared_ptr<CopiedGroup>> copied_;
+    std::unordered_map<const Surface*, PlaceInGroup> places_;
+    GroupId last_ = 0;
+};
+
+/// As long as it exists, the other end may ask the surfaces of the group.
+class Loan {
+public:
+    Loan() = default;
+    explicit Loan(std::shared_ptr<OwnGroup> group) : group_(std::move(group)) { ++group_->lent; }
+    Loan(Loan&& other) noexcept : group_(std::move(other.group_)) {}
+    Loan& operator=(Loan&&) = delete;
+    ~Loan() {
+        if (group_ != nullptr) {
+            --group_->lent;
+        }
+    }
+
+    [[nodiscard]] const std::shared_ptr<OwnGroup>& group() const { return group_; }
+
+private:
+    std::shared_ptr<OwnGroup> group_;
+};
+
+/// What an entry of a student's tree becomes that leads to no surface of the scene: no ray hits it.
+[[nodiscard]] const Surface& no_surface();
+
+}  // namespace raysteps::remote

@@ -1,0 +1,180 @@
+#include "remote/lent.hpp"
+
+#include <unordered_map>
+
+#include "remote/functions.hpp"
+
+namespace raysteps::remote {
+namespace {
+
+struct Lent {
+    const SceneQuery* query;
+    Tracer* tracer;
+};
+
+std::unordered_map<LentId, Lent>& lent_queries() {
+    static std::unordered_map<LentId, Lent> open;
+    return open;
+}
+
+const Lent& lent(LentId id) {
+    const auto found = lent_queries().find(id);
+    if (found == lent_queries().end()) {
+        throw BadMessage("a scene was asked that no open question has lent");
+    }
+    return found->second;
+}
+
+Tracer& lent_tracer(LentId id) {
+    Tracer* tracer = lent(id).tracer;
+    if (tracer == nullptr) {
+        throw BadMessage("a scene was asked what only a tracer knows");
+    }
+    return *tracer;
+}
+
+/// Stands for what the other end has lent.
+class FarQuery final : public SceneQuery {
+public:
+    explicit FarQuery(LentId id) : id_(id) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return ask<std::optional<HitRecord>, LentId, Ray>(FunctionId::lent_closest_hit, id_, ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return ask<bool, LentId, Ray, float>(FunctionId::lent_occluded, id_, ray, distance);
+    }
+    [[nodiscard]] LentId id() const { return id_; }
+
+private:
+    LentId id_;
+};
+
+class FarTracer final : public Tracer {
+public:
+    FarTracer(LentId id, int max_ray_depth, const Color& background)
+        : scene_(id), max_ray_depth_(max_ray_depth), background_(background) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return scene_.closest_hit(ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return scene_.occluded(ray, distance);
+    }
+    [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth) override {
+        return ask<Color, LentId, HitRecord, int>(FunctionId::lent_direct_lighting, id(), hit, depth);
+    }
+    [[nodiscard]] Color trace(const Ray& ray, int depth) override {
+        return ask<Color, LentId, Ray, int>(FunctionId::lent_trace, id(), ray, depth);
+    }
+    [[nodiscard]] int max_ray_depth() const override { return max_ray_depth_; }
+    [[nodiscard]] Color background() const override { return background_; }
+    [[nodiscard]] LentId id() const { return scene_.id(); }
+
+private:
+    FarQuery scene_;
+    int max_ray_depth_;
+    Color background_;
+};
+
+std::optional<LentId> id_of_other_end(const SceneQuery& query) {
+    if (const auto* far = dynamic_cast<const FarQuery*>(&query)) {
+        return far->id();
+    }
+    const auto* far = dynamic_cast<const FarTracer*>(&query);
+    return far == nullptr ? std::nullopt : std::optional(far->id());
+}
+
+/// What the other end may ask of what it was lent.
+std::optional<HitRecord> closest_hit_of(LentId id, const Ray& ray) { return lent(id).query->closest_hit(ray); }
+bool occluded_of(LentId id, const Ray& ray, float distance) { return lent(id).query->occluded(ray, distance); }
+Color direct_lighting_of(LentId id, const HitRecord& hit, int depth) {
+    return lent_tracer(id).direct_lighting(hit, depth);
+}
+Color trace_of(LentId id, const Ray& ray, int depth) { return lent_tracer(id).trace(ray, depth); }
+std::optional<HitRecord> hit_of(GroupId group, std::uint32_t index, const Ray& ray) {
+    return Groups::all().lent({group, index}).hit(ray);
+}
+bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
+    return Groups::all().lent({group, index}).overlaps(box);
+}
+
+[[maybe_unused]] const bool offered =
+    offer_function<&closest_hit_of>(FunctionId::lent_closest_hit) &&
+    offer_function<&occluded_of>(FunctionId::lent_occluded) &&
+    offer_function<&direct_lighting_of>(FunctionId::lent_direct_lighting) &&
+    offer_function<&trace_of>(FunctionId::lent_trace) && offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
+    offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
+
+PlaceInGroup place_of(const Surface& copy) {
+    const PlaceInGroup* place = Groups::all().place_of(&copy);
+    if (place == nullptr) {
+        throw std::logic_error("this surface is no copy of one of the other end's");
+    }
+    return *place;
+}
+
+}  // namespace
+
+QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer) {
+    static LentId last = 0;
+    id_ = ++last;
+    lent_queries()[id_] = {&query, tracer};
+}
+
+QueryLoan::~QueryLoan() { lent_queries().erase(id_); }
+
+std::unique_ptr<QueryLoan> write_query(Writer& out, const SceneQuery& query) {
+    const std::optional<LentId> known = id_of_other_end(query);
+    auto loan = known ? nullptr : std::make_unique<QueryLoan>(query);
+    out.put(known.has_value());
+    out.put(known ? *known : loan->id());
+    return loan;
+}
+
+std::unique_ptr<QueryLoan> write_tracer(Writer& out, Tracer& tracer) {
+    const std::optional<LentId> known = id_of_other_end(tracer);
+    auto loan = known ? nullptr : std::make_unique<QueryLoan>(tracer, &tracer);
+    out.put(known.has_value());
+    out.put(known ? *known : loan->id());
+    out.put(tracer.max_ray_depth());
+    write(out, tracer.background());
+    return loan;
+}
+
+ReceivedQuery read_query(Reader& in) {
+    const bool own = in.get<bool>();
+    const auto id = in.get<LentId>();
+    if (own) {
+        return {nullptr, lent(id).query};
+    }
+    auto stand_in = std::make_unique<FarQuery>(id);
+    const SceneQuery* query = stand_in.get();
+    return {std::move(stand_in), query};
+}
+
+ReceivedTracer read_tracer(Reader& in) {
+    const bool own = in.get<bool>();
+    const auto id = in.get<LentId>();
+    const auto max_ray_depth = in.get<int>();
+    const auto background = read<Color>(in);
+    if (own) {
+        return {nullptr, &lent_tracer(id)};
+    }
+    auto stand_in = std::make_unique<FarTracer>(id, max_ray_depth, background);
+    Tracer* tracer = stand_in.get();
+    return {std::move(stand_in), tracer};
+}
+
+std::optional<HitRecord> ask_hit(const Surface& copy, const Ray& ray) {
+    const PlaceInGroup place = place_of(copy);
+    return ask<std::optional<HitRecord>, GroupId, std::uint32_t, Ray>(FunctionId::lent_surface_hit, place.group,
+                                                                      place.index, ray);
+}
+
+bool ask_overlaps(const Surface& copy, const Box& box) {
+    const PlaceInGroup place = place_of(copy);
+    return ask<bool, GroupId, std::uint32_t, Box>(FunctionId::lent_surface_overlaps, place.group, place.index, box);
+}
+
+}  // namespace raysteps::remote

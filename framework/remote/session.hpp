@@ -1,0 +1,62 @@
+#pragma once
+// One end of the wire as the stand-ins see it: asks functions of the other end, and offers its own.
+#include <array>
+#include <exception>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+#include "remote/function_ids.hpp"
+#include "remote/message.hpp"
+#include "remote/wire.hpp"
+
+namespace raysteps::remote {
+
+/// What a student's function threw, in its own words.
+class RemoteException : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+/// A student's function threw what is no std::exception. Neither is this.
+struct RemoteSurprise {};
+/// An exception of the other end's goes through this one, which must let it pass.
+struct Unwinding {};
+
+class Session {
+public:
+    /// Reads the arguments, calls the function, and sends the result.
+    using Service = void (*)(Reader& arguments, Wire& wire);
+
+    enum class End {
+        home,  ///< of the program: knows the references, keeps its own exceptions
+        box,   ///< of the student's code
+    };
+
+    /// A process has one session at most.
+    Session(End end, Wire::Pipes pipes, Wire::Farewell farewell);
+    [[nodiscard]] static Session& current();
+    [[nodiscard]] End end() const { return end_; }
+    [[nodiscard]] Wire& wire() { return wire_; }
+
+    /// What the other end says to the question that write(bytes) writes. Throws what the function threw.
+    template <typename Write>
+    [[nodiscard]] Message ask(const Write& write) {
+        wire_.send(Kind::question, write);
+        return wait_for_answer();
+    }
+
+    [[noreturn]] void broken(const char* why) { wire_.end(Wire::k_broken, why); }
+
+private:
+    [[nodiscard]] Message wait_for_answer();
+    static void answer(Wire& wire, std::string_view question);
+
+    End end_;
+    Wire wire_;
+    std::exception_ptr kept_;  ///< what went out of a question that the other end asked, until it comes back
+};
+
+/// Called before main begins, by whoever has the function. Always true.
+bool offer(FunctionId id, Session::Service service);
+
+}  // namespace raysteps::remote

@@ -1,0 +1,15 @@
+#include "remote/functions.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+
+namespace raysteps {
+
+using remote::ask;
+using remote::FunctionId;
+
+glm::vec3 point_at(const Ray& ray, float distance) { return ask<&point_at>(FunctionId::point_at, ray, distance); }
+
+ViewFrame view_frame(const Camera& camera) { return ask<&view_frame>(FunctionId::view_frame, camera); }
+
+Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y) { return ask<&primary_ray>(FunctionId::primary_ray, camera, frame, x, y); }
+
+}  // namespace raysteps

@@ -1,0 +1,13 @@
+#include "remote/functions.hpp"
+#include "steps/05-reflection/reflection.hpp"
+
+namespace raysteps {
+
+using remote::ask;
+using remote::FunctionId;
+
+Ray reflected_ray(const HitRecord& hit) { return ask<&reflected_ray>(FunctionId::reflected_ray, hit); }
+
+Color trace(Tracer& tracer, const Ray& ray, int depth) { return ask<&trace>(FunctionId::trace, tracer, ray, depth); }
+
+}  // namespace raysteps

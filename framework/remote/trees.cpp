@@ -1,0 +1,279 @@
+#include "remote/trees.hpp"
+
+#include <bit>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "remote/functions.hpp"
+#include "remote/travel.hpp"
+
+namespace raysteps::remote {
+namespace {
+
+constexpr TreeId k_kept = 16;  // trees that both ends remember
+constexpr int k_deepest = 2000;
+constexpr std::uint32_t k_nowhere = 0xFFFFFFFFU;  // an entry that is no surface of the group
+
+/// By which a tree is recognized when it comes back: where its parts are in memory, and its outermost box. A tree may
+/// be moved, which leaves the parts where they are; whoever frees one and builds another has another box.
+class Mark {
+public:
+    void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x9E3779B97F4A7C15U + (value_ >> 29U); }
+    template <typename T>
+    void add(const std::vector<T>& list) {
+        add(reinterpret_cast<std::uintptr_t>(list.data()));
+        add(list.size());
+    }
+    void add(const Box& box) {
+        for (const glm::vec3& corner : {box.min, box.max}) {
+            for (int axis = 0; axis < 3; ++axis) {
+                add(std::uint64_t{std::bit_cast<std::uint32_t>(corner[axis])});
+            }
+        }
+    }
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 1;
+};
+
+std::uint64_t mark_of(const Node& root) {
+    Mark mark;
+    const Node* node = &root;
+    for (bool last = false;; last = !last) {  // one way down, by first and last children in turn
+        mark.add(node->box);
+        mark.add(node->surfaces);
+        mark.add(node->children);
+        if (node->children.empty()) {
+            return mark.value();
+        }
+        node = last ? &node->children.back() : &node->children.front();
+    }
+}
+
+std::uint64_t mark_of(const Bvh& bvh) {
+    Mark mark;
+    mark.add(bvh.nodes);
+    mark.add(bvh.surfaces);
+    if (!bvh.nodes.empty()) {
+        mark.add(bvh.nodes.front().box);
+    }
+    return mark.value();
+}
+
+/// Which surface of the group an entry is, by number.
+using IndexOf = std::function<std::uint32_t(const Surface*)>;
+
+void write_entries(Writer& out, const SurfaceList& entries, const IndexOf& index_of) {
+    out.put(static_cast<std::uint32_t>(entries.size()));
+    for (const Surface* entry : entries) {
+        out.put(index_of(entry));
+    }
+}
+
+SurfaceList read_entries(Reader& in, const SurfaceList& group) {
+    SurfaceList entries(in.count(sizeof(std::uint32_t)));
+    for (const Surface*& entry : entries) {
+        const auto index = in.get<std::uint32_t>();
+        entry = index < group.size() ? group[index] : &no_surface();
+    }
+    return entries;
+}
+
+void write_parts(Writer& out, const Node& node, const IndexOf& index_of, int depth = 1) {
+    if (depth > k_deepest) {
+        throw std::length_error("the tree has more than 2000 levels");
+    }
+    write(out, node.box);
+    write_entries(out, node.surfaces, index_of);
+    out.put(static_cast<std::uint32_t>(node.children.size()));
+    for (const Node& child : node.children) {
+        write_parts(out, child, index_of, depth + 1);
+    }
+}
+
+void read_parts(Reader& in, const SurfaceList& group, Node& node, int depth = 1) {
+    if (depth > k_deepest) {
+        throw BadMessage("a tree has too many levels");
+    }
+    node.box = read<Box>(in);
+    node.surfaces = read_entries(in, group);
+    node.children.resize(in.count(sizeof(Box)));
+    for (Node& child : node.children) {
+        read_parts(in, group, child, depth + 1);
+    }
+}
+
+void write_parts(Writer& out, const Bvh& bvh, const IndexOf& index_of) {
+    out.put(static_cast<std::uint32_t>(bvh.nodes.size()));
+    for (const BvhNode& node : bvh.nodes) {
+        write(out, node.box);
+        out.put(node.first);
+        out.put(node.count);
+    }
+    write_entries(out, bvh.surfaces, index_of);
+}
+
+void read_parts(Reader& in, const SurfaceList& group, Bvh& bvh) {
+    bvh.nodes.resize(in.count(sizeof(Box)));
+    for (BvhNode& node : bvh.nodes) {
+        node.box = read<Box>(in);
+        node.first = in.get<std::uint32_t>();
+        node.count = in.get<std::uint32_t>();
+    }
+    bvh.surfaces = read_entries(in, group);
+}
+
+/// The surfaces of a tree, each once.
+void collect(const SurfaceList& entries, std::unordered_map<const Surface*, std::uint32_t>& numbers,
+             SurfaceList& surfaces) {
+    for (const Surface* entry : entries) {
+        if (numbers.try_emplace(entry, static_cast<std::uint32_t>(surfaces.size())).second) {
+            surfaces.push_back(entry);
+        }
+    }
+}
+void collect(const Node& node, std::unordered_map<const Surface*, std::uint32_t>& numbers, SurfaceList& surfaces) {
+    collect(node.surfaces, numbers, surfaces);
+    for (const Node& child : node.children) {
+        collect(child, numbers, surfaces);
+    }
+}
+void collect(const Bvh& bvh, std::unordered_map<const Surface*, std::uint32_t>& numbers, SurfaceList& surfaces) {
+    collect(bvh.surfaces, numbers, surfaces);
+}
+
+/// What one end knows of the trees of one kind.
+template <typename Tree>
+class Trees {
+public:
+    struct Sent {
+        std::uint64_t mark;
+        std::shared_ptr<OwnGroup> group;
+    };
+
+    static Trees& all() {
+        static Trees trees;
+        return trees;
+    }
+
+    [[nodiscard]] TreeId next() { return ++last_; }
+
+    void remember(TreeId id, const Tree& tree, std::shared_ptr<OwnGroup> group) {
+        sent_[id] = {mark_of(tree), std::move(group)};
+        forget_old(sent_, id);
+    }
+    [[nodiscard]] const std::pair<const TreeId, Sent>* find(const Tree& tree) const {
+        const std::uint64_t mark = mark_of(tree);
+        for (auto one = sent_.rbegin(); one != sent_.rend(); ++one) {
+            if (one->second.mark == mark) {
+                return &*one;
+            }
+        }
+        return nullptr;
+    }
+
+    std::shared_ptr<const KnownTree<Tree>> keep(TreeId id, KnownTree<Tree> tree) {
+        auto kept = std::make_shared<const KnownTree<Tree>>(std::move(tree));
+        kept_[id] = kept;
+        forget_old(kept_, id);
+        return kept;
+    }
+    [[nodiscard]] std::shared_ptr<const KnownTree<Tree>> kept(TreeId id) const {
+        const auto found = kept_.find(id);
+        if (found == kept_.end()) {
+            throw BadMessage("this tree is not known here");
+        }
+        return found->second;
+    }
+
+private:
+    template <typename Map>
+    static void forget_old(Map& map, TreeId newest) {
+        map.erase(map.begin(), map.upper_bound(newest > k_kept ? newest - k_kept : 0));
+    }
+
+    std::map<TreeId, Sent> sent_;
+    std::map<TreeId, std::shared_ptr<const KnownTree<Tree>>> kept_;
+    TreeId last_ = 0;
+};
+
+template <typename Tree>
+Tree ask_tree(FunctionId id, const SurfaceList& surfaces) {
+    const TreeId number = Trees<Tree>::all().next();
+    const auto read_result = [&](Reader& in, const auto& open) {
+        const std::shared_ptr<OwnGroup>& group = std::get<1>(open).group();
+        Tree tree;
+        read_parts(in, group->surfaces, tree);
+        Trees<Tree>::all().remember(number, tree, group);
+        return tree;
+    };
+    return ask_and_read<TreeId, const SurfaceList&>(id, read_result, number, surfaces);
+}
+
+template <typename Tree>
+void serve_tree(Tree (*build)(const SurfaceList&), Reader& in, Wire& wire) {
+    const auto id = in.get<TreeId>();
+    const std::shared_ptr<CopiedGroup> group = Groups::all().read(in);
+    const auto known = Trees<Tree>::all().keep(id, {build(group->scene.surfaces()), group});
+    const Groups& groups = Groups::all();
+    const IndexOf index_of = [&](const Surface* entry) {
+        const PlaceInGroup* place = groups.place_of(entry);
+        return place != nullptr && place->group == group->id ? place->index : k_nowhere;
+    };
+    wire.send(Kind::answer, [&](std::string& bytes) {
+        Writer out(bytes);
+        write_parts(out, known->tree, index_of);
+    });
+}
+
+}  // namespace
+
+template <typename Tree>
+Loan write_tree(Writer& out, const Tree& tree) {
+    Trees<Tree>& trees = Trees<Tree>::all();
+    const auto* known = trees.find(tree);
+    out.put(known != nullptr);
+    if (known != nullptr) {
+        out.put(known->first);
+        return Loan(known->second.group);
+    }
+    std::unordered_map<const Surface*, std::uint32_t> numbers;
+    SurfaceList surfaces;
+    collect(tree, numbers, surfaces);
+    const TreeId id = trees.next();
+    out.put(id);
+    std::shared_ptr<OwnGroup> group = Groups::all().write(out, surfaces);
+    write_parts(out, tree, [&](const Surface* entry) { return numbers.at(entry); });
+    trees.remember(id, tree, group);
+    return Loan(std::move(group));
+}
+
+template <typename Tree>
+std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
+    Trees<Tree>& trees = Trees<Tree>::all();
+    const bool is_known = in.get<bool>();
+    const auto id = in.get<TreeId>();
+    if (is_known) {
+        return trees.kept(id);
+    }
+    KnownTree<Tree> tree;
+    tree.group = Groups::all().read(in);
+    read_parts(in, tree.group->scene.surfaces(), tree.tree);
+    return trees.keep(id, std::move(tree));
+}
+
+template Loan write_tree(Writer&, const Node&);
+template Loan write_tree(Writer&, const Bvh&);
+template std::shared_ptr<const KnownTree<Node>> read_tree(Reader&);
+template std::shared_ptr<const KnownTree<Bvh>> read_tree(Reader&);
+
+Node ask_octree(const SurfaceList& surfaces) { return ask_tree<Node>(FunctionId::build_octree, surfaces); }
+Bvh ask_bvh(const SurfaceList& surfaces) { return ask_tree<Bvh>(FunctionId::build_bvh, surfaces); }
+void serve_octree(Node (*build)(const SurfaceList&), Reader& in, Wire& wire) { serve_tree(build, in, wire); }
+void serve_bvh(Bvh (*build)(const SurfaceList&), Reader& in, Wire& wire) { serve_tree(build, in, wire); }
+
+}  // namespace raysteps::remote

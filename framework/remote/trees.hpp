@@ -1,0 +1,38 @@
+#pragma once
+// Trees of boxes. A tree that a student's function has built stays in the box, where it is searched; the program gets a
+// copy to look at. A tree of anybody else's is sent once.
+#include <cstdint>
+#include <memory>
+
+#include "core/bvh.hpp"
+#include "core/node.hpp"
+#include "remote/groups.hpp"
+#include "remote/message.hpp"
+#include "remote/wire.hpp"
+
+namespace raysteps::remote {
+
+using TreeId = std::uint32_t;
+
+/// A tree in the box, and what it is made of.
+template <typename Tree>
+struct KnownTree {
+    Tree tree;
+    std::shared_ptr<CopiedGroup> group;
+};
+
+/// Writes which tree is meant, and all of it where the box does not know it. Its surfaces are lent meanwhile.
+template <typename Tree>
+[[nodiscard]] Loan write_tree(Writer& out, const Tree& tree);
+template <typename Tree>
+[[nodiscard]] std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in);
+
+/// A function of a step that builds a tree, seen from the program: asks the box, and knows the tree from then on.
+[[nodiscard]] Node ask_octree(const SurfaceList& surfaces);
+[[nodiscard]] Bvh ask_bvh(const SurfaceList& surfaces);
+
+/// The same in the box.
+void serve_octree(Node (*build)(const SurfaceList&), Reader& in, Wire& wire);
+void serve_bvh(Bvh (*build)(const SurfaceList&), Reader& in, Wire& wire);
+
+}  // namespace raysteps::remote

@@ -1,0 +1,291 @@
+#include "remote/wire.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <utility>
+
+#include "remote/message.hpp"
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace raysteps::remote {
+namespace {
+
+using BatchSize = std::uint32_t;  // stands before a batch, in bytes
+
+constexpr std::size_t k_usual_batch = std::size_t{32} << 10U;
+constexpr std::size_t k_max_batch = std::size_t{128} << 20U;
+constexpr std::size_t k_message_head = sizeof(std::uint16_t) + sizeof(Kind) + sizeof(std::uint32_t);
+constexpr std::size_t k_first_visitor = 512;
+constexpr int k_deepest = 200;  // questions within questions; the stack of a fiber holds some more
+
+thread_local bool t_has_fibers = false;  // whether this is the thread that all fibers run on
+
+long read_some(int from, char* bytes, std::size_t size) {
+#ifdef _WIN32
+    return _read(from, bytes, static_cast<unsigned>(size));
+#else
+    return read(from, bytes, size);
+#endif
+}
+
+long write_some(int to, const char* bytes, std::size_t size) {
+#ifdef _WIN32
+    return _write(to, bytes, static_cast<unsigned>(size));
+#else
+    return write(to, bytes, size);
+#endif
+}
+
+}  // namespace
+
+void Wire::end(int code, const char* why) {
+    farewell_(code, why);
+    std::_Exit(code);
+}
+
+Wire::Wire(Pipes pipes, Service service, Farewell farewell)
+    : pipes_(pipes), service_(service), farewell_(farewell), outgoing_(sizeof(BatchSize), '\0') {
+    t_has_fibers = true;
+}
+
+std::size_t Wire::current() {
+    if (t_has_fibers) {
+        return running_;
+    }
+    const auto [place, is_new] =
+        visitors_.try_emplace(std::this_thread::get_id(), k_first_visitor + visitors_.size());
+    if (is_new) {
+        conversation(place->second).visitor = true;
+    }
+    return place->second;
+}
+
+Wire::Conversation& Wire::conversation(std::size_t number) {
+    if (number >= conversations_.size()) {
+        end(k_broken, "a conversation has a number that nobody gave it");
+    }
+    std::unique_ptr<Conversation>& talk = conversations_[number];
+    if (talk == nullptr) {
+        talk = std::make_unique<Conversation>();
+    }
+    return *talk;
+}
+
+std::size_t Wire::begin_message(Kind kind) {
+    const std::size_t start = outgoing_.size();
+    Writer out(outgoing_);
+    out.put(static_cast<std::uint16_t>(current()));
+    out.put(kind);
+    out.put(std::uint32_t{0});
+    return start;
+}
+
+void Wire::end_message(std::size_t start) {
+    const auto size = static_cast<std::uint32_t>(outgoing_.size() - start - k_message_head);
+    std::memcpy(&outgoing_[start + k_message_head - sizeof size], &size, sizeof size);
+}
+
+Message Wire::receive() {
+    while (true) {
+        Fiber* fiber = nullptr;
+        {
+            const std::scoped_lock lock(mutex_);
+            Conversation& talk = conversation(current());
+            if (talk.received) {
+                Message message = std::move(*talk.received);
+                talk.received.reset();
+                return message;
+            }
+            fiber = talk.fiber.get();
+            if (fiber == nullptr && (talk.visitor || ready_.empty())) {
+                exchange();
+                continue;
+            }
+        }
+        if (fiber != nullptr) {
+            fiber->stop();
+        } else {
+            resume_one();
+        }
+    }
+}
+
+Message Wire::wait_for_answer() {
+    while (true) {
+        Message message = receive();
+        if (message.kind != Kind::question) {
+            return message;
+        }
+        answer(message);
+    }
+}
+
+void Wire::serve() {
+    while (true) {
+        answer(receive());
+    }
+}
+
+void Wire::answer(const Message& question) {
+    if (question.kind != Kind::question) {
+        end(k_broken, "an answer came that nobody asked for");
+    }
+    Conversation& talk = conversation(current());
+    if (++talk.depth > k_deepest) {
+        end(k_endless, "the functions call each other without end");
+    }
+    service_(*this, question.bytes);
+    --talk.depth;
+}
+
+void Wire::run_together(int count, const std::function<void()>& work) {
+    if (!Fiber::available() || running_ != 0) {
+        work();
+        return;
+    }
+    std::exception_ptr failed;
+    const auto guarded = [&] {
+        try {
+            work();
+        } catch (...) {
+            failed = std::current_exception();
+        }
+    };
+    const auto first = std::size_t{1};
+    const std::size_t last = first + static_cast<std::size_t>(count);
+    for (std::size_t number = first; number < last; ++number) {
+        conversation(number).fiber = std::make_unique<Fiber>(guarded);
+        ready_.push_back(number);
+    }
+    const auto all_ended = [&] {
+        for (std::size_t number = first; number < last; ++number) {
+            if (!conversation(number).fiber->ended()) {
+                return false;
+            }
+        }
+        return true;
+    };
+    while (!all_ended()) {
+        if (!resume_one()) {
+            exchange();
+        }
+    }
+    for (std::size_t number = first; number < last; ++number) {
+        conversation(number).fiber.reset();
+    }
+    if (failed) {
+        std::rethrow_exception(failed);
+    }
+}
+
+bool Wire::resume_one() {
+    if (ready_.empty()) {
+        return false;
+    }
+    const std::size_t number = ready_.front();  // in the order of sending: what comes first may explain the next
+    ready_.pop_front();
+    resume(number);
+    return true;
+}
+
+void Wire::resume(std::size_t number) {
+    Conversation& talk = conversation(number);
+    if (talk.fiber->ended()) {
+        end(k_broken, "an answer came that nobody asked for");
+    }
+    const std::size_t before = std::exchange(running_, number);
+    std::swap(thread_stats(), talk.stats);
+    talk.fiber->resume();
+    std::swap(thread_stats(), talk.stats);
+    running_ = before;
+}
+
+// Both ends send a batch only when they have read the other's: so neither ever waits for a full pipe while the other
+// does the same.
+void Wire::exchange() {
+    if (outgoing_.size() > sizeof(BatchSize)) {
+        const auto size = static_cast<BatchSize>(outgoing_.size() - sizeof(BatchSize));
+        std::memcpy(outgoing_.data(), &size, sizeof size);
+        write_all(outgoing_);
+        outgoing_.resize(sizeof size);
+    }
+    try {
+        deliver(read_batch());
+    } catch (const BadMessage& error) {
+        end(k_broken, error.what());
+    }
+}
+
+std::shared_ptr<const std::string> Wire::read_batch() {
+    auto batch = std::make_shared<std::string>(k_usual_batch, '\0');
+    std::size_t have = 0;
+    BatchSize size = 0;
+    while (have < sizeof size || have < sizeof size + size) {
+        const long got = read_some(pipes_.in, batch->data() + have, batch->size() - have);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got <= 0) {
+            end(k_closed, "the other end is gone");
+        }
+        have += static_cast<std::size_t>(got);
+        if (have >= sizeof size) {
+            std::memcpy(&size, batch->data(), sizeof size);
+            if (size > k_max_batch) {
+                end(k_broken, "a message is too long");
+            }
+            batch->resize(std::max(batch->size(), sizeof size + size));
+        }
+    }
+    if (have > sizeof size + size) {
+        end(k_broken, "a batch came out of turn");
+    }
+    batch->resize(have);
+    return batch;
+}
+
+void Wire::deliver(const std::shared_ptr<const std::string>& batch) {
+    Reader reader(std::string_view(*batch).substr(sizeof(BatchSize)));
+    while (!reader.at_end()) {
+        const std::size_t number = reader.get<std::uint16_t>();
+        const Kind kind = reader.get<Kind>();
+        Conversation& talk = conversation(number);
+        if (kind > Kind::unwound || talk.received) {
+            throw BadMessage("a message came that nobody can have sent");
+        }
+        talk.received = Message{kind, reader.text(), batch};
+        if (number == 0 || talk.visitor) {
+            continue;
+        }
+        if (talk.fiber == nullptr) {
+            if (kind != Kind::question || !Fiber::available()) {
+                throw BadMessage("an answer came that nobody asked for");
+            }
+            talk.fiber = std::make_unique<Fiber>([this] { serve(); });
+        }
+        ready_.push_back(number);
+    }
+}
+
+void Wire::write_all(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const long written = write_some(pipes_.out, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written <= 0) {
+            end(k_closed, "the other end is gone");
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+}  // namespace raysteps::remote

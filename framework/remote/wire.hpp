@@ -1,0 +1,118 @@
+#pragma once
+// Two pipes, and on them many conversations at once. A conversation is a stack of questions: who is asked may ask back
+// before it answers. All that waits is sent together, one batch in each direction in turn: so thousands of questions
+// take as long as a few.
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "core/stats.hpp"
+#include "remote/fiber.hpp"
+
+namespace raysteps::remote {
+
+enum class Kind : std::uint8_t {
+    question,
+    answer,
+    threw,          ///< the words of an exception follow
+    threw_unknown,  ///< something that is no std::exception was thrown
+    unwound,        ///< an exception of the other end's own, which it has kept, went through here
+};
+
+/// One that came. Its bytes lie in the batch that it came with.
+struct Message {
+    Kind kind = Kind::question;
+    std::string_view bytes;
+    std::shared_ptr<const std::string> batch;
+};
+
+class Wire {
+public:
+    /// The file descriptors that are read and written.
+    struct Pipes {
+        int in;
+        int out;
+    };
+
+    /// Writes the answer to a question of the other end, in the conversation in which it was asked.
+    using Service = void (*)(Wire& wire, std::string_view question);
+
+    /// Ends the program with its exit code, since there is nobody left to talk to: the other end is gone, sent what no
+    /// stand-in sends, or asks back without end.
+    static constexpr int k_closed = 70;
+    static constexpr int k_broken = 71;
+    static constexpr int k_endless = 72;
+    using Farewell = void (*)(int code, const char* why);
+
+    Wire(Pipes pipes, Service service, Farewell farewell);
+
+    /// A message of the current conversation: write(bytes) appends what it says. It is sent with all others when
+    /// somebody waits.
+    template <typename Write>
+    void send(Kind kind, const Write& write) {
+        const std::scoped_lock lock(mutex_);
+        const std::size_t start = begin_message(kind);
+        try {
+            write(outgoing_);
+        } catch (...) {
+            outgoing_.resize(start);
+            throw;
+        }
+        end_message(start);
+    }
+
+    /// The next message of the current conversation that is no question. Questions are answered meanwhile.
+    [[nodiscard]] Message wait_for_answer();
+
+    /// Answers questions for ever.
+    void serve();
+
+    /// Runs `work` in `count` conversations at once, or in one where there are no fibers, and waits for all. What
+    /// leaves one of them is thrown again.
+    void run_together(int count, const std::function<void()>& work);
+
+    [[noreturn]] void end(int code, const char* why);
+
+private:
+    struct Conversation {
+        std::optional<Message> received;  ///< one at most, for the ends take turns
+        std::unique_ptr<Fiber> fiber;     ///< none in that of a thread itself
+        Stats stats;                      ///< the fiber's, while it does not run
+        int depth = 0;                    ///< questions that are being answered
+        bool visitor = false;             ///< of a thread that a student has started
+    };
+    static constexpr std::size_t k_max_conversations = 1024;
+
+    [[nodiscard]] std::size_t begin_message(Kind kind);
+    void end_message(std::size_t start);
+    [[nodiscard]] Message receive();
+    void answer(const Message& question);
+    void exchange();
+    std::shared_ptr<const std::string> read_batch();
+    void deliver(const std::shared_ptr<const std::string>& batch);
+    void resume(std::size_t number);
+    bool resume_one();
+    std::size_t current();
+    Conversation& conversation(std::size_t number);
+    void write_all(std::string_view bytes);
+
+    Pipes pipes_;
+    Service service_;
+    Farewell farewell_;
+    std::recursive_mutex mutex_;  ///< a student may have threads of its own
+    std::array<std::unique_ptr<Conversation>, k_max_conversations> conversations_;
+    std::deque<std::size_t> ready_;                    ///< fibers that something came for, in that order
+    std::size_t running_ = 0;                          ///< the conversation of the thread that fibers run on
+    std::map<std::thread::id, std::size_t> visitors_;  ///< conversations of other threads
+    std::string outgoing_;
+};
+
+}  // namespace raysteps::remote
