@@ -68,6 +68,28 @@ set(absent "")
 if(TARGET raysteps-absent)
     set(absent "\"$<JOIN:$<TARGET_OBJECTS:raysteps-absent>,\", \">\"")
 endif()
+set(remote null)
+if(TARGET raysteps-wire)
+    foreach(kind stand-in service later)
+        set(${kind}_json "")
+        foreach(step IN LISTS RAYSTEPS_STEPS)
+            raysteps_split_step(${step} number name)
+            if(TARGET ${kind}-${number})
+                list(APPEND ${kind}_json "\"${number}\": \"$<TARGET_OBJECTS:${kind}-${number}>\"")
+            endif()
+        endforeach()
+        list(JOIN ${kind}_json ", " ${kind}_json)
+    endforeach()
+    set(remote "{
+    \"wire\": [\"$<JOIN:$<TARGET_OBJECTS:raysteps-wire>,\", \">\"],
+    \"home\": \"$<TARGET_OBJECTS:raysteps-home>\",
+    \"box\": \"$<TARGET_OBJECTS:raysteps-box>\",
+    \"core\": \"$<TARGET_FILE:raysteps-box-core>\",
+    \"stand_ins\": {${stand-in_json}},
+    \"services\": {${service_json}},
+    \"later\": {${later_json}}
+  }")
+endif()
 set(driver gnu)  # whose words the compiler takes
 if(MSVC)
     set(driver msvc)
@@ -99,6 +121,7 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
   \"wide\": [${wide}],
   \"worker\": [${worker}],
   \"absent\": [${absent}],
+  \"remote\": ${remote},
   \"tests\": {
     ${tests_json}
   }
@@ -108,7 +131,7 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
 # All that kit.json names.
 add_custom_target(kit)
 add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app)
-foreach(part worker-app raysteps-absent)
+foreach(part worker-app raysteps-absent ${RAYSTEPS_REMOTE_TARGETS})
     if(TARGET ${part})
         add_dependencies(kit ${part})
     endif()

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
+from raysteps.sandbox.beside import run_beside
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.monitor import Usage, descendants, monitor, usage_of
 from raysteps.sandbox.rlimits import limit_words
@@ -50,6 +51,10 @@ class Direct:
     def run(self, task: Task) -> TaskResult:
         seconds = task.limits.wall_seconds
         limits = replace(task.limits, wall_seconds=_PATIENCE * seconds, cpu_seconds=seconds)
+        patient = replace(task, limits=limits)
+        return self._run(patient) if task.beside is None else run_beside(self._run, patient)
+
+    def _run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-run-")))
             place = TaskDir(folder, None)
@@ -65,9 +70,9 @@ class Direct:
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    [*limit_words(limits, memory=True), *command],
-                    stdin=nameless_file(task.stdin, stack),
-                    stdout=subprocess.PIPE,
+                    [*limit_words(task.limits, memory=True), *command],
+                    stdin=nameless_file(task.stdin, stack) if task.wire is None else task.wire.stdin,
+                    stdout=subprocess.PIPE if task.wire is None else task.wire.stdout,
                     stderr=subprocess.PIPE,
                     pass_fds=inside.fds,
                     cwd=folder,
@@ -76,7 +81,9 @@ class Direct:
                 )
             )
             stack.callback(process.kill)
-            seen = monitor(process, start, limits, _Group(process))
+            if task.wire is not None:
+                task.wire.hand_over()
+            seen = monitor(process, start, task, _Group(process))
             out, err = (data.decode("utf-8", "replace") for data in (seen.stdout, seen.stderr))
             code = -signal.SIGKILL if seen.stopped else seen.status
             outcome = Outcome(code, seen.stopped == "wall", out, err, seen.seconds)
@@ -132,7 +139,8 @@ class Remembered:
         limits = task.limits
         bounds = (limits.memory_mb, limits.processes, limits.file_mb, limits.tmp_mb, limits.output_kb)
         digest = hashlib.sha256(f"{self._always}\0{bounds}\0{task.tools}\0".encode())
-        for word in (*task.command, "\0", *task.inputs):
+        asking = () if task.beside is None else task.beside.command
+        for word in (*task.command, "\0", *task.inputs, "\0", *asking):
             match word:
                 case Input():
                     digest.update(f"in {word.inner_name}\0".encode() + self._mark(word.path))
@@ -140,7 +148,7 @@ class Remembered:
                     digest.update(f"out {word.name}\0".encode())
                 case _:
                     digest.update(f"word {word}\0".encode())
-        digest.update(task.stdin)
+        digest.update(task.stdin if task.beside is None else task.beside.stdin)
         return digest.hexdigest()
 
     def _mark(self, path: Path) -> bytes:

@@ -45,6 +45,7 @@ enum class FunctionId : std::uint8_t {
     lent_trace,
     lent_surface_hit,
     lent_surface_overlaps,
+    lent_boxes,
     count,
 };
 

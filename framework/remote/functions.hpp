@@ -65,7 +65,7 @@ struct Parameter<const SurfaceList&> {
 template <typename Tree>
 struct TreeParameter {
     using Received = std::shared_ptr<const KnownTree<Tree>>;
-    static Loan send(Writer& out, const Tree& tree) { return write_tree(out, tree); }
+    static LentTree send(Writer& out, const Tree& tree) { return write_tree(out, tree); }
     static Received receive(Reader& in) { return read_tree<Tree>(in); }
     static const Tree& give(const Received& received) { return received->tree; }
 };
@@ -73,6 +73,32 @@ template <>
 struct Parameter<const Node&> : TreeParameter<Node> {};
 template <>
 struct Parameter<const Bvh&> : TreeParameter<Bvh> {};
+
+/// A box that has step 02 tests spheres and triangles itself. All other tests of surfaces are counted where they are
+/// made, and nobody's word is taken for them. The boxes of step 06 are shown, but not graded.
+inline void add_counts(FunctionId id, Reader& in) {
+    const auto surface_tests = in.get<std::uint32_t>();
+    thread_stats().box_tests += in.get<std::uint32_t>();
+    thread_stats().surface_tests += id == FunctionId::closest_hit ? surface_tests : 0;
+}
+
+/// What this end has counted since it was last asked. A program keeps its own counts.
+inline void write_counts(Writer& out) {
+    Stats& stats = thread_stats();
+    const bool tells = Session::current().end() == Session::End::box;
+    out.put(static_cast<std::uint32_t>(tells ? std::exchange(stats.surface_tests, 0) : 0));
+    out.put(static_cast<std::uint32_t>(tells ? std::exchange(stats.box_tests, 0) : 0));
+}
+
+/// Sends what write(out) writes.
+template <typename Write>
+void send_answer(Wire& wire, const Write& write_result) {
+    wire.send(Kind::answer, [&](std::string& bytes) {
+        Writer out(bytes);
+        write_counts(out);
+        write_result(out);
+    });
+}
 
 /// Asks the other end and hands its words to `read_result`.
 template <typename... Parameters, typename ReadResult>
@@ -87,6 +113,7 @@ auto ask_and_read(FunctionId id, const ReadResult& read_result, std::type_identi
     });
     try {
         Reader in(answer.bytes);
+        add_counts(id, in);
         return read_result(in, *open);
     } catch (const BadMessage& error) {
         session.broken(error.what());
@@ -125,10 +152,7 @@ void call_with(Reader& in, const Call& call, std::tuple<Parameters...>* /*types*
 
 template <typename Result>
 void send_result(Wire& wire, const Result& result) {
-    wire.send(Kind::answer, [&](std::string& bytes) {
-        Writer out(bytes);
-        write<Result>(out, result);
-    });
+    send_answer(wire, [&](Writer& out) { write<Result>(out, result); });
 }
 
 template <auto Function>

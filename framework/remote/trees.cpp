@@ -176,7 +176,8 @@ public:
         return nullptr;
     }
 
-    std::shared_ptr<const KnownTree<Tree>> keep(TreeId id, KnownTree<Tree> tree) {
+    std::shared_ptr<const KnownTree<Tree>> keep(KnownTree<Tree> tree) {
+        const TreeId id = tree.id;
         auto kept = std::make_shared<const KnownTree<Tree>>(std::move(tree));
         kept_[id] = kept;
         forget_old(kept_, id);
@@ -201,6 +202,19 @@ private:
     TreeId last_ = 0;
 };
 
+LentTree lend(TreeId /*id*/, const Node& /*root*/, const std::shared_ptr<OwnGroup>& group) {
+    return {Loan(group), nullptr};
+}
+LentTree lend(TreeId id, const Bvh& bvh, const std::shared_ptr<OwnGroup>& group) {
+    return {Loan(group), std::make_unique<TreeLoan>(id, bvh)};
+}
+
+std::shared_ptr<const KnownTree<Node>> start_search(std::shared_ptr<const KnownTree<Node>> known) { return known; }
+std::shared_ptr<const KnownTree<Bvh>> start_search(std::shared_ptr<const KnownTree<Bvh>> known) {
+    search_in(known->id, known->tree);
+    return known;
+}
+
 template <typename Tree>
 Tree ask_tree(FunctionId id, const SurfaceList& surfaces) {
     const TreeId number = Trees<Tree>::all().next();
@@ -218,38 +232,35 @@ template <typename Tree>
 void serve_tree(Tree (*build)(const SurfaceList&), Reader& in, Wire& wire) {
     const auto id = in.get<TreeId>();
     const std::shared_ptr<CopiedGroup> group = Groups::all().read(in);
-    const auto known = Trees<Tree>::all().keep(id, {build(group->scene.surfaces()), group});
+    const auto known = Trees<Tree>::all().keep({id, build(group->scene.surfaces()), group});
     const Groups& groups = Groups::all();
     const IndexOf index_of = [&](const Surface* entry) {
         const PlaceInGroup* place = groups.place_of(entry);
         return place != nullptr && place->group == group->id ? place->index : k_nowhere;
     };
-    wire.send(Kind::answer, [&](std::string& bytes) {
-        Writer out(bytes);
-        write_parts(out, known->tree, index_of);
-    });
+    send_answer(wire, [&](Writer& out) { write_parts(out, known->tree, index_of); });
 }
 
 }  // namespace
 
 template <typename Tree>
-Loan write_tree(Writer& out, const Tree& tree) {
+LentTree write_tree(Writer& out, const Tree& tree) {
     Trees<Tree>& trees = Trees<Tree>::all();
     const auto* known = trees.find(tree);
     out.put(known != nullptr);
     if (known != nullptr) {
         out.put(known->first);
-        return Loan(known->second.group);
+        return lend(known->first, tree, known->second.group);
     }
     std::unordered_map<const Surface*, std::uint32_t> numbers;
     SurfaceList surfaces;
     collect(tree, numbers, surfaces);
     const TreeId id = trees.next();
     out.put(id);
-    std::shared_ptr<OwnGroup> group = Groups::all().write(out, surfaces);
+    const std::shared_ptr<OwnGroup> group = Groups::all().write(out, surfaces);
     write_parts(out, tree, [&](const Surface* entry) { return numbers.at(entry); });
     trees.remember(id, tree, group);
-    return Loan(std::move(group));
+    return lend(id, tree, group);
 }
 
 template <typename Tree>
@@ -258,16 +269,17 @@ std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
     const bool is_known = in.get<bool>();
     const auto id = in.get<TreeId>();
     if (is_known) {
-        return trees.kept(id);
+        return start_search(trees.kept(id));
     }
     KnownTree<Tree> tree;
+    tree.id = id;
     tree.group = Groups::all().read(in);
     read_parts(in, tree.group->scene.surfaces(), tree.tree);
-    return trees.keep(id, std::move(tree));
+    return start_search(trees.keep(std::move(tree)));
 }
 
-template Loan write_tree(Writer&, const Node&);
-template Loan write_tree(Writer&, const Bvh&);
+template LentTree write_tree(Writer&, const Node&);
+template LentTree write_tree(Writer&, const Bvh&);
 template std::shared_ptr<const KnownTree<Node>> read_tree(Reader&);
 template std::shared_ptr<const KnownTree<Bvh>> read_tree(Reader&);
 

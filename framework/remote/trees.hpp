@@ -6,24 +6,30 @@
 
 #include "core/bvh.hpp"
 #include "core/node.hpp"
+#include "remote/boxes_on_ray.hpp"
 #include "remote/groups.hpp"
 #include "remote/message.hpp"
 #include "remote/wire.hpp"
 
 namespace raysteps::remote {
 
-using TreeId = std::uint32_t;
-
 /// A tree in the box, and what it is made of.
 template <typename Tree>
 struct KnownTree {
+    TreeId id = 0;
     Tree tree;
     std::shared_ptr<CopiedGroup> group;
 };
 
-/// Writes which tree is meant, and all of it where the box does not know it. Its surfaces are lent meanwhile.
+/// What a question about a tree lends.
+struct LentTree {
+    Loan surfaces;
+    std::unique_ptr<TreeLoan> boxes;  ///< of a Bvh
+};
+
+/// Writes which tree is meant, and all of it where the box does not know it.
 template <typename Tree>
-[[nodiscard]] Loan write_tree(Writer& out, const Tree& tree);
+[[nodiscard]] LentTree write_tree(Writer& out, const Tree& tree);
 template <typename Tree>
 [[nodiscard]] std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in);
 

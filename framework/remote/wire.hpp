@@ -79,6 +79,9 @@ public:
     /// leaves one of them is thrown again.
     void run_together(int count, const std::function<void()>& work);
 
+    /// The number of the current conversation.
+    [[nodiscard]] std::size_t current();
+
     [[noreturn]] void end(int code, const char* why);
 
 private:
@@ -100,7 +103,6 @@ private:
     void deliver(const std::shared_ptr<const std::string>& batch);
     void resume(std::size_t number);
     bool resume_one();
-    std::size_t current();
     Conversation& conversation(std::size_t number);
     void write_all(std::string_view bytes);
 

@@ -105,9 +105,7 @@ std::optional<HitRecord> PaperGrid::closest_hit(const Ray& ray) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return std::nullopt;
     }
-    thread_local std::vector<std::uint64_t> candidates;
-    thread_local SurfaceList list;
-    candidates.assign((surfaces_.size() + 63) / 64, 0);
+    std::vector<std::uint64_t> candidates((surfaces_.size() + 63) / 64, 0);
     for (const Middle& middle : middle_) {
         if (!middle.box.hit(ray)) {
             continue;
@@ -120,7 +118,7 @@ std::optional<HitRecord> PaperGrid::closest_hit(const Ray& ray) const {
             }
         }
     }
-    list.clear();
+    SurfaceList list;
     append_members(candidates, surfaces_, list);
     return raysteps::closest_hit(list, ray);
 }
@@ -129,8 +127,7 @@ bool PaperGrid::occluded(const Ray& ray, float distance) const {
     if (surfaces_.empty() || !main_.hit(ray)) {
         return false;
     }
-    thread_local std::vector<std::uint64_t> tested;
-    tested.assign((surfaces_.size() + 63) / 64, 0);
+    std::vector<std::uint64_t> tested((surfaces_.size() + 63) / 64, 0);
     const auto has_hit = [&](const Small& small) {
         return small.box.hit(ray) && hits_untested(small.members, tested, surfaces_, ray, distance);
     };

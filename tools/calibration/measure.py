@@ -207,7 +207,7 @@ class PictureShares:
         return known
 
     def _render(self, build: StudentBuild, binary: Path, limits: StepLimits) -> tuple[float, ...]:
-        program, ran = build.program("raytrace", self._step, [binary], limits)
+        program, ran = build.program("raytrace", self._step, {self._step.number: binary}, limits)
         if program is None:
             raise GraderFault(f"{self._step.id} does not link: {printable(ran.outcome.stderr) if ran else ''}")
         shares: list[float] = []

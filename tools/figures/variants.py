@@ -63,7 +63,7 @@ class Variant:
         compiled = build.compile(step, source.encode(), self._limits)
         if compiled.binary is None:
             raise GraderFault(f"figures: {step.id} does not build: {shorten(compiled.ran.outcome.stderr, 1000)}")
-        program, _ = build.program("raytrace", step, [compiled.binary], self._limits)
+        program, _ = build.program("raytrace", step, {step.number: compiled.binary}, self._limits)
         if program is None:
             raise GraderFault(f"figures: {step.id} cannot be linked")
         self._program: Program = program

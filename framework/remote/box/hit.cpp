@@ -3,6 +3,7 @@
 #include "core/stats.hpp"
 #include "core/surface.hpp"
 #include "remote/box/own_steps.hpp"
+#include "remote/boxes_on_ray.hpp"
 #include "remote/lent.hpp"
 
 namespace raysteps {
@@ -17,7 +18,7 @@ std::optional<HitRecord> Surface::hit(const Ray& ray) const {
 
 std::optional<Interval> Box::hit(const Ray& ray) const {
     ++thread_stats().box_tests;
-    return clip(ray);
+    return remote::has_own_clip() ? clip(ray) : remote::ask_clip(*this, ray);
 }
 
 }  // namespace raysteps

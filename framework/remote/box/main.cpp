@@ -1,8 +1,10 @@
 // The box: answers what a program asks of the student's functions, and holds nothing else. `box NN...` is told which
 // steps are the student's. The wire is its stdin and stdout.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <string_view>
+#include <vector>
 
 #include "remote/box/own_steps.hpp"
 #include "remote/session.hpp"
@@ -20,7 +22,11 @@
 namespace raysteps::remote {
 namespace {
 
-bool g_own_intersections = false;
+std::vector<std::string_view> g_own_steps;
+
+bool is_own(std::string_view step) {
+    return std::find(g_own_steps.begin(), g_own_steps.end(), step) != g_own_steps.end();
+}
 
 // Takes the real stdin and stdout away: what a step prints goes to stderr and never between the messages, and what it
 // reads is nothing.
@@ -50,15 +56,20 @@ void farewell(int code, const char* why) {
 
 }  // namespace
 
-bool has_own_intersections() { return g_own_intersections; }
+bool has_own_intersections() {
+    static const bool own = is_own("02");
+    return own;
+}
+bool has_own_clip() {
+    static const bool own = is_own("06");
+    return own;
+}
 
 }  // namespace raysteps::remote
 
 int main(int argc, char** argv) {
     using namespace raysteps::remote;
-    for (int i = 1; i < argc; ++i) {
-        g_own_intersections = g_own_intersections || std::strcmp(argv[i], "02") == 0;
-    }
+    g_own_steps.assign(argv + 1, argv + argc);
     Session session(Session::End::box, take_pipes(), farewell);
     session.wire().serve();
 }

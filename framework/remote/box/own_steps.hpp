@@ -3,7 +3,7 @@
 
 namespace raysteps::remote {
 
-/// Whether step 02 is one of them.
-[[nodiscard]] bool has_own_intersections();
+[[nodiscard]] bool has_own_intersections();  ///< of step 02
+[[nodiscard]] bool has_own_clip();           ///< of step 06
 
 }  // namespace raysteps::remote

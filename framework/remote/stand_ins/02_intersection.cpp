@@ -1,7 +1,6 @@
 #include "steps/02-intersection/intersection.hpp"
 
-#include "core/stats.hpp"
-#include "remote/counted_hit.hpp"
+#include "remote/functions.hpp"
 
 namespace raysteps {
 
@@ -17,10 +16,7 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
 }
 
 std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {
-    const auto counted =
-        ask<remote::CountedHit, const SurfaceList&, const Ray&>(FunctionId::closest_hit, surfaces, ray);
-    thread_stats().surface_tests += counted.surface_tests;
-    return counted.hit;
+    return ask<&closest_hit>(FunctionId::closest_hit, surfaces, ray);
 }
 
 }  // namespace raysteps

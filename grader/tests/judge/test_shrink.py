@@ -293,7 +293,7 @@ def _build(kit: BuiltKit, step: Step, source: str, folder: Path) -> Ask:
     build = StudentBuild(kit, box, folder)
     compiled = build.compile(step, source.encode(), limits)
     assert compiled.binary is not None, compiled.ran.outcome.stderr
-    program, _ = build.program("worker", step, [compiled.binary], limits)
+    program, _ = build.program("worker", step, {step.number: compiled.binary}, limits)
     assert program is not None
     return ask_student(box, program, limits)
 

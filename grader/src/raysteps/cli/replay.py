@@ -98,7 +98,7 @@ def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder:
     compiled = build.compile(step, source, limits)
     if compiled.binary is None:
         raise StudentBuildError(why_not_built(kit, step, compiled, source.decode("utf-8", "replace")))
-    program, ran = build.program("worker", step, [compiled.binary], limits)
+    program, ran = build.program("worker", step, {step.number: compiled.binary}, limits)
     if program is None:
         raise StudentBuildError(link_message(ran) if ran is not None else "It does not build.")
     return ask_student(sandbox, program, limits)

@@ -108,7 +108,7 @@ class _Learner:
 
         def program(kind: Kind) -> Program:
             assert compiled.binary is not None
-            found, _ = build.program(kind, self._step, [compiled.binary], self._limits)
+            found, _ = build.program(kind, self._step, {self._step.number: compiled.binary}, self._limits)
             if found is None:
                 raise GraderFault(f"{self._step.id}/mutants.toml: {mutant.id} cannot be linked")
             return found

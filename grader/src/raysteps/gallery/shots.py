@@ -109,8 +109,8 @@ class MySteps:
     def _program(self, step: Step) -> tuple[Program | None, str]:
         if step.id not in self._programs:
             up_to = [other for other in self._kit.steps if other.index <= step.index]
-            objects = [self._binaries.get(other.id) or self._kit.reference_step(other) for other in up_to]
-            program, ran = self._build.program("raytrace", step, objects, self._limits[step.id], together=True)
+            own = {other.number: self._binaries[other.id] for other in up_to if other.id in self._binaries}
+            program, ran = self._build.program("raytrace", step, own, self._limits[step.id], together=True)
             self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _LONGEST))
         return self._programs[step.id]
 

@@ -113,7 +113,7 @@ class HiddenStepGrader(StepGrader):
             step = self.step
             earlier = [other for other in self._work.kit.steps if other.index < step.index]
             replaced = [other for other in earlier if other.id not in right]
-            program, why = self._joined([other for other in earlier if other.id in right], replaced)
+            program, why = self._joined([other for other in earlier if other.id in right])
             if program is None:
                 self._result.cumulative = Integration(False, why)
             else:
@@ -122,14 +122,13 @@ class HiddenStepGrader(StepGrader):
             self._result.status, self._result.points = status_and_points(self._result, step)
         return self._result
 
-    def _joined(self, right: list[Step], replaced: list[Step]) -> tuple[Program | None, str]:
+    def _joined(self, right: list[Step]) -> tuple[Program | None, str]:
         """This step with those before it, or why there is no such program."""
         if not all(image.passed for image in self._result.images[:1]):
             return None, "This step itself is not right yet."
-        mine = [self._compiled[other.id].binary for other in (*right, self.step)]
-        objects = [path for path in mine if path is not None]
-        objects += [self._work.kit.reference_step(other) for other in replaced]
-        program, ran = self._build.program("raytrace", self.step, objects, self._limits, together=True)
+        binaries = {other.number: self._compiled[other.id].binary for other in (*right, self.step)}
+        own = {number: path for number, path in binaries.items() if path is not None}
+        program, ran = self._build.program("raytrace", self.step, own, self._limits, together=True)
         if ran is not None:
             self._expect_room()
             return None, f"The steps do not build together. {link_message(ran)}"

@@ -65,16 +65,17 @@ class QuickLook:
             result.images.append(image)
         return result
 
-    def _around(self, binary: Path, folder: Path) -> list[Path]:
+    def _around(self, binary: Path, folder: Path) -> dict[str, Path]:
         """In a students' kit the student's own steps stand before this one."""
         if self.kit.has_reference:
-            return [binary]
+            return {self.step.number: binary}
         work = GradingContext(
             self.kit, load_submission(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out
         )
         with ThreadPoolExecutor() as pool:
             earlier = [step for step in self.kit.steps if step.index < self.step.index]
-            return [*own_steps(work, self.step, compile_steps(work, earlier, pool, {})), binary]
+            own = own_steps(work, self.step, compile_steps(work, earlier, pool, {}))
+            return own | {self.step.number: binary}
 
     def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path) -> StepResult:
         limits = limits_of(self.step, {})

@@ -25,22 +25,19 @@ from raysteps.toolchain.limits import limits_of
 # One step between the student's own steps: a students' kit has no reference to put around it.
 
 
-def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -> list[Path]:
-    """Those before this one. Where one does not build or was not started its stub stands in."""
-    found = []
-    for other in work.kit.steps:
-        if other.index < step.index:
-            own = compiled.get(other.id)
-            binary = own.binary if own is not None else None
-            found.append(binary or work.kit.reference_step(other))
-    return found
+def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -> dict[str, Path]:
+    """By number, the student's steps before this one that build; the kit's stub stands in for the others."""
+    earlier = [other for other in work.kit.steps if other.index < step.index and other.id in compiled]
+    binaries = {other.number: compiled[other.id].binary for other in earlier}
+    return {number: binary for number, binary in binaries.items() if binary is not None}
 
 
 class SelfCheckGrader(StepGrader):
     """What a student can be told at home."""
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
-        return self._linked(kind, [*own_steps(self._work, self.step, self._compiled), binary], together=True)
+        own = own_steps(self._work, self.step, self._compiled) | {self.step.number: binary}
+        return self._linked(kind, own, together=True)
 
     def check(self) -> StepResult:
         """The visible part, with its points. The pictures are made with the student's own steps already."""

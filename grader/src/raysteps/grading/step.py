@@ -181,9 +181,9 @@ class StepGrader:
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
         """The step between steps of the reference."""
-        return self._linked(kind, [binary], together=False)
+        return self._linked(kind, {self.step.number: binary}, together=False)
 
-    def _linked(self, kind: Kind, binaries: list[Path], *, together: bool) -> Program | None:
+    def _linked(self, kind: Kind, binaries: dict[str, Path], *, together: bool) -> Program | None:
         program, ran = self._build.program(kind, self.step, binaries, self._limits, together=together)
         if program is None and ran is not None:
             self._expect_room()

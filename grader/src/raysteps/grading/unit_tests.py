@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from raysteps.common.text import in_seconds
 from raysteps.images.render import ENDLESS, describe_exit
 from raysteps.results.model import TestResult
-from raysteps.sandbox.task import Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.task import Output, Sandbox, TaskResult, Word
 from raysteps.toolchain.catch2 import TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
@@ -16,10 +16,10 @@ _SPECIAL = re.compile(r'([\\,\["])')
 
 
 def _run(sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None) -> TaskResult:
-    command: tuple[Word, ...] = (*program.words, "-r", "xml", "-o", Output("report"))
+    words: tuple[Word, ...] = ("-r", "xml", "-o", Output("report"))
     if only is not None:
-        command += (_SPECIAL.sub(r"\\\1", only),)
-    return sandbox.run(Task(command, limits.of_program(most)))
+        words += (_SPECIAL.sub(r"\\\1", only),)
+    return sandbox.run(program.task(words, limits.of_program(most)))
 
 
 def _complete(ran: TaskResult, names: Iterable[str]) -> list[TestOutcome] | None:

@@ -17,7 +17,7 @@ from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, Pixels, parse_ppm, read_png, read_ppm, write_png
 from raysteps.results.model import Termination, Work
-from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, TaskResult, Word
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -110,9 +110,9 @@ def _share_tested(stats: bytes) -> float | None:
 
 def render(sandbox: Sandbox, program: Program, scene: Path, args: tuple[str, ...], limits: Limits) -> Rendered:
     """One picture by a student's program, which learns neither where it is nor what for."""
-    command: tuple[Word, ...] = (*program.words, Input(scene, "scene.nff"), *args, "--quiet")
-    command += ("-o", Output("picture"), "--stats", Output("stats"))
-    ran = sandbox.run(Task(command, limits))
+    words: tuple[Word, ...] = (Input(scene, "scene.nff"), *args, "--quiet")
+    words += ("-o", Output("picture"), "--stats", Output("stats"))
+    ran = sandbox.run(program.task(words, limits))
     if ran.outcome.timed_out or ran.stopped or ran.outcome.code != 0:
         return Rendered(ran, None)
     try:

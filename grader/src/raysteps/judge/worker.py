@@ -204,7 +204,7 @@ def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Callab
     """The student's functions, asked in a process that knows no answer: cases, and how many seconds it may take."""
 
     def ask(cases: bytes, seconds: float) -> TaskResult:
-        return sandbox.run(Task(worker.words, replace(limits.of_program(seconds), output_kb=ANSWERS_KB), stdin=cases))
+        return sandbox.run(worker.task((), replace(limits.of_program(seconds), output_kb=ANSWERS_KB), cases))
 
     return ask
 

@@ -3,7 +3,6 @@
 import json
 import os
 import resource
-import select
 import shutil
 import signal
 import subprocess
@@ -14,6 +13,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
+from raysteps.sandbox.beside import readable, run_beside
 from raysteps.sandbox.cgroups import Group, find_parents, new_group
 from raysteps.sandbox.lockdown import syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, reap, usage_of
@@ -27,13 +27,6 @@ from raysteps.sandbox.users import can_lend_users, lent_user
 # it waits for a sign before it starts the command.
 
 _START_SECONDS = 30.0
-
-
-def readable(fd: int, seconds: float) -> bool:
-    """Whether there is something to read, or an end, within that time."""
-    poll = select.poll()
-    poll.register(fd, select.POLLIN)
-    return bool(poll.poll(max(0.0, seconds) * 1000))
 
 
 class StartupPipes:
@@ -227,6 +220,8 @@ class Bubblewrap:
             resource.prlimit(first, resource.RLIMIT_NPROC, (most, most))
 
     def run(self, task: Task) -> TaskResult:
+        if task.beside is not None:
+            return run_beside(self.run, task)
         with ExitStack() as stack:
             stack.enter_context(adopting_orphans())
             user = stack.enter_context(lent_user()) if self._lends_users else None
@@ -234,7 +229,7 @@ class Bubblewrap:
             group = stack.enter_context(new_group(self._parents, task.limits)) if self._parents else None
             inside, words = self._inside(task, place, stack)
             control = StartupPipes(stack)
-            stdin = nameless_file(task.stdin, stack)
+            stdin = nameless_file(task.stdin, stack) if task.wire is None else task.wire.stdin
             fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
             words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
             changed = user if self._mode.starts_as_user else None
@@ -247,7 +242,7 @@ class Bubblewrap:
                     [*limits, self._program, "--args", str(options_fd), "--", *command],
                     env={},  # of the first process inside, whatever --clearenv does for the command
                     stdin=stdin,
-                    stdout=subprocess.PIPE,
+                    stdout=subprocess.PIPE if task.wire is None else task.wire.stdout,
                     stderr=subprocess.PIPE,
                     pass_fds=(control.status_fd, control.gate_fd, options_fd, *inside.fds, *fences),
                     cwd="/",
@@ -258,6 +253,8 @@ class Bubblewrap:
             )
             stack.callback(process.kill)
             control.hand_over()
+            if task.wire is not None:
+                task.wire.hand_over()
             first = control.first_process()
             if first is None:
                 raise _cannot_start(process)
@@ -268,7 +265,7 @@ class Bubblewrap:
                 group.join(first)
             self._limit_processes(first, task.limits)
             control.open_gate()
-            seen = monitor(process, start, task.limits, running)
+            seen = monitor(process, start, task, running)
             # What the kernel ended with its namespace, nobody waited for; there the last look has to do.
             cpu = max(seen.cpu_seconds + running.reap(), seen.watched_cpu_seconds)
             code = control.exit_code()

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from raysteps.sandbox.task import LimitHit, Limits
+from raysteps.sandbox.task import LimitHit, Limits, Task
 
 # What the processes of a task use, as /proc tells it.
 
@@ -121,6 +121,7 @@ def reap(pid: int, handle: int) -> float:
 
 _LOOK_EVERY = 0.05
 _DYING_SECONDS = 2.0
+_FINISHED_SECONDS = 0.5  # for a task that nobody asks any more, to end by itself
 _MEGABYTE = 1 << 20
 
 
@@ -153,16 +154,15 @@ def _limit_reached(usage: Usage, limits: Limits) -> LimitHit:
 
 
 class _Watch:
-    def __init__(
-        self, process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: MonitoredTask
-    ) -> None:
-        assert process.stdout is not None
-        assert process.stderr is not None
+    def __init__(self, process: "subprocess.Popen[bytes]", start: float, task: Task, watched: MonitoredTask) -> None:
         self._process = process
         self._start = start
-        self._limits = limits
+        self._limits = task.limits
+        self._finished = None if task.wire is None else task.wire.finished
         self._watched = watched
-        self._kept = {process.stdout.fileno(): bytearray(), process.stderr.fileno(): bytearray()}
+        self._stdout, self._stderr = bytearray(), bytearray()  # a task on a wire has no stdout
+        pipes = ((process.stdout, self._stdout), (process.stderr, self._stderr))
+        self._kept = {pipe.fileno(): kept for pipe, kept in pipes if pipe is not None}
         self._stopped: LimitHit = ""
         self._cpu = 0.0
         self._watched_cpu = 0.0
@@ -191,9 +191,9 @@ class _Watch:
         self._watched_cpu = max(self._watched_cpu, usage.cpu_seconds)
         return _limit_reached(usage, self._limits)
 
-    def _look(self, now: float) -> None:
+    def _look(self, now: float, last: float) -> None:
         why = self._measure()
-        if now - self._start > self._limits.wall_seconds:
+        if now > last:
             self._stop("wall")
         elif why:
             self._stop(why)
@@ -201,17 +201,19 @@ class _Watch:
     def _listen(self, selector: selectors.BaseSelector) -> None:
         """Until the process has ended."""
         look_at = time.monotonic() + _LOOK_EVERY
+        last = self._start + self._limits.wall_seconds
         while not self._has_ended():
             now = time.monotonic()
-            last = self._start + self._limits.wall_seconds
             if now >= look_at or now > last:
-                self._look(now)
+                self._look(now, last)
                 look_at = time.monotonic() + _LOOK_EVERY
             for key, _ in selector.select(max(0.001, min(look_at, last + 0.001) - now)):
                 if key.fd in self._kept:
                     self._read(key.fd, selector)
-                else:
-                    selector.unregister(key.fileobj)  # it ended; the loop's condition finds out how
+                    continue
+                selector.unregister(key.fileobj)  # it ended; the loop's condition finds out how
+                if key.fd == self._finished:
+                    last = min(last, time.monotonic() + _FINISHED_SECONDS)
 
     def _listen_on(self, selector: selectors.BaseSelector) -> None:
         """What is left in the pipes; a process that escaped the killing does not hold the grader for long."""
@@ -227,7 +229,8 @@ class _Watch:
         handle = os.pidfd_open(self._process.pid) if hasattr(os, "pidfd_open") else -1
         try:
             with selectors.DefaultSelector() as selector:
-                for fd in (*self._kept, *((handle,) if handle >= 0 else ())):
+                others = (handle if handle >= 0 else None, self._finished)
+                for fd in (*self._kept, *(fd for fd in others if fd is not None)):
                     selector.register(fd, selectors.EVENT_READ)
                 self._listen(selector)
                 last = self._measure()
@@ -237,11 +240,10 @@ class _Watch:
         finally:
             if handle >= 0:
                 os.close(handle)
-        out, err = (bytes(buffer) for buffer in self._kept.values())
         return MonitorReport(
             status=self._process.returncode,
-            stdout=out,
-            stderr=err,
+            stdout=bytes(self._stdout),
+            stderr=bytes(self._stderr),
             cpu_seconds=self._cpu,
             watched_cpu_seconds=self._watched_cpu,
             seconds=seconds,
@@ -249,6 +251,6 @@ class _Watch:
         )
 
 
-def monitor(process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: MonitoredTask) -> MonitorReport:
+def monitor(process: "subprocess.Popen[bytes]", start: float, task: Task, watched: MonitoredTask) -> MonitorReport:
     """Stays until the process has ended and everything that belongs to it was killed. Nobody else may wait for it."""
-    return _Watch(process, start, limits, watched)()
+    return _Watch(process, start, task, watched)()

@@ -12,6 +12,7 @@ from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step, read_all_steps, read_steps
 from raysteps.course.project import Project
+from raysteps.toolchain.box import BoxLinker
 from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
@@ -74,6 +75,7 @@ class Assembly:
         self._core_names: set[str] = set()  # what every step may ask for
         for part in _FOLDERS:
             (folder / part).mkdir()
+        self._boxes = BoxLinker(folder, description) if description.remote is not None else None
         self._core = self._copy(description.libraries["core"])
         self._others = [self._copy(description.libraries[name]) for name in ("testing", "render", "io")]
         self._others += description.catch2
@@ -85,8 +87,11 @@ class Assembly:
         if self._description.compiler_version.startswith("GNU"):
             for step in self._steps:
                 precompile(self._description, self._folder / "include", step.id)
+        if self._boxes is not None:
+            self._boxes.copy_parts()
         if self._description.seal is not None:
-            defined = symbols_of(self._description.seal.nm, self._core).defined
+            core = self._core if self._boxes is None else self._boxes.core
+            defined = symbols_of(self._description.seal.nm, core).defined
             self._core_names = {name for name in defined if _NOT_FOR_STEPS not in name}
         for step in self._steps:
             self._add_step(step)
@@ -101,19 +106,42 @@ class Assembly:
         raytrace = [self._copy(path) for path in self._description.raytrace]
         worker = [self._copy(path) for path in self._description.worker]
         more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
-        for kind, objects in (("raytrace", raytrace), ("worker", worker)):
-            self._link_reference(kind, [*objects, *more] if kind == "raytrace" else objects)
-            for step in self._course:
-                self._add_program(f"{kind}-isolated-{step.number}", objects, [step])
+        self._link_reference("raytrace", [*raytrace, *more])
+        self._link_reference("worker", worker)
+        self._write_rest("libraries", [*self._others, self._core])
+        self._write_rest("raytrace", raytrace)
+        self._write_rest("worker", worker)
         tests: Tests = {}
         for at, step in enumerate(self._course, start=1):
-            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._course[:at])
             objects = [self._copy(path) for path in self._description.tests[step.number]]
+            self._write_rest(f"test-{step.number}", objects)
             self._link_reference(f"test-{step.number}", objects)
-            self._add_program(f"test-isolated-{step.number}", objects, [step])
             cases = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
             tests[step.id] = {name: sorted(tags) for name, tags in cases.items()}
+            if not self._add_remote(self._course[:at]):
+                self._add_plain(raytrace, worker, objects, self._course[:at])
         return tests
+
+    def _add_remote(self, up_to: list[Step]) -> bool:
+        """Programs that ask the last step, and those that ask all of them; none where one of them cannot be asked."""
+        numbers = [step.number for step in up_to]
+        if self._boxes is None or not all(self._boxes.can_be_asked(number) for number in numbers):
+            return False
+        last = numbers[-1]
+        for kind in ("raytrace", "worker", f"test-{last}"):
+            self._boxes.home(kind, [last], self._folder)
+        self._boxes.home("raytrace", numbers, self._folder)
+        self._boxes.box([last], self._folder)
+        self._boxes.box(numbers, self._folder)
+        return True
+
+    def _add_plain(self, raytrace: list[Path], worker: list[Path], tests: list[Path], up_to: list[Step]) -> None:
+        """Programs that load the steps."""
+        last = up_to[-1]
+        self._add_program(f"raytrace-isolated-{last.number}", raytrace, [last])
+        self._add_program(f"worker-isolated-{last.number}", worker, [last])
+        self._add_program(f"test-isolated-{last.number}", tests, [last])
+        self._add_program(f"raytrace-cumulative-{last.number}", raytrace, up_to)
 
     def _add_own_programs(self) -> Tests:
         """In a students' kit: all steps up to one are the student's, and those after it are stubs."""
@@ -148,7 +176,9 @@ class Assembly:
 
     def _add_step(self, step: Step) -> None:
         built = self._description.steps[step.number]
-        copied = self._objects[step.number] = self._copy(built)
+        copied = self._objects[step.number] = self._folder / "parts" / "references" / f"{step.number}.o"
+        copied.parent.mkdir(exist_ok=True)
+        shutil.copyfile(built, copied)
         steps = self._folder / "steps"
         tools = self._description.seal
         if tools is None:
@@ -170,17 +200,18 @@ class Assembly:
         parts = [*objects, *self._objects.values(), *self._others, self._core]
         link(self._description, parts, executable(self._folder / "bin" / name))
 
+    def _write_rest(self, name: str, parts: list[Path]) -> None:
+        """What is linked later, by name."""
+        names = [path.relative_to(self._folder) if path.is_relative_to(self._folder) else path for path in parts]
+        write_bytes(self._folder / "rest" / f"{name}.txt", "".join(f"{path.as_posix()}\n" for path in names).encode())
+
     def _add_program(self, name: str, objects: list[Path], mine: list[Step]) -> None:
         """Linked with placeholders where steps are libraries, so that nothing is linked for a submission; else a list
         of what to link."""
         numbers = [step.number for step in mine]
         parts = [*objects, *(path for number, path in self._objects.items() if number not in numbers)]
         if self._description.seal is None:
-            others = [*parts, *self._others, self._core]
-            names = [path.relative_to(self._folder) if path.is_relative_to(self._folder) else path for path in others]
-            write_bytes(
-                self._folder / "rest" / f"{name}.txt", "".join(f"{path.as_posix()}\n" for path in names).encode()
-            )
+            self._write_rest(name, [*parts, *self._others, self._core])
             return
         libraries = [self._folder / "placeholders" / library_name(number) for number in numbers]
         whole: list[str | Path] = ["-Wl,--whole-archive", self._core, "-Wl,--no-whole-archive"]

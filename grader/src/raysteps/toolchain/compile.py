@@ -1,6 +1,7 @@
 """Compiles and links one step of a student, in the sandbox. The commands are the kit's; only the source is not."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +11,8 @@ from raysteps.common.platform import executable
 from raysteps.common.process import run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
-from raysteps.sandbox.task import Input, Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
+from raysteps.toolchain.box import BoxLinker
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
@@ -108,9 +110,17 @@ class Compiled:
 
 @dataclass(frozen=True)
 class Program:
-    """How a program is started."""
+    """A student's step, and the program that needs it: one process, or where `home` is given two, of which the student's
+    code is in the first."""
 
     words: tuple[Word, ...]
+    home: Path | None = None
+
+    def task(self, args: tuple[Word, ...], limits: Limits, stdin: bytes = b"") -> Task:
+        """The program run with these arguments."""
+        if self.home is None:
+            return Task((*self.words, *args), limits, stdin=stdin)
+        return Task(self.words, limits, beside=Beside((Input(self.home), *args), stdin))
 
 
 class StudentBuild:
@@ -174,15 +184,22 @@ class StudentBuild:
         return tuple(shown.get(name, name) for name in names)
 
     def program(
-        self, kind: Kind, step: Step, binaries: list[Path], limits: StepLimits, *, together: bool = False
+        self, kind: Kind, step: Step, binaries: Mapping[str, Path], limits: StepLimits, *, together: bool = False
     ) -> tuple[Program | None, TaskResult | None]:
-        """The kit's program with these binaries, one for each step that it lacks; none, and what the linker said, when
-        they do not fit."""
+        """The kit's program with these binaries, by step; none, and what the linker said, when they do not fit. All
+        other steps are the reference's; those up to this one are loaded like the student's if `together`."""
+        own = [other for other in self._kit.steps if other.number in binaries]
+        boxes = self._kit.boxes(own) if self._kit.interpreter is not None else None
+        if boxes is not None:
+            return self._boxed(boxes, kind, own, binaries), None
+        all_binaries = list(binaries.values())
+        if together:
+            missing = [one for one in self._kit.steps if one.index <= step.index and one.number not in binaries]
+            all_binaries += [self._kit.reference_step(other) for other in missing]
         if self._kit.interpreter is not None:
             program = self._kit.program(kind, step, together=together)
-            libraries = Input(self._in_one_folder(f"{kind}-{step.number}", binaries), "steps")
-            return Program((self._kit.interpreter, "--library-path", libraries, Input(program, kind))), None
-        parts = [*binaries, *self._kit.rest(kind, step, together=together)]
+            return Program((*self._loader(f"{kind}-{step.number}", all_binaries), Input(program, kind))), None
+        parts = [*all_binaries, *self._kit.rest(kind, step, together=together)]
         output = Output(executable(Path("program")).name)
         target: Word = output
         inputs: list[Word] = [Input(part, part.name) for part in parts]
@@ -194,6 +211,18 @@ class StudentBuild:
         path = self._write(executable(Path(name)).name, data)
         path.chmod(0o755)
         return Program((Input(path, kind),)), None
+
+    def _boxed(self, boxes: BoxLinker, kind: Kind, own: list[Step], binaries: Mapping[str, Path]) -> Program:
+        numbers = [step.number for step in own]
+        box = boxes.box(numbers, self._folder)
+        home = boxes.home(f"test-{numbers[-1]}" if kind == "test" else kind, numbers, self._folder)
+        loader = self._loader(box.name, [binaries[number] for number in numbers])
+        return Program((*loader, Input(box, "box"), *numbers), home)
+
+    def _loader(self, name: str, libraries: list[Path]) -> tuple[Word, ...]:
+        """Starts a program with these libraries."""
+        assert self._kit.interpreter is not None
+        return (self._kit.interpreter, "--library-path", Input(self._in_one_folder(name, libraries), "steps"))
 
     def _in_one_folder(self, name: str, libraries: list[Path]) -> Path:
         """Where the loader looks; a single library may stay where it is."""

@@ -1,7 +1,7 @@
 """The kit as it grades: framework, references and tests, built once and only read from then on."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -9,6 +9,7 @@ from typing import Literal
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.toolchain.box import BoxLinker
 from raysteps.toolchain.link import Description, library_name
 
 Kind = Literal["raytrace", "worker", "test"]
@@ -70,6 +71,11 @@ class BuiltKit:
         """The kit's names that the step may ask for: core's, and the functions of steps up to it."""
         names = json.loads((self.folder / "steps" / f"{step.number}.allowed.json").read_text(encoding="utf-8"))
         return frozenset(names)
+
+    def boxes(self, steps: Collection[Step]) -> BoxLinker | None:
+        """What asks these steps in another process; none where programs load them."""
+        boxes = BoxLinker(self.folder, self.description) if self.description.remote is not None else None
+        return boxes if boxes is not None and all(boxes.can_be_asked(step.number) for step in steps) else None
 
     def program(self, kind: Kind, step: Step, *, together: bool = False) -> Path:
         """A program that lacks the student's library of this step (`together`: of all up to it)."""

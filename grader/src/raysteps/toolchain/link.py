@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
@@ -23,6 +23,44 @@ class SealTools:
 
     nm: str
     readelf: str
+
+
+def _words(values: list[object]) -> list[str]:
+    return [str(value) for value in values if str(value)]
+
+
+def _paths(values: list[object]) -> list[Path]:
+    return [Path(value) for value in _words(values)]
+
+
+@dataclass(frozen=True)
+class RemoteParts:
+    """What a program is linked from whose steps are asked in another process, and the box that they are in."""
+
+    wire: list[Path]
+    home: Path
+    box: Path
+    core: Path  # what a step in a box may ask for
+    stand_ins: dict[str, Path]  # by number: of a step that is in the box, or asked by it
+    services: dict[str, Path]
+    later: dict[str, Path]  # for a box in which the step must not be
+
+    @classmethod
+    def of(cls, table: dict[str, Any]) -> "RemoteParts":
+        """The part of kit.json."""
+
+        def by_number(name: str) -> dict[str, Path]:
+            return {number: Path(path) for number, path in table[name].items()}
+
+        return cls(
+            wire=_paths(table["wire"]),
+            home=Path(table["home"]),
+            box=Path(table["box"]),
+            core=Path(table["core"]),
+            stand_ins=by_number("stand_ins"),
+            services=by_number("services"),
+            later=by_number("later"),
+        )
 
 
 @dataclass(frozen=True)
@@ -43,6 +81,7 @@ class Description:
     worker: list[Path]  # nothing in a students' kit
     absent: list[Path]  # stand-ins for steps that the kit does not have
     tests: dict[str, list[Path]]
+    remote: RemoteParts | None = None  # none where steps are no libraries, and in a students' kit
     driver: str = "gnu"  # or "msvc": whose words the compiler takes
 
     @property
@@ -53,14 +92,6 @@ class Description:
     def more_includes(self) -> list[Path]:
         """Folders of libraries' headers that the compiler does not look into by itself."""
         return [folder for folder in self.system_includes if str(folder) not in _KNOWN_TO_COMPILER]
-
-
-def _words(values: list[object]) -> list[str]:
-    return [str(value) for value in values if str(value)]
-
-
-def _paths(values: list[object]) -> list[Path]:
-    return [Path(value) for value in _words(values)]
 
 
 def read_description(path: Path) -> Description:
@@ -83,6 +114,7 @@ def read_description(path: Path) -> Description:
             worker=_paths(table["worker"]),
             absent=_paths(table["absent"]),
             tests={number: _paths(objects) for number, objects in table["tests"].items()},
+            remote=None if table.get("remote") is None else RemoteParts.of(table["remote"]),
             driver=str(table.get("driver", "gnu")),
         )
     except (OSError, ValueError, KeyError, TypeError) as error:

@@ -1,0 +1,159 @@
+"""Runs a task in a sandbox and beside it, outside, the trusted program that asks it. What decides points comes from the
+latter: a student's code answers questions, and never says how it did."""
+
+import os
+import resource
+import select
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome, PipeReader, kill_process_group, new_session
+from raysteps.common.text import printable, shorten
+from raysteps.sandbox.task import Input, Limits, Output, Task, TaskResult, Wire, Word, read_regular
+
+WIRE_VARIABLE = "RAYSTEPS_BOX"  # names the two ends of the wire to the program beside the box
+_MEGABYTE = 1 << 20
+_MEMORY_MB = 4096  # of the trusted program, which holds what the box sends
+_ERRORS_KB = 64
+
+# How a program beside a box ends, as framework/remote/wire.hpp says it.
+_CLOSED = 70
+_WHY_BROKEN = {
+    71: "something else than the step's functions wrote to the pipe of their answers",
+    72: "the functions called each other without an end",
+}
+
+
+@dataclass(frozen=True)
+class _Ended:
+    """How the trusted program ended."""
+
+    code: int
+    stdout: str
+    stderr: str
+    outputs: dict[str, bytes]
+    seconds: float
+    cpu_seconds: float
+    timed_out: bool
+
+
+def readable(fd: int, seconds: float) -> bool:
+    """Whether there is something to read, or an end, within that time."""
+    poll = select.poll()
+    poll.register(fd, select.POLLIN)
+    return bool(poll.poll(max(0.0, seconds) * 1000))
+
+
+def _words(command: tuple[Word, ...], folder: Path) -> list[str]:
+    def path_of(word: Word) -> str:
+        if isinstance(word, Input):
+            return str(word.path)
+        return str(folder / word.name) if isinstance(word, Output) else word
+
+    return [path_of(word) for word in command]
+
+
+def _limit_memory(process: "subprocess.Popen[bytes]") -> None:
+    if sys.platform == "linux":
+        with suppress(ProcessLookupError):
+            resource.prlimit(process.pid, resource.RLIMIT_AS, (_MEMORY_MB * _MEGABYTE,) * 2)
+
+
+def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, float, bool]:
+    """The exit code, the processor seconds, and whether it had to be ended."""
+    handle = os.pidfd_open(process.pid)
+    try:
+        timed_out = not readable(handle, seconds)
+        if timed_out:
+            kill_process_group(process)
+        _, status, used = os.wait4(process.pid, 0)
+    finally:
+        os.close(handle)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, used.ru_utime + used.ru_stime, timed_out
+
+
+def _run_outside(task: Task, pipes: tuple[int, int], limits: Limits) -> _Ended:
+    """With its ends of the wire, which are closed when it has ended."""
+    assert task.beside is not None
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as name, tempfile.TemporaryFile() as stdin:
+        folder = Path(name)
+        stdin.write(task.beside.stdin)
+        stdin.seek(0)
+        try:
+            process = subprocess.Popen(
+                _words(task.beside.command, folder),
+                env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]}", "LC_ALL": "C"},
+                stdin=stdin,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                pass_fds=pipes,
+                cwd=folder,
+                **new_session(),
+            )
+        except OSError as error:
+            raise GraderFault(f"{task.beside.command[0]}: cannot be started: {error}") from error
+        finally:
+            for file in pipes:
+                os.close(file)
+        _limit_memory(process)
+        said = PipeReader(process.stdout, limits.output_kb * 1024), PipeReader(process.stderr, _ERRORS_KB * 1024)
+        code, cpu_seconds, timed_out = _wait(process, limits.wall_seconds)
+        for reader in said:
+            reader.is_at_end(1.0)
+        outputs = {
+            word.name: data
+            for word in task.beside.command
+            if isinstance(word, Output)
+            and (data := read_regular(folder / word.name, limits.file_mb * _MEGABYTE)) is not None
+        }
+        stdout, stderr = (reader.bytes().decode("utf-8", "replace") for reader in said)
+        return _Ended(code, stdout, stderr, outputs, time.monotonic() - start, cpu_seconds, timed_out)
+
+
+def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
+    """What became of the student's code, as if it had run in the trusted program itself."""
+    outcome = replace(inside.outcome, stdout=outside.stdout)
+    cpu_seconds = inside.cpu_seconds + outside.cpu_seconds
+    if outside.code in (0, 1):  # nothing was left to ask: whatever the box does afterwards
+        ended = Outcome(outside.code, False, outside.stdout, inside.outcome.stderr + outside.stderr, outside.seconds)
+        return TaskResult(ended, outside.outputs, cpu_seconds, "")
+    if outside.code in _WHY_BROKEN:
+        ended = replace(outcome, code=1, timed_out=False, stderr=_WHY_BROKEN[outside.code])
+        return TaskResult(ended, outside.outputs, cpu_seconds, "")
+    if outside.timed_out and not inside.stopped:
+        ended = replace(outcome, code=-signal.SIGKILL, timed_out=True, seconds=outside.seconds)
+        return TaskResult(ended, outside.outputs, cpu_seconds, "wall")
+    if outside.code == _CLOSED or outside.timed_out:
+        return TaskResult(outcome, outside.outputs, cpu_seconds, inside.stopped)
+    said = shorten(printable(outside.stderr).strip(), 500)
+    raise GraderFault(f"the program beside the box ended with {outside.code}: {said}")
+
+
+def run_beside(run: Callable[[Task], TaskResult], task: Task) -> TaskResult:
+    """`run` runs the task alone."""
+    to_box, from_home = os.pipe()
+    to_home, from_box = os.pipe()
+    wire = Wire(to_box, from_box)
+    try:
+        with ThreadPoolExecutor(max_workers=1) as pool:
+            inside: Future[TaskResult] = pool.submit(run, replace(task, beside=None, wire=wire))
+            # A box that could not be started leaves a wire that nobody holds any more.
+            inside.add_done_callback(lambda _: wire.hand_over())
+            try:
+                outside = _run_outside(task, (to_home, from_home), task.limits)
+            finally:
+                wire.finish()
+            return _result(inside.result(), outside)
+    finally:
+        wire.close()
