@@ -8,8 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, reason
+from raysteps.common.documents import convert, plain
+from raysteps.common.errors import GraderFault, RaystepsError, reason
 from raysteps.common.files import write_bytes
+from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.grading.build_messages import link_message
@@ -66,6 +68,7 @@ class HiddenStepGrader(StepGrader):
         super().__init__(work, step, limits, compiled, judged=self._plan is not None)
         self._settings = settings
         self._ran = False
+        self.fault = ""  # of the grader, in this step
         if self._plan is not None:
             self.kinds = ("test", "raytrace", "worker")
 
@@ -106,6 +109,15 @@ class HiddenStepGrader(StepGrader):
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
 
+    def give_up(self, error: Exception) -> StepResult:
+        """What nobody foresaw is this step's alone, and nothing that was seen of it until then counts: a grader that
+        failed knows nothing of a step."""
+        self.fault = f"{self.step.id}: {type(error).__name__}: {shorten(printable(str(error)), 300)}"
+        message = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
+        empty = StepResult(self.step.id, "failed", 0.0, self._result.max, self.step.bonus, messages=[message])
+        self._ran, self._result = False, empty
+        return empty
+
     def finish(self, right: Collection[str]) -> StepResult:
         """After all steps were graded alone: does this one work with those before it that are right, by their ids? One
         that is not right is replaced by the reference's: its mistake costs its own step only."""
@@ -137,6 +149,18 @@ class HiddenStepGrader(StepGrader):
         return program, ""
 
 
+def _guarded(act: Callable[[HiddenStepGrader], StepResult], grader: HiddenStepGrader) -> StepResult:
+    """The result, and one of the form that can be written. What the kit itself says is wrong with it ends it all."""
+    try:
+        result = act(grader)
+        convert(plain(result), StepResult)
+        return result
+    except RaystepsError:
+        raise
+    except Exception as error:
+        return grader.give_up(error)
+
+
 def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
@@ -151,8 +175,9 @@ def grade_submission(
     *,
     jobs: int = 1,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only. So many `jobs` are
-    done at a time; that changes a grade only where a step is near its time limit."""
+    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only; where it was the
+    grader that failed in one, GraderFault says so when all is written. So many `jobs` are done at a time; that changes
+    a grade only where a step is near its time limit."""
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
@@ -165,9 +190,10 @@ def grade_submission(
             graders = [
                 HiddenStepGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
             ]
-            alone = list(pool.map(HiddenStepGrader.grade, graders))
+            alone = list(pool.map(partial(_guarded, HiddenStepGrader.grade), graders))
             right = {result.id for result in alone if is_right(result)}
-            steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
+            finish = partial(HiddenStepGrader.finish, right=right)
+            steps = list(pool.map(partial(_guarded, finish), graders))
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:
@@ -175,4 +201,9 @@ def grade_submission(
         write_results(shown, out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
+    faults = [grader.fault for grader in graders if grader.fault]
+    if faults:
+        raise GraderFault(
+            f"not graded: {'; '.join(faults)}; what became of the other steps is in {out / 'results.json'}"
+        )
     return results
