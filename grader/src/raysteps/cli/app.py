@@ -30,6 +30,7 @@ class Command:
     about: str
     module: str
     kit: Kit = "whole"
+    supervised: bool = False  # its module has `seconds_at_most(words)`, too
 
 
 _IMPL = "{impl}"  # where there is a reference, its programs can be chosen
@@ -52,7 +53,7 @@ COMMANDS = (
     Command("report", "make report.html of results that are there already", "raysteps.cli.report", "any"),
     Command("update", "take in a newer kit; your own files stay", "raysteps.cli.update", "students"),
     Command("replay", "ask a hidden case again, as `check` or `grade` wrote it", "raysteps.cli.replay"),
-    Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade"),
+    Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade", supervised=True),
     Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
@@ -201,5 +202,20 @@ def main(argv: Sequence[str] | None = None) -> int:
             code = module.run(project, new_parser(project, command.name).parse_args(words), console_here())
         sys.stdout.flush()
         return code
+    except BaseException as error:
+        return exit_code_of(error)
+
+
+def run_process(argv: Sequence[str] | None = None) -> int:
+    """The same for a process that does nothing else: a command that says how long it may take is ended after that."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    project = here()
+    command = next((one for one in _commands(project) if words[:1] == [one.name] and one.supervised), None)
+    if command is None:
+        return main(words)
+    from raysteps.cli.supervise import supervised  # rarely
+
+    try:
+        return supervised(lambda: main(words), _module(project, command).seconds_at_most(words))
     except BaseException as error:
         return exit_code_of(error)
