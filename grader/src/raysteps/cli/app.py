@@ -5,6 +5,7 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import takewhile
@@ -14,7 +15,7 @@ from typing import Any, Literal
 from rich.console import Console
 
 from raysteps import __version__
-from raysteps.common.errors import RaystepsError
+from raysteps.common.errors import GraderFault, RaystepsError, is_full, reason, reason_and_place
 from raysteps.course.project import Project, here
 
 EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
@@ -149,33 +150,45 @@ def console_here() -> Console:
     return _Console() if sys.stdout.isatty() else _Console(width=_NO_TERMINAL)
 
 
-def _reader_is_gone(error: BaseException) -> bool:
-    """Whether who reads what is printed has read enough, as `head` does. Then nothing more is printed."""
+def _trouble_of_printing() -> OSError | None:
+    """What keeps from printing: who reads it has read enough, as `head` does, or where it goes is full. Then nothing
+    more is printed."""
     try:
         sys.stdout.flush()
-    except BrokenPipeError:
-        pass
-    else:
-        return isinstance(error, _ReaderIsGone)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return True
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return error
+    return None
+
+
+def _tell(text: str) -> None:
+    with suppress(OSError):  # there may be no room for that either
+        print(f"raysteps: {text}", file=sys.stderr)
 
 
 def exit_code_of(error: BaseException) -> int:
     """Says what went wrong; SystemExit and the like are none of its business, and with RAYSTEPS_DEBUG no fault is."""
-    if _reader_is_gone(error):
+    trouble = _trouble_of_printing()
+    if isinstance(error, _ReaderIsGone) or isinstance(trouble, BrokenPipeError):
         return _SIGPIPE
     if isinstance(error, RaystepsError):
-        print(f"raysteps: {error}", file=sys.stderr)
+        _tell(str(error))
         return error.exit_code
     if isinstance(error, KeyboardInterrupt):
-        print("raysteps: interrupted", file=sys.stderr)
+        _tell("interrupted")
         return 130
+    if trouble is not None:
+        _tell(f"what it says cannot be written to where it goes: {reason(trouble)}")
+        return GraderFault.exit_code
+    if isinstance(error, OSError) and is_full(error):
+        where = reason_and_place(error)
+        _tell(f"something cannot be written: {where}; make room and type it again")
+        return GraderFault.exit_code
     if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):
         raise error
     Console(stderr=True).print_exception(max_frames=4)
-    print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
-    return 4
+    _tell("this is a fault of the grader, not of your code")
+    return GraderFault.exit_code
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from raysteps.common.documents import convert, plain
-from raysteps.common.errors import GraderFault, RaystepsError, reason
+from raysteps.common.errors import GraderFault, RaystepsError, reason, reason_and_place
 from raysteps.common.files import write_bytes
 from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import Step
@@ -88,7 +88,8 @@ class HiddenStepGrader(StepGrader):
             raise
         except Exception as error:
             step, most = self.step, self._result.max
-            self.fault = f"{step.id}: {type(error).__name__}: {shorten(printable(str(error)), 300)}"
+            what = reason_and_place(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
+            self.fault = f"{step.id}: {shorten(printable(what), 300)}"
             self._ran = False
             self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
 
