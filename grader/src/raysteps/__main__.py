@@ -1,5 +1,5 @@
 """Entry point of `python -m raysteps`."""
 
-from raysteps.cli.app import main
+from raysteps.cli.app import run_process
 
-raise SystemExit(main())
+raise SystemExit(run_process())

@@ -19,6 +19,8 @@ from raysteps.classroom.database import (
     Registration,
     RunFacts,
     open_database,
+    open_readonly,
+    telling_of,
     transaction,
 )
 from raysteps.classroom.jobs import Answer, Job, from_line, to_line
@@ -216,3 +218,62 @@ def test_what_is_no_answer(change: dict[str, object]) -> None:
     good = json.loads(to_line(Answer("ann", "graded", _results())))
     with pytest.raises(GraderFault, match="this is no answer: "):
         from_line(json.dumps({**good, **change}).encode(), Answer)
+
+
+def _graded_folder(out: Path) -> Path:
+    """A class with a result, and what lies beside its database."""
+    with closing(ClassDatabase(out)) as database:
+        run = _begin(database)
+        database.record(run, _answer(5, **{f"p{n}": bytes([n]) * 5000 for n in range(50)}), "key")
+        database.end_run(run, "complete", [])
+    (out / "class.json").write_text("{}")
+    return out / "class.sqlite"
+
+
+@pytest.mark.parametrize("empty", [b"", None], ids=["no bytes", "no rows"])
+def test_an_emptied_database_is_never_graded_into(tmp_path: Path, empty: bytes | None) -> None:
+    """Else a whole class would be graded anew, silently, over the results that are there."""
+    path = _graded_folder(tmp_path)
+    if empty is None:
+        path.unlink()
+        with closing(ClassDatabase(tmp_path / "..")):
+            (tmp_path.parent / "class.sqlite").rename(path)
+    else:
+        path.write_bytes(empty)
+    with pytest.raises(UsageError, match=r"is empty, but class\.json beside it .* Put back a copy of it,") as told:
+        ClassDatabase(tmp_path)
+    assert "name another --out" in str(told.value)
+    path.unlink()
+    ClassDatabase(tmp_path).close()  # deleted on purpose
+
+
+@pytest.mark.parametrize("where", ["start", "middle"])
+def test_a_damaged_database_is_told_with_a_way_back(tmp_path: Path, where: str) -> None:
+    path = _graded_folder(tmp_path)
+    data = bytearray(path.read_bytes())
+    at = 0 if where == "start" else 5 * 4096
+    data[at : at + 16 * 4096 if at else 100] = b"\xa5" * (16 * 4096 if at else 100)
+    path.write_bytes(data)
+    for act in (lambda: ClassDatabase(tmp_path).close(), lambda: open_readonly(path).__enter__()):
+        with pytest.raises(UsageError, match=r"of a class: .* it is damaged, .* Put back a copy") as told:
+            act()
+        assert str(path) in str(told.value)
+        assert ".recover" in str(told.value)
+    assert path.read_bytes() == data
+
+
+def test_a_full_disk_is_the_graders_fault(tmp_path: Path) -> None:
+    """And what was recorded before stays."""
+    with closing(ClassDatabase(tmp_path)) as database:
+        run = _begin(database)
+        assert database.record(run, _answer(5), "key")
+        database.connection.execute("PRAGMA max_page_count = 30")
+        again = _begin(database, "b")
+        with (
+            pytest.raises(GraderFault, match="full; make room, then go on"),
+            telling_of(tmp_path, "used"),
+        ):
+            database.record(again, _answer(9, big=bytes(1 << 20)), "key")
+        current = database.current("ann")
+        assert current is not None
+        assert current["points"] == 5

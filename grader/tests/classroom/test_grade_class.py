@@ -343,3 +343,24 @@ def test_what_this_machine_cannot_read_is_a_fault(tmp_path: Path, handed_in: Pat
     out = tmp_path / "out"
     assert grade_class(handed_in, "--out", out) == 4
     assert _document(out)["faults"] == ["s5"]
+
+
+def test_a_grader_that_hangs_is_given_up_and_not_waited_for_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The class goes on; whoever wants to try again says so by another limit."""
+    monkeypatch.setenv("FAKE_LOG", str(tmp_path / "log.txt"))
+    write_entry(tmp_path / "in", "ann", "// points 4\n")
+    write_entry(tmp_path / "in", "bob", "// hang\n")
+    write_entry(tmp_path / "in", "joe", "// points 2\n")
+    words = (tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1, "--limit", "submission_seconds=4")
+    for options, begun in (((), ["ann", "bob", "joe"]), (("--resume",), [])):
+        (tmp_path / "log.txt").write_text("")
+        assert grade_class(*words, *options) == 4
+        lines = (tmp_path / "log.txt").read_text().splitlines()
+        assert [line[6:] for line in lines if line.startswith("begin ")] == begun
+        document = json.loads((tmp_path / "out" / "class.json").read_text())
+        assert document["faults"] == ["bob"]
+        assert "the grader gave up after 8 s; look at the submission by hand" in capsys.readouterr().out
+    write_entry(tmp_path / "in", "bob", "// points 1\n")
+    assert grade_class(*words, "--resume") == 0

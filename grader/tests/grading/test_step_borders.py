@@ -5,9 +5,14 @@ from pathlib import Path
 import pytest
 from conftest import MakeSubmission, Sources
 
+from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
+from raysteps.grading import pipeline
 from raysteps.grading.pipeline import grade_submission
-from raysteps.results.model import StepResult
+from raysteps.judge.hidden_tests import run_hidden_tests
+from raysteps.results.model import HiddenResult, StepResult
 from raysteps.results.settings import Settings
+from raysteps.results.store import read_results
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -124,3 +129,24 @@ def test_the_standard_library_is_within_reach(
     source = headers + _with(solved, use, "core/ray.hpp")[STEP]
     result = _grade(kit, make_submission("library", {STEP: source}), tmp_path / "out")
     assert result.status == "passed", result.messages
+
+
+def test_a_surprise_in_one_step_is_told_and_leaves_the_others_alone(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What nobody foresaw is the grader's fault, exit code 4; what it saw of other steps is written all the same."""
+
+    def surprised(step: Step, *rest: object) -> list[HiddenResult]:
+        if step.id == STEP:
+            raise ZeroDivisionError("\x1b[31mnobody thought of it")
+        return run_hidden_tests(step, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(pipeline, "run_hidden_tests", surprised)
+    other = "07-tone-mapping"
+    submission = load_submission(make_submission("jo", {STEP: solved[STEP], other: solved[other]}), kit.steps)
+    with pytest.raises(GraderFault, match=f"^not graded: {STEP}: ZeroDivisionError: nobody thought of it; "):
+        grade_submission(kit, submission, Settings(only=(STEP, other)), LimitsOnly(), tmp_path)
+    lost, kept = read_results(tmp_path / "results.json").steps
+    assert (lost.status, lost.points, lost.tests) == ("failed", 0, [])
+    assert "not graded, by a fault of the grader" in lost.messages[0]
+    assert (kept.status, kept.points) == ("passed", kept.max)

@@ -1,7 +1,7 @@
 """A grader that only reads what it is told in the sources of step 01, and a command line that uses it.
 
 `// points 7` gives points, `// wait 0.5` takes time, `// die`, `// die once`, `// fault`, `// oops` go wrong,
-`// claims` is inconsistent, `// program` starts a program that never ends."""
+`// claims` is inconsistent, `// program` starts a program that never ends, `// hang` never ends itself."""
 
 import argparse
 import os
@@ -60,6 +60,8 @@ class FakeGrader:
             raise GraderFault("the moon is in the way")
         if "// oops" in text:
             raise ZeroDivisionError("oops")
+        if "// hang" in text:
+            re.match("(a+)+b", "a" * 60)
         if "// program" in text:
             program = subprocess.Popen(["sleep", "1000"], start_new_session=True)
             log(f"program {program.pid}")

@@ -99,6 +99,7 @@ class Range:
         names = re.findall(r'TEST_CASE\("([^"]+)"', "".join(sources))
         return {
             "ABSTRACT": self.listener.abstract,
+            "BLANKS": " a" * 30_000,
             "DATABASE": str(self.planted.database),
             "DIGITS": "9" * 6000,
             "HOST": socket.gethostname(),
@@ -106,6 +107,7 @@ class Range:
             "LONG": "x" * 900_000,
             "NAME": attack.submission or "submission",
             "OUT": str(out),
+            "PATHS": "/a" * 450_000,
             "PICTURES": lambda: self._pictures(step),
             "PID": str(os.getpid()),
             "PID_NAMESPACE": os.readlink("/proc/self/ns/pid"),  # noqa: PTH115

@@ -25,9 +25,9 @@ def main(root: str, words: list[str]) -> int:
             _set_up(venv)
         elif venv.is_this():
             sys.argv[1:] = words
-            from raysteps.cli.app import main as run
+            from raysteps.cli.app import run_process
 
-            return run(words)
+            return run_process(words)
         return venv.run(words)
     except CannotSetUp as problem:
         say(str(problem))

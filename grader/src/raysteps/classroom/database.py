@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from raysteps.classroom.jobs import Answer
 from raysteps.common.documents import plain
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.results.settings import Feedback, Settings
 
 # The tables of class.sqlite, and how the file is opened.
@@ -131,14 +131,56 @@ def version_of(connection: sqlite3.Connection, path: Path) -> int:
     return int(version)
 
 
+_DAMAGED = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
+_NO_ROOM = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
+
+
+def _way_back(path: Path) -> str:
+    return (
+        f"nothing was graded anew. Put back a copy of it, or what `sqlite3 {path} .recover` saves of it; to grade the "
+        "whole class anew, name another --out"
+    )
+
+
+@contextmanager
+def telling_of(path: Path, doing: str) -> Iterator[None]:
+    """What SQLite finds wrong with a file, in words that say what to do."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        kind = (getattr(error, "sqlite_errorcode", None) or 0) & 0xFF  # without what extends it
+        if kind in _NO_ROOM:
+            raise GraderFault(f"{path}: cannot be written: {error}; make room, then go on with --resume") from error
+        advice = f"; it is damaged, and {_way_back(path)}" if kind in _DAMAGED else ""
+        raise UsageError(f"{path}: cannot be {doing} as the database of a class: {error}{advice}") from error
+
+
+def _check_whole(connection: sqlite3.Connection) -> None:
+    (found,) = connection.execute("PRAGMA quick_check(1)").fetchone()
+    if found != "ok":
+        damage = sqlite3.DatabaseError(str(found).replace("\n", " "))
+        damage.sqlite_errorcode = sqlite3.SQLITE_CORRUPT
+        raise damage
+
+
+def _refuse_emptied(connection: sqlite3.Connection, path: Path) -> None:
+    """A database without a run beside results of one: to grade into it would take these for never made."""
+    if connection.execute("SELECT 1 FROM runs LIMIT 1").fetchone() is None:
+        for name in ("class.json", "submissions"):
+            if (path.parent / name).exists():
+                raise UsageError(f"{path}: is empty, but {name} beside it holds results of a class; {_way_back(path)}")
+
+
 def open_database(path: Path) -> sqlite3.Connection:
     """Opens the database of a class, and makes it when there is none."""
-    try:
+    was_there = path.exists()
+    with telling_of(path, "opened"):
         connection = sqlite3.connect(path, isolation_level=None, timeout=30)
         try:
             connection.row_factory = sqlite3.Row
             connection.execute("PRAGMA foreign_keys = ON")
             version_of(connection, path)
+            _check_whole(connection)
             # Where the file system has no shared memory this stays as it is; transactions hold all the same.
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = FULL")
@@ -150,11 +192,11 @@ def open_database(path: Path) -> sqlite3.Connection:
                     connection.execute(f"PRAGMA user_version = {VERSION}")
                 connection.execute(_REUSED)
                 connection.execute(_GIVEN)
+            if was_there:
+                _refuse_emptied(connection, path)
         except BaseException:
             connection.close()
             raise
-    except sqlite3.Error as error:
-        raise UsageError(f"{path}: cannot be opened as the database of a class: {error}") from error
     return connection
 
 
@@ -367,12 +409,11 @@ def open_readonly(path: Path) -> Iterator[sqlite3.Connection]:
     except sqlite3.Error as error:
         raise UsageError(f"{path}: cannot be opened: {error}") from error
     with closing(connection):
-        try:
+        with telling_of(path, "read"):
             connection.row_factory = sqlite3.Row
             connection.execute("BEGIN")
             version = version_of(connection, path)
-        except sqlite3.Error as error:
-            raise UsageError(f"{path}: cannot be read as the database of a class: {error}") from error
+            _check_whole(connection)
         if version != VERSION:
             raise UsageError(f"{path}: nothing has been graded there")
         yield connection

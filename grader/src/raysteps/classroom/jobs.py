@@ -30,6 +30,7 @@ class Job:
     run: str = ""  # uid of the run, by which its jobs can be stopped
 
 
+GAVE_UP = "the grader gave up after"  # so a fault begins that --resume does not wait for again
 _FILE = r"^(pictures(/[A-Za-z0-9_-][A-Za-z0-9._-]*){1,3}\.png|cases/[a-z0-9-]+\.json)$"
 
 

@@ -11,13 +11,12 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from raysteps.classroom.jobs import Answer, Job, from_line, to_line
+from raysteps.classroom.jobs import GAVE_UP, Answer, Job, from_line, to_line
 from raysteps.classroom.process_tree import end_tree
 from raysteps.common.errors import GraderFault
+from raysteps.toolchain.limits import give_up_after
 
 # A process that grades, seen from the one that has it grade.
-
-MOST_SECONDS = 3600.0  # every program has its own limit; this is for what nobody thought of
 
 
 class WorkerDied(Exception):
@@ -54,8 +53,10 @@ class GradingProcess:
         self._overtime = True
         end_tree(self._process.pid)
 
-    def ask(self, job: Job, most_seconds: float = MOST_SECONDS) -> Answer:
-        """Waits for the answer; Died or Overtime when there will be none."""
+    def ask(self, job: Job) -> Answer:
+        """Waits for the answer; WorkerDied or Overtime when there will be none. Programs have limits of their own: the
+        one here is for a grader that hangs itself."""
+        most_seconds = give_up_after(job.settings.limits)
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         timer = threading.Timer(most_seconds, self._end_overtime)
@@ -70,7 +71,7 @@ class GradingProcess:
             timer.cancel()
         if not line.endswith(b"\n"):
             if self._overtime:
-                raise Overtime(f"there was no answer after {most_seconds:.0f} s")
+                raise Overtime(f"{GAVE_UP} {most_seconds:.0f} s; look at the submission by hand")
             raise WorkerDied(self._why())
         return from_line(line, Answer)
 

@@ -13,7 +13,7 @@ from typing import Protocol
 from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import load_entry
-from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.jobs import GAVE_UP, Answer, Job
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
@@ -121,8 +121,10 @@ class Session:
 
     def _is_done(self, name: str, key: str) -> bool:
         current = self.database.current(name)
-        if current is None or current["status"] == "fault" or current["key"] != key:
+        if current is None or current["key"] != key:
             return False
+        if current["status"] == "fault":
+            return str(current["fault"]).startswith(GAVE_UP)
         results = stored_results(current["document"])
         return results is not None and (results.isolation.strong or not self.plan.options.require_sandbox)
 

@@ -182,7 +182,7 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     """What a table cannot say."""
     by_name = {one.name: one for one in document.submissions}
     faults = [f"{name}: {first_line(by_name[name].fault)}" for name in document.faults]
-    _print_list(console, "Not graded because of a fault of the grader; --resume tries again", faults)
+    _print_list(console, "Not graded because of a fault of the grader; --resume tries again unless it gave up", faults)
     missing = ", or a shard is missing" if any(run.shard != "1/1" for run in document.runs) else ""
     _print_list(console, f"Not graded yet; --resume goes on{missing}", document.not_graded)
     _print_list(console, "With an earlier result, because the last run was interrupted", document.outdated)

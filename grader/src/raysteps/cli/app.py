@@ -5,6 +5,7 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import takewhile
@@ -14,7 +15,7 @@ from typing import Any, Literal
 from rich.console import Console
 
 from raysteps import __version__
-from raysteps.common.errors import RaystepsError
+from raysteps.common.errors import GraderFault, RaystepsError, is_full, reason, reason_and_place
 from raysteps.course.project import Project, here
 
 EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
@@ -30,6 +31,7 @@ class Command:
     about: str
     module: str
     kit: Kit = "whole"
+    supervised: bool = False  # its module has `seconds_at_most(words)`, too
 
 
 _IMPL = "{impl}"  # where there is a reference, its programs can be chosen
@@ -52,7 +54,7 @@ COMMANDS = (
     Command("report", "make report.html of results that are there already", "raysteps.cli.report", "any"),
     Command("update", "take in a newer kit; your own files stay", "raysteps.cli.update", "students"),
     Command("replay", "ask a hidden case again, as `check` or `grade` wrote it", "raysteps.cli.replay"),
-    Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade"),
+    Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade", supervised=True),
     Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
@@ -148,33 +150,45 @@ def console_here() -> Console:
     return _Console() if sys.stdout.isatty() else _Console(width=_NO_TERMINAL)
 
 
-def _reader_is_gone(error: BaseException) -> bool:
-    """Whether who reads what is printed has read enough, as `head` does. Then nothing more is printed."""
+def _trouble_of_printing() -> OSError | None:
+    """What keeps from printing: who reads it has read enough, as `head` does, or where it goes is full. Then nothing
+    more is printed."""
     try:
         sys.stdout.flush()
-    except BrokenPipeError:
-        pass
-    else:
-        return isinstance(error, _ReaderIsGone)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return True
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return error
+    return None
+
+
+def _tell(text: str) -> None:
+    with suppress(OSError):  # there may be no room for that either
+        print(f"raysteps: {text}", file=sys.stderr)
 
 
 def exit_code_of(error: BaseException) -> int:
     """Says what went wrong; SystemExit and the like are none of its business, and with RAYSTEPS_DEBUG no fault is."""
-    if _reader_is_gone(error):
+    trouble = _trouble_of_printing()
+    if isinstance(error, _ReaderIsGone) or isinstance(trouble, BrokenPipeError):
         return _SIGPIPE
     if isinstance(error, RaystepsError):
-        print(f"raysteps: {error}", file=sys.stderr)
+        _tell(str(error))
         return error.exit_code
     if isinstance(error, KeyboardInterrupt):
-        print("raysteps: interrupted", file=sys.stderr)
+        _tell("interrupted")
         return 130
+    if trouble is not None:
+        _tell(f"what it says cannot be written to where it goes: {reason(trouble)}")
+        return GraderFault.exit_code
+    if isinstance(error, OSError) and is_full(error):
+        where = reason_and_place(error)
+        _tell(f"something cannot be written: {where}; make room and type it again")
+        return GraderFault.exit_code
     if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):
         raise error
     Console(stderr=True).print_exception(max_frames=4)
-    print("raysteps: this is a fault of the grader, not of your code", file=sys.stderr)
-    return 4
+    _tell("this is a fault of the grader, not of your code")
+    return GraderFault.exit_code
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -201,5 +215,20 @@ def main(argv: Sequence[str] | None = None) -> int:
             code = module.run(project, new_parser(project, command.name).parse_args(words), console_here())
         sys.stdout.flush()
         return code
+    except BaseException as error:
+        return exit_code_of(error)
+
+
+def run_process(argv: Sequence[str] | None = None) -> int:
+    """The same for a process that does nothing else: a command that says how long it may take is ended after that."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    project = here()
+    command = next((one for one in _commands(project) if words[:1] == [one.name] and one.supervised), None)
+    if command is None:
+        return main(words)
+    from raysteps.cli.supervise import supervised  # rarely
+
+    try:
+        return supervised(lambda: main(words), _module(project, command).seconds_at_most(words))
     except BaseException as error:
         return exit_code_of(error)

@@ -4,11 +4,13 @@ import argparse
 import hashlib
 import os
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.common.platform import own_command, quote_command
 from raysteps.course.manifest import choose, read_steps
@@ -24,7 +26,7 @@ from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, submission_name
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.limits import parse_limits
+from raysteps.toolchain.limits import give_up_after, parse_limits
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,17 @@ def _above_0(word: str) -> int:
     if not re.fullmatch(r"[0-9]{1,4}", word) or int(word) == 0:
         raise argparse.ArgumentTypeError(f"{word}: expected a whole number above 0")
     return int(word)
+
+
+def seconds_at_most(words: Sequence[str]) -> float:
+    """How long the command may take that begins with its name; what is wrong with its words is found later."""
+    parser = argparse.ArgumentParser(add_help=False, exit_on_error=False)
+    parser.add_argument("--limit", action="append", default=[])
+    try:
+        changes = parse_limits(parser.parse_known_args(words)[0].limit)
+    except (argparse.ArgumentError, UsageError):
+        changes = {}
+    return give_up_after(changes)
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:

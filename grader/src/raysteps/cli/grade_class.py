@@ -13,7 +13,7 @@ from rich.console import Console
 from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.cluster import Cluster
-from raysteps.classroom.database import LOCK, ClassDatabase
+from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
 from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.local_pool import LocalPool
@@ -188,7 +188,7 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
     options = plan.options
     again = _again(options)
     runner = _runner(plan, grader.fingerprint, meter)
-    with closing(ClassDatabase(options.out)) as database:
+    with telling_of(options.out / FILE, "used"), closing(ClassDatabase(options.out)) as database:
         registered = plan.registered(database.names())
         run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
         names = {row.entry: row.name for row in registered}
@@ -207,7 +207,7 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
 
 
 def _merge(console: Console, folders: list[Path], out: Path) -> int:
-    with _only_one(out), closing(ClassDatabase(out)) as database:
+    with _only_one(out), telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
         missing, warnings = merge(folders, database)
         withdraw_tables(out)
         document = _finish(console, database, out)

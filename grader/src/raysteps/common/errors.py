@@ -32,6 +32,7 @@ _REASONS = {
     errno.EACCES: "no permission",
     errno.EPERM: "no permission",
     errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk is full, or your share of it",
     errno.EROFS: "the disk is read-only",
     errno.ENAMETOOLONG: "the name is too long",
     errno.ELOOP: "its links lead in a circle",
@@ -39,6 +40,11 @@ _REASONS = {
 }
 
 _SHARING_VIOLATION = 32
+
+
+def is_full(error: OSError) -> bool:
+    """Whether something could not be written for want of room."""
+    return error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
 def reason(error: Exception) -> str:

@@ -12,7 +12,7 @@ from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integra
 
 # Makes text that came from a student's program safe to show somewhere else.
 
-_COMMAND = re.compile(r"^(\s*)::", re.MULTILINE)
+_COMMAND = re.compile(r"^([^\S\n]*)::", re.MULTILINE)
 
 
 def one_line(text: str, limit: int = 200) -> str:

@@ -9,6 +9,7 @@ from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
+_MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
 _ERROR = re.compile(
     r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
     re.M,
@@ -16,13 +17,14 @@ _ERROR = re.compile(
 _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
 )
+# What follows the first words of a message is read once, however often these words come again: a source can shape them.
 _MISSING = re.compile(
-    r"undefined reference to [`'](?P<name>.+?)'"
+    r"undefined reference to [`'](?P<name>[^`'\n]+)'"
     r"|(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
 )
 _TWICE = re.compile(
     r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"
-    r"|LNK2005: \"?(?P<theirs>[^\"\n]+?)\"?(?: \([^)\n]*\))? already defined"
+    r"|LNK2005: \"?(?P<theirs>[^\s\"][^\"\n]*)"
 )
 
 
@@ -65,7 +67,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
     if ran.stopped == "memory":
         return "It does not build: the compiler needed more memory than it may have."
-    output = printable(ran.outcome.stderr or ran.outcome.stdout)
+    output = printable((ran.outcome.stderr or ran.outcome.stdout)[:_MAX_READ])
     errors = _errors(output)
     own = [error for error in errors if error.file == step.file]
     for error in own or errors:
@@ -118,10 +120,11 @@ def link_message(ran: TaskResult) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:
         return "It does not build: the linker took too long."
-    said = printable(ran.outcome.stderr + ran.outcome.stdout)  # Microsoft's linker complains on stdout
+    said = printable((ran.outcome.stderr + ran.outcome.stdout)[:_MAX_READ])  # Microsoft's linker complains on stdout
     missing, twice = _MISSING.search(said), _TWICE.search(said)
     if twice is not None:
-        return f"It does not build: {shorten(twice['name'] or twice['theirs'], 200)} is defined twice."
+        name = twice["name"] or twice["theirs"].partition(" already defined")[0]
+        return f"It does not build: {shorten(name, 200)} is defined twice."
     if missing is None:
         return "It does not build: the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)

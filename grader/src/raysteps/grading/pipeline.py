@@ -3,13 +3,16 @@
 import hashlib
 import tempfile
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, reason
+from raysteps.common.documents import convert, plain
+from raysteps.common.errors import GraderFault, RaystepsError, reason, reason_and_place
 from raysteps.common.files import write_bytes
+from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.grading.build_messages import link_message
@@ -32,7 +35,7 @@ from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from raysteps.toolchain.limits import StepLimits, limits_of
+from raysteps.toolchain.limits import StepLimits, limits_of, submission_seconds
 
 
 def _judge_scene(gallery: ImageGrader, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
@@ -56,6 +59,9 @@ def _judge_scene(gallery: ImageGrader, program: Program, scene: HiddenScene, fol
     return result
 
 
+_NOT_GRADED = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
+
+
 class HiddenStepGrader(StepGrader):
     """One step between steps of the reference."""
 
@@ -66,35 +72,55 @@ class HiddenStepGrader(StepGrader):
         super().__init__(work, step, limits, compiled, judged=self._plan is not None)
         self._settings = settings
         self._ran = False
+        self.fault = ""  # of the grader, in this step
         if self._plan is not None:
             self.kinds = ("test", "raytrace", "worker")
 
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        """What nobody foresaw, or a result that cannot be written, is this step's alone, and nothing that was seen of
+        it until then counts: a grader that failed knows nothing of a step. What the kit itself says is wrong with it
+        ends everything."""
+        try:
+            yield
+            convert(plain(self._result), StepResult)
+        except RaystepsError:
+            raise
+        except Exception as error:
+            step, most = self.step, self._result.max
+            what = reason_and_place(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
+            self.fault = f"{step.id}: {shorten(printable(what), 300)}"
+            self._ran = False
+            self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
+
     def grade(self) -> StepResult:
         """The visible tests and pictures, then the judge's cases, and scenes that nobody has seen."""
-        programs = self.programs()
-        if programs is None:
-            return self._result
-        step, plan, result, kit, gallery = self.step, self._plan, self._result, self._work.kit, self._gallery
-        self._run_tests(programs["test"])
-        for case in step.images:
-            result.images.append(judge(gallery, programs["raytrace"], step, case))
-        if plan is not None:
-            seed, folder = self._settings.seed, self._work.folder / step.number
-            ask = ask_student(gallery.sandbox, programs["worker"], gallery.limits)
-            examples = None
-            if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
-                examples = Examples(ask, lambda cases, _: reference_unkept(kit, cases), gallery.out, self._work.say)
-            result.hidden = run_hidden_tests(
-                step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, gallery.limits.seconds, examples
-            )
-            for scene in hidden_scenes(kit.project, step, plan, seed):
-                result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder))
-            result.inconsistent = contradictions(step, plan, result, kit.tests[step.id])
-        result.messages += sum_up(result)
-        if not is_right(result):
-            self._explain(programs)
-        self._ran = True
-        return result
+        with self._guarded():
+            programs = self.programs()
+            if programs is None:
+                return self._result
+            step, plan, result, kit, gallery = self.step, self._plan, self._result, self._work.kit, self._gallery
+            self._run_tests(programs["test"])
+            for case in step.images:
+                result.images.append(judge(gallery, programs["raytrace"], step, case))
+            if plan is not None:
+                seed, folder = self._settings.seed, self._work.folder / step.number
+                ask = ask_student(gallery.sandbox, programs["worker"], gallery.limits)
+                examples = None
+                if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
+                    examples = Examples(ask, lambda cases, _: reference_unkept(kit, cases), gallery.out, self._work.say)
+                seconds = gallery.limits.seconds
+                result.hidden = run_hidden_tests(
+                    step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, seconds, examples
+                )
+                for scene in hidden_scenes(kit.project, step, plan, seed):
+                    result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder))
+                result.inconsistent = contradictions(step, plan, result, kit.tests[step.id])
+            result.messages += sum_up(result)
+            if not is_right(result):
+                self._explain(programs)
+            self._ran = True
+        return self._result
 
     def _explain(self, programs: Programs) -> None:
         """In words why it is not right. Whatever a student's program says, it costs no grade."""
@@ -109,17 +135,18 @@ class HiddenStepGrader(StepGrader):
     def finish(self, right: Collection[str]) -> StepResult:
         """After all steps were graded alone: does this one work with those before it that are right, by their ids? One
         that is not right is replaced by the reference's: its mistake costs its own step only."""
-        if self._ran:
-            step = self.step
-            earlier = [other for other in self._work.kit.steps if other.index < step.index]
-            replaced = [other for other in earlier if other.id not in right]
-            program, why = self._joined([other for other in earlier if other.id in right])
-            if program is None:
-                self._result.cumulative = Integration(False, why)
-            else:
-                own, others = [one for one in (*earlier, step) if one not in replaced], [one.id for one in replaced]
-                self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
-            self._result.status, self._result.points = status_and_points(self._result, step)
+        with self._guarded():
+            if self._ran:
+                step = self.step
+                earlier = [other for other in self._work.kit.steps if other.index < step.index]
+                replaced = [other for other in earlier if other.id not in right]
+                program, why = self._joined([other for other in earlier if other.id in right])
+                if program is None:
+                    self._result.cumulative = Integration(False, why)
+                else:
+                    own, others = [one for one in (*earlier, step) if one not in replaced], [one.id for one in replaced]
+                    self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
+                self._result.status, self._result.points = status_and_points(self._result, step)
         return self._result
 
     def _joined(self, right: list[Step]) -> tuple[Program | None, str]:
@@ -136,6 +163,16 @@ class HiddenStepGrader(StepGrader):
         return program, ""
 
 
+def _tell_of_the_limit(steps: list[StepResult], seconds: float) -> None:
+    """Of all programs together."""
+    for result in steps:
+        if result.status not in ("passed", "not-started"):
+            result.messages.append(
+                f"All programs of a submission together may run for {in_seconds(seconds)}; when these were over, what "
+                "was left was not run."
+            )
+
+
 def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
@@ -150,10 +187,12 @@ def grade_submission(
     *,
     jobs: int = 1,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only. So many `jobs` are
-    done at a time; that changes a grade only where a step is near its time limit."""
+    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only; where it was the
+    grader that failed in one, GraderFault says so when all is written. So many `jobs` are done at a time; that changes
+    a grade only where a step is near its time limit."""
     start = time.monotonic()
-    counted = AccountingSandbox(sandbox)
+    together = submission_seconds(settings.limits)
+    counted = AccountingSandbox(sandbox, together)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
@@ -167,6 +206,8 @@ def grade_submission(
             alone = list(pool.map(HiddenStepGrader.grade, graders))
             right = {result.id for result in alone if is_right(result)}
             steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
+    if counted.is_spent:
+        _tell_of_the_limit(steps, together)
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
     try:
@@ -174,4 +215,9 @@ def grade_submission(
         write_results(shown, out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
+    faults = [grader.fault for grader in graders if grader.fault]
+    if faults:
+        raise GraderFault(
+            f"not graded: {'; '.join(faults)}; what became of the other steps is in {out / 'results.json'}"
+        )
     return results

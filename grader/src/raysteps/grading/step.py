@@ -1,5 +1,6 @@
 """What grading a step at home and in a course have in common: it is built, and its visible tests are run."""
 
+import math
 import shutil
 import threading
 from collections.abc import Mapping
@@ -9,6 +10,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import usable_folder
+from raysteps.common.process import Outcome
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
@@ -72,13 +74,22 @@ def _as_limited(ran: TaskResult, limits: Limits) -> TaskResult:
     return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
 
 
-class AccountingSandbox:
-    """Hands each task on and keeps the sum of processor seconds. Safe for several threads."""
+_NOT_RUN = TaskResult(Outcome(-9, True, "", "", 0.0), {}, 0.0, "wall")
 
-    def __init__(self, sandbox: Sandbox) -> None:
+
+class AccountingSandbox:
+    """Hands each task on, keeps the sum of processor seconds, and runs nothing more when all tasks together have taken
+    `seconds` on the clock. Safe for several threads."""
+
+    def __init__(self, sandbox: Sandbox, seconds: float = math.inf) -> None:
         self._sandbox = sandbox
         self._lock = threading.Lock()
+        self._left = seconds
         self.cpu_seconds = 0.0
+
+    @property
+    def is_spent(self) -> bool:
+        return self._left <= 0
 
     @property
     def isolation(self) -> Isolation:
@@ -86,10 +97,14 @@ class AccountingSandbox:
 
     def run(self, task: Task) -> TaskResult:
         """Runs the task in the sandbox."""
-        ran = self._sandbox.run(task)
+        if self.is_spent:
+            return _NOT_RUN
+        limits = replace(task.limits, wall_seconds=min(task.limits.wall_seconds, self._left))
+        ran = self._sandbox.run(replace(task, limits=limits))
         with self._lock:
             self.cpu_seconds += ran.cpu_seconds
-        return _as_limited(ran, task.limits)
+            self._left -= ran.outcome.seconds
+        return _as_limited(ran, limits)
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ Pixels: TypeAlias = npt.NDArray[np.uint8]
 Gaps: TypeAlias = npt.NDArray[np.int16]
 
 _HEADER = re.compile(rb"P6\s+([0-9]{1,5})\s+([0-9]{1,5})\s+255\s")
+_MAX_HEADER = 1000  # bytes; raytrace writes some twenty
 _MAX_BYTES = 200 << 20
 TOLERANCE = 2
 
@@ -46,7 +47,7 @@ def parse_ppm(data: bytes) -> Pixels:
     """The bytes of a P6 file; the size is checked before it is believed."""
     if not data:
         raise PictureError("no picture was written")
-    header = _HEADER.match(data)
+    header = _HEADER.match(data, 0, _MAX_HEADER)
     if header is None:
         raise PictureError("the picture is not a binary PPM with 8-bit channels")
     width, height = int(header.group(1)), int(header.group(2))

@@ -80,8 +80,10 @@ class Answer(Generic[T]):
         try:
             actual = self.parse(actual_line)
             return Verdict(self.problem(inputs, expected, actual), self.words(expected), self.words(actual))
-        except (ProtocolError, OverflowError) as error:
-            return Verdict("no proper answer came", self.words(expected), str(error))
+        except GraderFault:
+            raise
+        except Exception as error:  # the reference's answer was read just so: this is about the student's
+            return Verdict("no proper answer came", self.words(expected), shorten(str(error), 200))
 
 
 def read_vector(tokens: TokenReader) -> Vector:

@@ -94,7 +94,13 @@ def groups(document: ClassResults) -> list[Group]:
     find = _Finder(document)
     inconsistent = "The program claims what the judge did not see. Look at its code before you trust the points."
     found = [
-        Group("fault", "bad", "Faults of the grader", "No zero: --resume grades these again.", find.faults()),
+        Group(
+            "fault",
+            "bad",
+            "Faults of the grader",
+            "No zero: --resume grades these again, but none that it gave up.",
+            find.faults(),
+        ),
         Group("inconsistent", "bad", "Inconsistent", inconsistent, find.inconsistent()),
         Group(
             "unreadable",

@@ -111,7 +111,7 @@ _AARCH64 = {
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
 }  # fmt: skip
 _CLONE3 = 435
-_KNOWN = {"x86_64": (0xC000003E, _X86_64, 56), "aarch64": (0xC00000B7, _AARCH64, 220)}
+_KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302), "aarch64": (0xC00000B7, _AARCH64, 220, 261)}
 
 
 def _step(code: int, value: int, if_true: int = 0, if_false: int = 0) -> bytes:
@@ -122,12 +122,14 @@ def syscall_filter() -> bytes | None:
     """The instructions; none for a machine whose numbers are not known here."""
     if sys.platform != "linux" or platform.machine() not in _KNOWN or sys.maxsize < 1 << 32:
         return None
-    architecture, numbers, clone = _KNOWN[platform.machine()]
+    architecture, numbers, clone, prlimit = _KNOWN[platform.machine()]
     refuse = _step(_RETURN, _ERRNO | errno.EPERM)
     steps = [_step(_LOAD, _ARCHITECTURE), _step(_EQUAL, architecture, 1, 0), _step(_RETURN, _KILL)]
     steps += [_step(_LOAD, _NUMBER), _step(_AT_LEAST, _X32, 0, 1), refuse]
     for number in numbers.values():
         steps += [_step(_EQUAL, number, 0, 1), refuse]
+    # Only a process's own limits, which go by the number 0: a limit can end another process.
+    steps += [_step(_EQUAL, prlimit, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_EQUAL, 0, 1, 0), refuse]
     # The C library falls back from clone3, whose flags a filter cannot see, to clone.
     steps += [_step(_EQUAL, _CLONE3, 0, 1), _step(_RETURN, _ERRNO | errno.ENOSYS)]
     steps += [_step(_EQUAL, clone, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_ANY_BIT, _NEW_NAMESPACES, 0, 1), refuse]

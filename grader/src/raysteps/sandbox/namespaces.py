@@ -101,6 +101,7 @@ _LIBRARIES = ("lib", "lib32", "lib64", "libx32")
 _TOOLS = ("bin", "include", "libexec")
 _TEST_FRAMEWORKS = ("catch2",)  # a student's source has no business with them
 _LOCAL = Path("/usr/local")
+_FIRST_PROCESS = "/proc/1"
 
 
 def compiler_command(name: str) -> Path:
@@ -165,4 +166,6 @@ def root_words(compiler: Path | None, secrets: list[Path]) -> list[str]:
     for hidden in hidden_folders(seen, secrets):
         words += ["--tmpfs", str(hidden), "--remount-ro", str(hidden)]
     words += ["--ro-bind-try", "/etc/ld.so.cache", "/etc/ld.so.cache"]
-    return [*words, "--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"]
+    # The first process is bubblewrap's and may be of the task's user, who could write to its memory there.
+    words += ["--proc", "/proc", "--tmpfs", _FIRST_PROCESS, "--remount-ro", _FIRST_PROCESS]
+    return [*words, "--dev", "/dev", "--remount-ro", "/dev"]

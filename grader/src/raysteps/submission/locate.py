@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from raysteps.course.manifest import Step
 
 _BARE = 2
+_MAX_NAME = 255  # letters; no system has longer names, but an archive may
 _ENDINGS = (".txt", ".bak", ".orig", "~", ".cpp", ".cc", ".cxx", ".c++", ".cp", ".c")
 _WORDS_OF_COPIES = re.compile(r"\b(?:copy|kopie|copia|copie|of|von|de|final|new|old|v)\b")
 
@@ -30,12 +31,8 @@ def _lower(text: str) -> str:
 def _plain(name: str) -> str:
     """Only what tells one step's file from another's: no ending, numbers, separators, signs of a copy, plural."""
     name = _lower(name)
-    endings = True
-    while endings:
-        endings = False
-        for ending in _ENDINGS:
-            if name.endswith(ending):
-                name, endings = name.removesuffix(ending), True
+    while name.endswith(_ENDINGS):
+        name = name.removesuffix(next(ending for ending in _ENDINGS if name.endswith(ending)))
     name = _WORDS_OF_COPIES.sub(" ", re.sub(r"[\W\d_]+", " ", name))
     return name.replace(" ", "").rstrip("s")
 
@@ -63,8 +60,7 @@ class Places:
 
     def near(self, parts: tuple[str, ...]) -> str | None:
         """The step whose file this may be meant to be, in the wrong folder or under a wrong name."""
-        name = _lower(parts[-1])
-        if not any(name.endswith(ending) for ending in _ENDINGS):
+        if len(parts[-1]) > _MAX_NAME or not _lower(parts[-1]).endswith(_ENDINGS):
             return None
         return self._plain.get(_plain(parts[-1]))
 

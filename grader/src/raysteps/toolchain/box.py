@@ -59,6 +59,11 @@ class BoxLinker:
         objects += [*(self._part(path) for path in parts.wire), self._part(parts.home)]
         return [*objects, *(self._folder / line for line in self._all_parts("libraries"))]
 
+    @staticmethod
+    def _is_earlier(number: str, own: Sequence[str]) -> bool:
+        """Whether it is a step that those in the box may ask."""
+        return number < own[-1] and number not in own
+
     def box(self, own: Sequence[str], folder: Path) -> Path:
         """The box of these steps, which lacks their libraries."""
         return self._linked(f"box-{'-'.join(own)}", self._box_parts(own), folder)

@@ -21,7 +21,7 @@ from raysteps.toolchain.link import compile_words, include_words, library_flags,
 
 _SECONDS = 60
 _MAX_OUTPUT = 64 << 20
-_KIND_AND_PLACE = re.compile(r" [A-Za-z]( [0-9a-f]*)*\s*$")
+_HEX = frozenset("0123456789abcdef")
 
 
 @dataclass(frozen=True)
@@ -59,9 +59,19 @@ def nm_arguments() -> tuple[str, ...]:
     return ("--extern-only", "--format=posix")
 
 
+def _without_kind_and_place(line: str) -> str:
+    """The name at the start of a line of nm: behind it stand one letter and at most two numbers."""
+    line = line.rstrip()
+    for numbers in (2, 1, 0):
+        name, *words = line.rsplit(" ", numbers + 1)
+        if len(words) == numbers + 1 and len(words[0]) == 1 and _HEX.issuperset("".join(words[1:])):
+            return name
+    return line
+
+
 def parse_readable(plain: str, readable: str) -> dict[str, str]:
     """Linker names and how C++ writes them, of two outputs of nm for the same symbols in the same order."""
-    lists = [[_KIND_AND_PLACE.sub("", line) for line in text.splitlines()] for text in (plain, readable)]
+    lists = [[_without_kind_and_place(line) for line in text.splitlines()] for text in (plain, readable)]
     return dict(zip(*lists, strict=False))
 
 
@@ -86,14 +96,30 @@ _MAX_SYMBOLS = 1_000_000  # characters of the list of them; a step has some thou
 
 
 _MAX_LOG = 64_000
-_DRIVE, _PART = r"(?:\b[A-Za-z]:)?", r"[/\\][^\s:/\\]+"
+_MAX_READ = 4 * _MAX_LOG  # characters that are looked through
+# The parts of a path are looked at one after the other, and none of them twice, however a message is shaped.
+_PATH = re.compile(r"(?:\b[A-Za-z]:)?(?:[/\\][^\s:/\\]+)+[/\\]?")
+_SOURCE = re.compile(r"\w+\.cpp\b")
+
+
+def _without_folders(found: re.Match[str]) -> str:
+    """A path as a student knows it: from the kit's headers on, or the name of a source."""
+    parts = found[0].replace("\\", "/").split("/")
+    for at in range(len(parts) - 2, 0, -1):
+        if parts[at - 1] == "include" and parts[at] in ("core", "steps"):
+            return "/".join(parts[at:])
+    source = next((at for at in range(len(parts) - 1, 1, -1) if _SOURCE.match(parts[at])), None)
+    return found[0] if source is None else "/".join(parts[source:])
+
+
+def clean_log(said: str) -> str:
+    """What a compiler said, as text that cannot steer a terminal, and without the grader's folders."""
+    return shorten(_PATH.sub(_without_folders, printable(said[:_MAX_READ])).strip(), _MAX_LOG)
 
 
 def build_log(ran: TaskResult) -> str:
-    """All that the compiler said, as text that cannot steer a terminal, and without the grader's folders."""
-    text = printable(ran.outcome.stderr + ran.outcome.stdout)
-    text = re.sub(rf"{_DRIVE}(?:{_PART})*[/\\]include[/\\](core|steps)[/\\]", r"\1/", text)
-    return shorten(re.sub(rf"{_DRIVE}(?:{_PART})+[/\\](\w+\.cpp\b)", r"\1", text).strip(), _MAX_LOG)
+    """All that the compiler said."""
+    return clean_log(ran.outcome.stderr + ran.outcome.stdout)
 
 
 @dataclass(frozen=True)
@@ -110,8 +136,8 @@ class Compiled:
 
 @dataclass(frozen=True)
 class Program:
-    """A student's step, and the program that needs it: one process, or where `home` is given two, of which the student's
-    code is in the first."""
+    """A student's step and the program that needs it: one process, or where `home` is given two, of which the first
+    holds the student's code."""
 
     words: tuple[Word, ...]
     home: Path | None = None

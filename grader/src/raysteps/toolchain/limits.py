@@ -14,6 +14,9 @@ COMPILE_MEMORY_MB = 2048
 PROCESSES = 64
 FILE_MB = 64
 NAMES = ("seconds", "memory_mb", "compile_seconds", "compile_memory_mb", "processes", "file_mb")
+_OF_ALL = "submission_seconds"
+SUBMISSION_SECONDS = 1800.0  # an honest submission takes some minutes, on a slow machine too
+_GIVE_UP_FACTOR = 2
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,16 @@ def limits_of(step: Step, changes: Mapping[str, float]) -> StepLimits:
     )
 
 
+def submission_seconds(changes: Mapping[str, float]) -> float:
+    """How long all programs of a submission may run together: each may stay below its own limit, and there are many."""
+    return changes.get(_OF_ALL, SUBMISSION_SECONDS)
+
+
+def give_up_after(changes: Mapping[str, float]) -> float:
+    """Seconds on the clock after which a grader itself is ended, whatever it is at: it needs some for its own work."""
+    return _GIVE_UP_FACTOR * submission_seconds(changes)
+
+
 def parse_limits(words: Sequence[str]) -> dict[str, Amount]:
     """`NAME=VALUE` words of a command line."""
     changes: dict[str, Amount] = {}
@@ -77,11 +90,13 @@ def parse_limits(words: Sequence[str]) -> dict[str, Amount]:
         name, _, value = word.partition("=")
         whole = not name.endswith("seconds")
         if (
-            name not in NAMES
+            name not in (*NAMES, _OF_ALL)
             or not re.fullmatch(r"[0-9]+" if whole else r"[0-9]+(\.[0-9]+)?", value)
             or not float(value)
         ):
             kind = "a whole number" if whole else "a number"
-            raise UsageError(f"--limit {word}: expected one of {', '.join(NAMES)}, then = and {kind} above 0")
+            raise UsageError(
+                f"--limit {word}: expected one of {', '.join((*NAMES, _OF_ALL))}, then = and {kind} above 0"
+            )
         changes[name] = float(value)
     return changes

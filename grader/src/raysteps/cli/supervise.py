@@ -1,0 +1,57 @@
+"""Grades in a process of its own, which the one that was started on the terminal ends: whatever it hangs in."""
+
+import ctypes
+import os
+import select
+import signal
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from raysteps.classroom.process_tree import end_tree, remove
+from raysteps.common.errors import GraderFault
+
+_PR_SET_PDEATHSIG = 1
+_GRACE_SECONDS = 2.0  # to tidy up after Ctrl-C, which both processes hear
+
+
+def _is_over(end: int, seconds: float) -> bool:
+    """Whether the other process has ended, or ends within that time."""
+    return bool(select.select([end], [], [], seconds)[0])
+
+
+def _wait(end: int, seconds: float) -> bool:
+    """False where time was up; KeyboardInterrupt where somebody does not want to wait."""
+    try:
+        return _is_over(end, seconds)
+    except KeyboardInterrupt:
+        if _is_over(end, _GRACE_SECONDS):
+            return True  # it says itself that it was interrupted
+        raise
+
+
+def supervised(work: Callable[[], int], seconds: float) -> int:
+    """The exit code of the work, which goes on in a child of this process; both come back from here. After so many
+    seconds it is a fault of the grader, whose temporary files go as well."""
+    if sys.platform != "linux":
+        return work()
+    scratch = Path(tempfile.mkdtemp(prefix="raysteps-grade-"))
+    end, held = os.pipe()
+    child = os.fork()
+    if child == 0:
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        os.close(end)
+        scratch.chmod(0o711)  # a sandbox may run as another user
+        tempfile.tempdir = os.environ["TMPDIR"] = str(scratch)
+        return work()  # `held` stays open until the process has ended
+    os.close(held)
+    try:
+        if not _wait(end, seconds):
+            raise GraderFault(f"the grader gave up after {seconds:.0f} s; look at the submission by hand")
+    finally:
+        end_tree(child)
+        _, status = os.waitpid(child, 0)
+        remove(scratch)
+    code = os.waitstatus_to_exitcode(status)
+    return code if code >= 0 else 128 - code

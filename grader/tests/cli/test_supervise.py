@@ -1,0 +1,103 @@
+"""A grader that hangs itself, even in the middle of one instruction of Python's, is ended from outside."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from raysteps.cli.grade import seconds_at_most
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody stands beside the grader")
+_START = """
+import os, re, sys, tempfile
+from pathlib import Path
+from raysteps.cli.app import exit_code_of
+from raysteps.cli.supervise import supervised
+
+def work():
+    Path(tempfile.gettempdir(), "left").touch()
+    Path(sys.argv[2]).write_text(str(os.getpid()))
+    return {work}
+
+try:
+    code = supervised(work, float(sys.argv[1]))
+except BaseException as error:
+    code = exit_code_of(error)
+raise SystemExit(code)
+"""
+_HANGS = 're.match("(a+)+b", "a" * 60)'  # holds the interpreter for years: no signal is heard
+_MOST_SECONDS = 60
+
+
+def _start(work: str, seconds: float, tmp_path: Path) -> "subprocess.Popen[str]":
+    (tmp_path / "scratch").mkdir()
+    return subprocess.Popen(
+        [sys.executable, "-c", _START.replace("{work}", work), str(seconds), str(tmp_path / "pid")],
+        env={**os.environ, "TMPDIR": str(tmp_path / "scratch")},
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        start_new_session=True,
+    )
+
+
+def _runs(pid: int) -> bool:
+    return Path(f"/proc/{pid}").exists()
+
+
+def _pid_of_work(tmp_path: Path) -> int:
+    end = time.monotonic() + _MOST_SECONDS
+    path = tmp_path / "pid"
+    while not (path.is_file() and path.read_text()):
+        assert time.monotonic() < end, "it does not begin"
+        time.sleep(0.02)
+    return int(path.read_text())
+
+
+def test_the_exit_code_is_that_of_the_work(tmp_path: Path) -> None:
+    process = _start("3", 100, tmp_path)
+    _, said = process.communicate(timeout=_MOST_SECONDS)
+    assert (process.returncode, said) == (3, "")
+    assert not list((tmp_path / "scratch").iterdir())
+
+
+def test_a_hanging_grader_is_given_up(tmp_path: Path) -> None:
+    process = _start(_HANGS, 1, tmp_path)
+    pid = _pid_of_work(tmp_path)
+    _, said = process.communicate(timeout=_MOST_SECONDS)
+    assert said == "raysteps: the grader gave up after 1 s; look at the submission by hand\n"
+    assert process.returncode == 4
+    assert not _runs(pid)
+    assert not list((tmp_path / "scratch").iterdir())
+
+
+def test_ctrl_c_ends_a_hanging_grader(tmp_path: Path) -> None:
+    process = _start(_HANGS, 1000, tmp_path)
+    pid = _pid_of_work(tmp_path)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    _, said = process.communicate(timeout=_MOST_SECONDS)
+    assert (process.returncode, said) == (130, "raysteps: interrupted\n")
+    assert not _runs(pid)
+    assert not list((tmp_path / "scratch").iterdir())
+
+
+def test_a_grader_does_not_outlive_who_stands_beside_it(tmp_path: Path) -> None:
+    process = _start(_HANGS, 1000, tmp_path)
+    pid = _pid_of_work(tmp_path)
+    process.kill()
+    process.communicate(timeout=_MOST_SECONDS)
+    end = time.monotonic() + _MOST_SECONDS
+    while _runs(pid) and Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z":
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def test_the_limit_of_a_submission_says_when() -> None:
+    assert seconds_at_most(["grade", "jo", "--limit", "seconds=3"]) == 3600
+    assert seconds_at_most(["grade", "jo", "--only", "2", "--limit", "submission_seconds=600"]) == 1200
+    assert seconds_at_most(["grade", "--limit"]) == 3600
+    assert seconds_at_most(["grade", "--limit", "moons=3"]) == 3600

@@ -1,0 +1,47 @@
+"""What all programs of a submission may take together."""
+
+from dataclasses import replace
+
+import pytest
+
+from raysteps.common.process import Outcome
+from raysteps.course.manifest import Step
+from raysteps.grading.step import AccountingSandbox
+from raysteps.sandbox.task import Isolation, Limits, Task, TaskResult
+from raysteps.toolchain.limits import give_up_after, limits_of, parse_limits, submission_seconds
+
+pytestmark = pytest.mark.portable
+
+
+class _Sleepers:
+    """Every task sleeps a little less than it may, but no longer than that."""
+
+    isolation = Isolation()
+
+    def __init__(self) -> None:
+        self.tasks: list[Task] = []
+
+    def run(self, task: Task) -> TaskResult:
+        self.tasks.append(task)
+        slept = min(9.0, task.limits.wall_seconds)
+        cut = slept == task.limits.wall_seconds
+        return TaskResult(Outcome(0, cut, "", "", slept), {}, 0.5, "wall" if cut else "")
+
+
+def test_sleepers_below_every_limit_have_no_more_time_than_the_sum() -> None:
+    inner = _Sleepers()
+    sandbox = AccountingSandbox(inner, 20.0)
+    task = Task(("sleeper",), Limits(wall_seconds=10.0))
+    results = [sandbox.run(task) for _ in range(5)]
+    assert [one.limits.wall_seconds for one in inner.tasks] == [10.0, 10.0, 2.0]
+    assert [ran.stopped for ran in results] == ["", "", "wall", "wall", "wall"]
+    assert sandbox.is_spent
+    assert sandbox.cpu_seconds == 1.5
+    assert not AccountingSandbox(inner).is_spent
+
+
+def test_the_sum_can_be_set(steps: list[Step]) -> None:
+    changes = parse_limits(["submission_seconds=90", "seconds=3"])
+    assert (submission_seconds(changes), give_up_after(changes)) == (90, 180)
+    assert limits_of(steps[0], changes) == replace(limits_of(steps[0], {}), seconds=3)
+    assert give_up_after({}) == 3600
