@@ -77,6 +77,16 @@ void describe(Writer& out, const Surface& surface) {
     out.put(static_cast<std::uint64_t>(surface.order()));
 }
 
+std::string description_of(const SurfaceList& surfaces) {
+    std::string description;
+    Writer out(description);
+    out.put(static_cast<std::uint32_t>(surfaces.size()));
+    for (const Surface* surface : surfaces) {
+        describe(out, *surface);
+    }
+    return description;
+}
+
 Cone::End read_end(Reader& in) {
     const auto center = read<glm::vec3>(in);
     return {.center = center, .radius = in.get<float>()};
@@ -116,13 +126,10 @@ Groups& Groups::all() {
     return groups;
 }
 
+bool Groups::is_unchanged(const OwnGroup& group) { return group.description == description_of(group.surfaces); }
+
 std::shared_ptr<OwnGroup> Groups::write(Writer& out, const SurfaceList& surfaces) {
-    std::string description;
-    Writer writer(description);
-    writer.put(static_cast<std::uint32_t>(surfaces.size()));
-    for (const Surface* surface : surfaces) {
-        describe(writer, *surface);
-    }
+    std::string description = description_of(surfaces);
     for (auto recent = own_.upper_bound(oldest_kept(last_)); recent != own_.end(); ++recent) {
         const std::shared_ptr<OwnGroup>& group = recent->second;
         if (group->surfaces == surfaces && group->description == description) {

@@ -42,6 +42,9 @@ public:
     /// Writes which group these surfaces are, and what they look like if the other end does not know it yet.
     std::shared_ptr<OwnGroup> write(Writer& out, const SurfaceList& surfaces);
 
+    /// Whether the surfaces of an own group, which still exist, look as they did.
+    [[nodiscard]] static bool is_unchanged(const OwnGroup& group);
+
     /// The copies of what `write` wrote at the other end.
     [[nodiscard]] std::shared_ptr<CopiedGroup> read(Reader& in);
 

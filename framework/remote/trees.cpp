@@ -1,5 +1,6 @@
 #include "remote/trees.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <functional>
 #include <initializer_list>
@@ -17,8 +18,8 @@ constexpr TreeId k_kept = 16;  // trees that both ends remember
 constexpr int k_deepest = 2000;
 constexpr std::uint32_t k_nowhere = 0xFFFFFFFFU;  // an entry that is no surface of the group
 
-/// By which a tree is recognized when it comes back: where its parts are in memory, and its outermost box. A tree may
-/// be moved, which leaves the parts where they are; whoever frees one and builds another has another box.
+/// By which a tree is found again that was sent before: where its parts are in memory, and some of its boxes. A tree may
+/// be moved, which leaves the parts where they are.
 class Mark {
 public:
     void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x9E3779B97F4A7C15U + (value_ >> 29U); }
@@ -146,13 +147,28 @@ void collect(const Bvh& bvh, std::unordered_map<const Surface*, std::uint32_t>& 
     collect(bvh.surfaces, numbers, surfaces);
 }
 
+bool is_same(const Box& a, const Box& b) { return a.min == b.min && a.max == b.max; }
+bool is_same(const Node& a, const Node& b) {
+    const auto same = [](const Node& x, const Node& y) { return is_same(x, y); };
+    return is_same(a.box, b.box) && a.surfaces == b.surfaces &&
+           std::equal(a.children.begin(), a.children.end(), b.children.begin(), b.children.end(), same);
+}
+bool is_same(const Bvh& a, const Bvh& b) {
+    const auto same = [](const BvhNode& x, const BvhNode& y) {
+        return is_same(x.box, y.box) && x.first == y.first && x.count == y.count;
+    };
+    return a.surfaces == b.surfaces && std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same);
+}
+
 /// What one end knows of the trees of one kind.
 template <typename Tree>
 class Trees {
 public:
     struct Sent {
         std::uint64_t mark;
+        Tree copy;
         std::shared_ptr<OwnGroup> group;
+        std::uint64_t checked_in = 0;  ///< the call of run_together in which it was last compared as a whole
     };
 
     static Trees& all() {
@@ -163,13 +179,21 @@ public:
     [[nodiscard]] TreeId next() { return ++last_; }
 
     void remember(TreeId id, const Tree& tree, std::shared_ptr<OwnGroup> group) {
-        sent_[id] = {mark_of(tree), std::move(group)};
+        sent_[id] = {mark_of(tree), tree, std::move(group)};
         forget_old(sent_, id);
     }
-    [[nodiscard]] const std::pair<const TreeId, Sent>* find(const Tree& tree) const {
+    /// Null for a tree that was not sent as it is now. Another one may lie where a tree was that is gone.
+    [[nodiscard]] const std::pair<const TreeId, Sent>* find(const Tree& tree) {
         const std::uint64_t mark = mark_of(tree);
+        const std::uint64_t together = Session::current().wire().together();
         for (auto one = sent_.rbegin(); one != sent_.rend(); ++one) {
-            if (one->second.mark == mark) {
+            Sent& sent = one->second;
+            if (sent.mark != mark) {
+                continue;
+            }
+            const bool checked = together != 0 && sent.checked_in == together;
+            if (checked || (is_same(sent.copy, tree) && Groups::is_unchanged(*sent.group))) {
+                sent.checked_in = together;
                 return &*one;
             }
         }

@@ -151,6 +151,7 @@ void Wire::run_together(int count, const std::function<void()>& work) {
         work();
         return;
     }
+    together_ = ++last_together_;
     std::exception_ptr failed;
     const auto guarded = [&] {
         try {
@@ -181,6 +182,7 @@ void Wire::run_together(int count, const std::function<void()>& work) {
     for (std::size_t number = first; number < last; ++number) {
         conversation(number).fiber.reset();
     }
+    together_ = 0;
     if (failed) {
         std::rethrow_exception(failed);
     }

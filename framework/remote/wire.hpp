@@ -82,6 +82,9 @@ public:
     /// The number of the current conversation.
     [[nodiscard]] std::size_t current();
 
+    /// A number of the call of run_together that goes on; 0 for none. What its work is made of does not change meanwhile.
+    [[nodiscard]] std::uint64_t together() const { return together_; }
+
     [[noreturn]] void end(int code, const char* why);
 
 private:
@@ -112,6 +115,8 @@ private:
     std::recursive_mutex mutex_;  ///< a student may have threads of its own
     std::array<std::unique_ptr<Conversation>, k_max_conversations> conversations_;
     std::deque<std::size_t> ready_;                    ///< fibers that something came for, in that order
+    std::uint64_t together_ = 0;
+    std::uint64_t last_together_ = 0;
     std::size_t running_ = 0;                          ///< the conversation of the thread that fibers run on
     std::map<std::thread::id, std::size_t> visitors_;  ///< conversations of other threads
     std::string outgoing_;
