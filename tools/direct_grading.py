@@ -18,7 +18,7 @@ from pathlib import Path
 
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
-from raysteps.sandbox.beside import run_beside
+from raysteps.sandbox.beside import asking
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.monitor import Usage, descendants, monitor, usage_of
 from raysteps.sandbox.rlimits import limit_words
@@ -51,11 +51,9 @@ class Direct:
     def run(self, task: Task) -> TaskResult:
         seconds = task.limits.wall_seconds
         limits = replace(task.limits, wall_seconds=_PATIENCE * seconds, cpu_seconds=seconds)
-        patient = replace(task, limits=limits)
-        return self._run(patient) if task.beside is None else run_beside(self._run, patient)
-
-    def _run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
+            asked = stack.enter_context(asking(replace(task, limits=limits)))
+            wire = None if asked is None else asked.wire
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-run-")))
             place = TaskDir(folder, None)
             inside = PathMap(task, lambda _, given: str(place.linked(given.path, given.inner_name)))
@@ -70,9 +68,9 @@ class Direct:
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    [*limit_words(task.limits, memory=True), *command],
-                    stdin=nameless_file(task.stdin, stack) if task.wire is None else task.wire.stdin,
-                    stdout=subprocess.PIPE if task.wire is None else task.wire.stdout,
+                    [*limit_words(limits, memory=True), *command],
+                    stdin=nameless_file(task.stdin, stack) if wire is None else wire.stdin,
+                    stdout=subprocess.PIPE if wire is None else wire.stdout,
                     stderr=subprocess.PIPE,
                     pass_fds=inside.fds,
                     cwd=folder,
@@ -81,13 +79,15 @@ class Direct:
                 )
             )
             stack.callback(process.kill)
-            if task.wire is not None:
-                task.wire.hand_over()
-            seen = monitor(process, start, task, _Group(process))
+            if wire is not None:
+                wire.hand_over()
+            seen = monitor(process, start, limits, _Group(process), wire)
             out, err = (data.decode("utf-8", "replace") for data in (seen.stdout, seen.stderr))
             code = -signal.SIGKILL if seen.stopped else seen.status
             outcome = Outcome(code, seen.stopped == "wall", out, err, seen.seconds)
-            return TaskResult(outcome, inside.outputs(), max(seen.cpu_seconds, seen.watched_cpu_seconds), seen.stopped)
+            cpu = max(seen.cpu_seconds, seen.watched_cpu_seconds)
+            ran = TaskResult(outcome, inside.outputs(), cpu, seen.stopped)
+            return ran if asked is None else asked.result(ran)
 
 
 # Runs the kit's own programs, each once: what was run before on the same bytes gives the same answer. `dev check`

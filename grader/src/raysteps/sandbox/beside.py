@@ -8,22 +8,52 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
-from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import suppress
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome, PipeReader, kill_process_group, new_session
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.task import Input, Limits, Output, Task, TaskResult, Wire, Word, read_regular
+from raysteps.sandbox.task import Input, Output, Task, TaskResult, Word, read_regular
 
 WIRE_VARIABLE = "RAYSTEPS_BOX"  # names the two ends of the wire to the program beside the box
 _MEGABYTE = 1 << 20
 _MEMORY_MB = 4096  # of the trusted program, which holds what the box sends
 _ERRORS_KB = 64
+
+
+class Wire:
+    """What a task has in place of a stdin that was given and a stdout that is kept: pipes to the program beside it."""
+
+    def __init__(self, stdin: int, stdout: int) -> None:
+        self.stdin = stdin
+        self.stdout = stdout
+        self.finished, self._finish = os.pipe()  # the first can be read once nobody asks the task any more
+        self._lock = threading.Lock()
+        self._open = {stdin, stdout, self.finished, self._finish}
+
+    def _close(self, *files: int) -> None:
+        with self._lock:
+            for file in self._open & set(files):
+                self._open.remove(file)
+                os.close(file)
+
+    def hand_over(self) -> None:
+        """The task has them now; it alone may keep them open."""
+        self._close(self.stdin, self.stdout)
+
+    def finish(self) -> None:
+        """Nobody asks any more."""
+        self._close(self._finish)
+
+    def close(self) -> None:
+        self._close(*self._open)
+
 
 # How a program beside a box ends, as framework/remote/wire.hpp says it.
 _CLOSED = 70
@@ -82,9 +112,10 @@ def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, floa
     return process.returncode, used.ru_utime + used.ru_stime, timed_out
 
 
-def _run_outside(task: Task, pipes: tuple[int, int], limits: Limits) -> _Ended:
-    """With its ends of the wire, which are closed when it has ended."""
+def _run_outside(task: Task, pipes: tuple[int, int]) -> _Ended:
+    """With its ends of the wire, which it alone holds from then on."""
     assert task.beside is not None
+    limits = task.limits
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="raysteps-") as name, tempfile.TemporaryFile() as stdin:
         folder = Path(name)
@@ -122,7 +153,6 @@ def _run_outside(task: Task, pipes: tuple[int, int], limits: Limits) -> _Ended:
 
 
 def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
-    """What became of the student's code, as if it had run in the trusted program itself."""
     outcome = replace(inside.outcome, stdout=outside.stdout)
     cpu_seconds = inside.cpu_seconds + outside.cpu_seconds
     if outside.code in (0, 1):  # nothing was left to ask: whatever the box does afterwards
@@ -140,20 +170,35 @@ def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
     raise GraderFault(f"the program beside the box ended with {outside.code}: {said}")
 
 
-def run_beside(run: Callable[[Task], TaskResult], task: Task) -> TaskResult:
-    """`run` runs the task alone."""
-    to_box, from_home = os.pipe()
-    to_home, from_box = os.pipe()
-    wire = Wire(to_box, from_box)
-    try:
-        with ThreadPoolExecutor(max_workers=1) as pool:
-            inside: Future[TaskResult] = pool.submit(run, replace(task, beside=None, wire=wire))
-            # A box that could not be started leaves a wire that nobody holds any more.
-            inside.add_done_callback(lambda _: wire.hand_over())
-            try:
-                outside = _run_outside(task, (to_home, from_home), task.limits)
-            finally:
-                wire.finish()
-            return _result(inside.result(), outside)
-    finally:
-        wire.close()
+class Asking:
+    """The program beside a task, which runs in a thread of its own from the beginning."""
+
+    def __init__(self, task: Task, pool: ThreadPoolExecutor) -> None:
+        to_box, from_home = os.pipe()
+        to_home, from_box = os.pipe()
+        self.wire = Wire(to_box, from_box)
+        self._ended = pool.submit(self._run, task, (to_home, from_home))
+
+    def _run(self, task: Task, pipes: tuple[int, int]) -> _Ended:
+        try:
+            return _run_outside(task, pipes)
+        finally:
+            self.wire.finish()
+
+    def result(self, inside: TaskResult) -> TaskResult:
+        """What became of the student's code, as if it had run in the trusted program itself."""
+        return _result(inside, self._ended.result())
+
+
+@contextmanager
+def asking(task: Task) -> Iterator[Asking | None]:
+    """None for a task that runs alone."""
+    if task.beside is None:
+        yield None
+        return
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        asked = Asking(task, pool)
+        try:
+            yield asked
+        finally:
+            asked.wire.close()  # who still waits for the task hears that it is over

@@ -13,7 +13,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.beside import readable, run_beside
+from raysteps.sandbox.beside import asking, readable
 from raysteps.sandbox.cgroups import Group, find_parents, new_group
 from raysteps.sandbox.lockdown import syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, reap, usage_of
@@ -220,16 +220,16 @@ class Bubblewrap:
             resource.prlimit(first, resource.RLIMIT_NPROC, (most, most))
 
     def run(self, task: Task) -> TaskResult:
-        if task.beside is not None:
-            return run_beside(self.run, task)
         with ExitStack() as stack:
+            asked = stack.enter_context(asking(task))
+            wire = None if asked is None else asked.wire
             stack.enter_context(adopting_orphans())
             user = stack.enter_context(lent_user()) if self._lends_users else None
             place = stack.enter_context(fresh_task_dir(user))
             group = stack.enter_context(new_group(self._parents, task.limits)) if self._parents else None
             inside, words = self._inside(task, place, stack)
             control = StartupPipes(stack)
-            stdin = nameless_file(task.stdin, stack) if task.wire is None else task.wire.stdin
+            stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
             fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
             words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
             changed = user if self._mode.starts_as_user else None
@@ -242,7 +242,7 @@ class Bubblewrap:
                     [*limits, self._program, "--args", str(options_fd), "--", *command],
                     env={},  # of the first process inside, whatever --clearenv does for the command
                     stdin=stdin,
-                    stdout=subprocess.PIPE if task.wire is None else task.wire.stdout,
+                    stdout=subprocess.PIPE if wire is None else wire.stdout,
                     stderr=subprocess.PIPE,
                     pass_fds=(control.status_fd, control.gate_fd, options_fd, *inside.fds, *fences),
                     cwd="/",
@@ -253,8 +253,8 @@ class Bubblewrap:
             )
             stack.callback(process.kill)
             control.hand_over()
-            if task.wire is not None:
-                task.wire.hand_over()
+            if wire is not None:
+                wire.hand_over()
             first = control.first_process()
             if first is None:
                 raise _cannot_start(process)
@@ -265,13 +265,14 @@ class Bubblewrap:
                 group.join(first)
             self._limit_processes(first, task.limits)
             control.open_gate()
-            seen = monitor(process, start, task, running)
+            seen = monitor(process, start, task.limits, running, wire)
             # What the kernel ended with its namespace, nobody waited for; there the last look has to do.
             cpu = max(seen.cpu_seconds + running.reap(), seen.watched_cpu_seconds)
             code = control.exit_code()
             if code is None and not seen.stopped and seen.status not in _KILLED:
                 raise _failed(seen)
-            return TaskResult(outcome(seen, code), inside.outputs(), cpu, seen.stopped)
+            ran = TaskResult(outcome(seen, code), inside.outputs(), cpu, seen.stopped)
+            return ran if asked is None else asked.result(ran)
 
 
 def _options_of(program: str) -> frozenset[str]:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from raysteps.sandbox.task import LimitHit, Limits, Task
+from raysteps.sandbox.beside import Wire
+from raysteps.sandbox.task import LimitHit, Limits
 
 # What the processes of a task use, as /proc tells it.
 
@@ -154,11 +155,18 @@ def _limit_reached(usage: Usage, limits: Limits) -> LimitHit:
 
 
 class _Watch:
-    def __init__(self, process: "subprocess.Popen[bytes]", start: float, task: Task, watched: MonitoredTask) -> None:
+    def __init__(
+        self,
+        process: "subprocess.Popen[bytes]",
+        start: float,
+        limits: Limits,
+        watched: MonitoredTask,
+        wire: Wire | None,
+    ) -> None:
         self._process = process
         self._start = start
-        self._limits = task.limits
-        self._finished = None if task.wire is None else task.wire.finished
+        self._limits = limits
+        self._finished = None if wire is None else wire.finished
         self._watched = watched
         self._stdout, self._stderr = bytearray(), bytearray()  # a task on a wire has no stdout
         pipes = ((process.stdout, self._stdout), (process.stderr, self._stderr))
@@ -251,6 +259,8 @@ class _Watch:
         )
 
 
-def monitor(process: "subprocess.Popen[bytes]", start: float, task: Task, watched: MonitoredTask) -> MonitorReport:
+def monitor(
+    process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: MonitoredTask, wire: Wire | None = None
+) -> MonitorReport:
     """Stays until the process has ended and everything that belongs to it was killed. Nobody else may wait for it."""
-    return _Watch(process, start, task, watched)()
+    return _Watch(process, start, limits, watched, wire)()

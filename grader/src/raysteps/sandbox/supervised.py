@@ -15,7 +15,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import join_and, printable, shorten
-from raysteps.sandbox.beside import readable, run_beside
+from raysteps.sandbox.beside import asking, readable
 from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, usage_of
 from raysteps.sandbox.namespaces import compiler_command, hidden_folders, top_folders, visible_folders
@@ -88,8 +88,6 @@ class SupervisedSandbox:
         return bounds
 
     def run(self, task: Task) -> TaskResult:
-        if task.beside is not None:
-            return run_beside(self.run, task)
         with ExitStack() as stack:
             stack.enter_context(adopting_orphans() if _LINUX else nullcontext())
             user = stack.enter_context(lent_user()) if self._lends_users else None
@@ -121,9 +119,11 @@ class SupervisedSandbox:
     def _keep(
         self, task: Task, inside: PathMap, settings: dict[str, Any], command: list[str], stack: ExitStack
     ) -> TaskResult:
+        asked = stack.enter_context(asking(task))
+        wire = None if asked is None else asked.wire
         status, status_end = os.pipe()
         stack.callback(os.close, status)
-        stdin = nameless_file(task.stdin, stack) if task.wire is None else task.wire.stdin
+        stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
         start = time.monotonic()
         keeper = [sys.executable, "-I", "-S", str(_KEEPER), json.dumps(settings | {"status": status_end})]
         try:
@@ -131,7 +131,7 @@ class SupervisedSandbox:
                 subprocess.Popen(
                     [*keeper, *command],
                     stdin=stdin,
-                    stdout=subprocess.PIPE if task.wire is None else task.wire.stdout,
+                    stdout=subprocess.PIPE if wire is None else wire.stdout,
                     stderr=subprocess.PIPE,
                     pass_fds=(status_end, *inside.fds),
                     cwd="/",
@@ -140,13 +140,13 @@ class SupervisedSandbox:
         finally:
             os.close(status_end)
         stack.callback(process.kill)
-        if task.wire is not None:
-            task.wire.hand_over()
-        seen = monitor(process, start, task, _Family(process))
+        if wire is not None:
+            wire.hand_over()
+        seen = monitor(process, start, task.limits, _Family(process), wire)
         said = os.read(status, 64) if readable(status, 0) else b""
-        return TaskResult(
-            _outcome(seen, said), inside.outputs(), max(seen.cpu_seconds, seen.watched_cpu_seconds), seen.stopped
-        )
+        cpu = max(seen.cpu_seconds, seen.watched_cpu_seconds)
+        ran = TaskResult(_outcome(seen, said), inside.outputs(), cpu, seen.stopped)
+        return ran if asked is None else asked.result(ran)
 
 
 def _environment(task: Task, program: str, scratch: Path) -> dict[str, str]:

@@ -2,7 +2,6 @@
 
 import os
 import stat
-import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -72,35 +71,6 @@ class Output:
 Word = str | Input | Output
 
 
-class Wire:
-    """The two pipes between a task and the program beside it: what the task reads from and writes to, in place of a
-    stdin that was given and a stdout that is kept."""
-
-    def __init__(self, stdin: int, stdout: int) -> None:
-        self.stdin = stdin
-        self.stdout = stdout
-        self.finished, self._finish = os.pipe()  # the first can be read once nobody asks the task any more
-        self._lock = threading.Lock()
-        self._open = {stdin, stdout, self.finished, self._finish}
-
-    def _close(self, *files: int) -> None:
-        with self._lock:
-            for file in self._open & set(files):
-                self._open.remove(file)
-                os.close(file)
-
-    def hand_over(self) -> None:
-        """The task has them now; it alone may keep them open."""
-        self._close(self.stdin, self.stdout)
-
-    def finish(self) -> None:
-        """Nobody asks any more."""
-        self._close(self._finish)
-
-    def close(self) -> None:
-        self._close(*self._open)
-
-
 @dataclass(frozen=True)
 class Beside:
     """A trusted program that runs outside while the task runs inside, and asks it over a wire. Its Output words are the
@@ -119,8 +89,7 @@ class Task:
     tools: bool = False  # compiler, assembler, linker and their headers; else only what a program needs to start
     inputs: tuple[Input, ...] = ()  # readable, but not named in the command
     stdin: bytes = b""
-    beside: Beside | None = None
-    wire: Wire | None = None
+    beside: Beside | None = None  # then it has no stdin and no stdout but the wire
 
     def all_inputs(self) -> Iterator[Input]:
         """Each once, those of the command first."""
