@@ -31,7 +31,7 @@ def profile(frame, event, argument):
 
 start = subprocess.Popen.__init__
 def started(self, words, *rest, **options):
-    if any(str(word).startswith(("/in/1/raytrace", "/in/1/worker", "/in/1/test")) for word in words):
+    if "/in/1/box" in words:
         road = list(ours(sys._getframe(1)))
         road += ours(sys._current_frames()[threading.main_thread().ident])
         roads.append((len(road), len({code.co_filename for code in road}), str(words[-1])))

@@ -12,14 +12,15 @@ import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import IO
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.process import Outcome, PipeReader, kill_process_group, new_session
+from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.task import Input, Output, Task, TaskResult, Word, read_regular
+from raysteps.sandbox.task import Input, Limits, Output, Task, TaskResult, Word, read_regular
 
 WIRE_VARIABLE = "RAYSTEPS_BOX"  # names the two ends of the wire to the program beside the box
 _MEGABYTE = 1 << 20
@@ -92,10 +93,17 @@ def _words(command: tuple[Word, ...], folder: Path) -> list[str]:
     return [path_of(word) for word in command]
 
 
-def _limit_memory(process: "subprocess.Popen[bytes]") -> None:
+def _text(file: IO[bytes], most_kb: int) -> str:
+    file.seek(0)
+    return file.read(most_kb * 1024).decode("utf-8", "replace")
+
+
+def _limit(process: "subprocess.Popen[bytes]", limits: Limits) -> None:
+    """It is the kit's own, but works on what the box sends."""
     if sys.platform == "linux":
         with suppress(ProcessLookupError):
             resource.prlimit(process.pid, resource.RLIMIT_AS, (_MEMORY_MB * _MEGABYTE,) * 2)
+            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limits.file_mb * _MEGABYTE,) * 2)
 
 
 def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, float, bool]:
@@ -104,7 +112,7 @@ def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, floa
     try:
         timed_out = not readable(handle, seconds)
         if timed_out:
-            kill_process_group(process)
+            process.kill()
         _, status, used = os.wait4(process.pid, 0)
     finally:
         os.close(handle)
@@ -117,8 +125,9 @@ def _run_outside(task: Task, pipes: tuple[int, int]) -> _Ended:
     assert task.beside is not None
     limits = task.limits
     start = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="raysteps-") as name, tempfile.TemporaryFile() as stdin:
-        folder = Path(name)
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-")))
+        stdin, stdout, stderr = (stack.enter_context(tempfile.TemporaryFile()) for _ in range(3))
         stdin.write(task.beside.stdin)
         stdin.seek(0)
         try:
@@ -126,30 +135,28 @@ def _run_outside(task: Task, pipes: tuple[int, int]) -> _Ended:
                 _words(task.beside.command, folder),
                 env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]}", "LC_ALL": "C"},
                 stdin=stdin,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
+                stdout=stdout,
+                stderr=stderr,
                 pass_fds=pipes,
                 cwd=folder,
-                **new_session(),
+                start_new_session=True,  # Ctrl-C is for the grader
             )
         except OSError as error:
             raise GraderFault(f"{task.beside.command[0]}: cannot be started: {error}") from error
         finally:
             for file in pipes:
                 os.close(file)
-        _limit_memory(process)
-        said = PipeReader(process.stdout, limits.output_kb * 1024), PipeReader(process.stderr, _ERRORS_KB * 1024)
+        stack.callback(process.kill)
+        _limit(process, limits)
         code, cpu_seconds, timed_out = _wait(process, limits.wall_seconds)
-        for reader in said:
-            reader.is_at_end(1.0)
         outputs = {
             word.name: data
             for word in task.beside.command
             if isinstance(word, Output)
             and (data := read_regular(folder / word.name, limits.file_mb * _MEGABYTE)) is not None
         }
-        stdout, stderr = (reader.bytes().decode("utf-8", "replace") for reader in said)
-        return _Ended(code, stdout, stderr, outputs, time.monotonic() - start, cpu_seconds, timed_out)
+        said, complained = _text(stdout, limits.output_kb), _text(stderr, _ERRORS_KB)
+        return _Ended(code, said, complained, outputs, time.monotonic() - start, cpu_seconds, timed_out)
 
 
 def _result(inside: TaskResult, outside: _Ended) -> TaskResult:

@@ -12,8 +12,7 @@ from raysteps.common.process import run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
-from raysteps.toolchain.box import BoxLinker
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
+from raysteps.toolchain.kit_artifacts import BoxLinker, BuiltKit, Kind
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
 

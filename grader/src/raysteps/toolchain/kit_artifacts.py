@@ -1,7 +1,9 @@
 """The kit as it grades: framework, references and tests, built once and only read from then on."""
 
 import json
-from collections.abc import Callable, Collection, Mapping
+import shutil
+import tempfile
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -9,12 +11,100 @@ from typing import Literal
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.toolchain.box import BoxLinker
-from raysteps.toolchain.link import Description, library_name
+from raysteps.toolchain.link import Description, library_name, link
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
 Tags = Mapping[str, Mapping[str, frozenset[str]]]
+
+
+# Links programs that ask steps in another process, and the boxes that these are in. Nothing of a student's is in the
+# first, and nothing of a reference's in the second.
+
+
+class BoxLinker:
+    """Works in the folder of a kit: takes parts that were copied there, and keeps what it has linked."""
+
+    def __init__(self, folder: Path, description: Description) -> None:
+        self._folder = folder
+        self._description = description
+        assert description.remote is not None
+        self._remote = description.remote
+
+    def _part(self, path: Path) -> Path:
+        return self._folder / "remote" / path.parent.name / path.name
+
+    def copy_parts(self) -> None:
+        """Of the build folder, which changes while a kit is in use."""
+        parts = self._remote
+        groups = (parts.stand_ins.values(), parts.services.values(), parts.later.values())
+        for path in (*parts.wire, parts.home, parts.box, parts.core, *(path for group in groups for path in group)):
+            self._part(path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, self._part(path))
+
+    @property
+    def core(self) -> Path:
+        """The library that a step in a box may ask for."""
+        return self._part(self._remote.core)
+
+    def can_be_asked(self, number: str) -> bool:
+        """A course's own step, of which the kit knows nothing, cannot."""
+        return number in self._remote.stand_ins
+
+    def _all_parts(self, kind: str) -> list[str]:
+        return (self._folder / "rest" / f"{kind}.txt").read_text("utf-8").splitlines()
+
+    def home(self, kind: str, own: Sequence[str], folder: Path) -> Path:
+        """The program that asks the steps `own`; all others are the reference's. `kind` is as in rest/KIND.txt. Linked
+        into `folder` where the kit may not be written to."""
+        return self._linked(f"{kind}-beside-{'-'.join(own)}", self._home_parts(kind, own), folder)
+
+    def _home_parts(self, kind: str, own: Sequence[str]) -> list[str | Path]:
+        parts = self._remote
+        objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
+        references = {path.stem: path for path in (self._folder / "parts" / "references").iterdir()}
+        objects += [path for number, path in references.items() if number not in own]
+        objects += [self._part(parts.stand_ins[number]) for number in own]
+        # Of a later step a box learns nothing, whatever it asks.
+        objects += [
+            self._part(path) for number, path in parts.services.items() if number < own[-1] and number not in own
+        ]
+        objects += [*(self._part(path) for path in parts.wire), self._part(parts.home)]
+        return [*objects, *(self._folder / line for line in self._all_parts("libraries"))]
+
+    @staticmethod
+    def _is_earlier(number: str, own: Sequence[str]) -> bool:
+        """Whether it is a step that those in the box may ask."""
+        return number < own[-1] and number not in own
+
+    def box(self, own: Sequence[str], folder: Path) -> Path:
+        """The box of these steps, which lacks their libraries."""
+        return self._linked(f"box-{'-'.join(own)}", self._box_parts(own), folder)
+
+    def _box_parts(self, own: Sequence[str]) -> list[str | Path]:
+        parts = self._remote
+        objects: list[str | Path] = [self._part(parts.box), *(self._part(path) for path in parts.wire)]
+        objects += [self._part(parts.services[number]) for number in own]
+        objects += [
+            self._part(path) for number, path in parts.stand_ins.items() if number < own[-1] and number not in own
+        ]
+        objects += [self._part(path) for number, path in parts.later.items() if number > own[-1]]
+        objects += ["-Wl,--whole-archive", self.core, "-Wl,--no-whole-archive", "-Wl,--no-as-needed"]
+        objects += [self._folder / "placeholders" / library_name(number) for number in own]
+        return [*objects, f"-Wl,--dynamic-list={self._folder / 'steps' / f'{own[-1]}.dynamic'}"]
+
+    def _linked(self, name: str, parts: list[str | Path], folder: Path) -> Path:
+        """Under its name once it is whole: several may want it at the same time."""
+        program = self._folder / "bin" / name
+        if program.is_file():
+            return program
+        try:
+            with tempfile.TemporaryDirectory(prefix=".new-", dir=self._folder / "bin") as new:
+                link(self._description, parts, Path(new) / name)
+                return (Path(new) / name).rename(program)
+        except PermissionError:
+            link(self._description, parts, folder / name)
+            return folder / name
 
 
 @dataclass(frozen=True)
