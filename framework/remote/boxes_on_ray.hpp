@@ -1,6 +1,6 @@
 #pragma once
-// Boxes of a tree and one ray. A search asks for many of them; the end that knows step 06's Box::clip answers for all at
-// once that a search from the root on can come to.
+// Boxes of a tree and one ray. A search asks for many of them; the end that knows step 06's Box::clip answers for all
+// at once that a search from the root on can come to.
 #include <optional>
 
 #include "core/box.hpp"

@@ -1,20 +1,14 @@
 #include "remote/fiber.hpp"
 
-#include <utility>
-
-#if defined(__unix__) || defined(__APPLE__)
-#define RAYSTEPS_FIBERS 1
+#include <cxxabi.h>
+#include <sys/mman.h>
+#include <ucontext.h>
+#include <unistd.h>
 #include <cerrno>
 #include <csetjmp>
 #include <cstdint>
-#include <cxxabi.h>
-#include <sys/mman.h>
 #include <system_error>
-#include <ucontext.h>
-#include <unistd.h>
-#else
-#define RAYSTEPS_FIBERS 0
-#endif
+#include <utility>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RAYSTEPS_SANITIZED 1
@@ -28,8 +22,6 @@
 #endif
 
 namespace raysteps::remote {
-
-#if RAYSTEPS_FIBERS
 
 namespace {
 
@@ -73,8 +65,8 @@ void change(Place& from, Place& to) {
 }
 #endif
 
-/// What the C++ runtime notes of a thread's exceptions, as the ABI of GCC and Clang lays it out. A fiber that stops in a
-/// handler takes it along.
+/// What the C++ runtime notes of a thread's exceptions, as the ABI of GCC and Clang lays it out. A fiber that stops in
+/// a handler takes it along.
 struct Exceptions {
     void* caught = nullptr;
     unsigned uncaught = 0;
@@ -100,8 +92,6 @@ struct Fiber::State {
 Fiber::Fiber(std::function<void()> body) : body_(std::move(body)), state_(std::make_unique<State>()) {}
 
 Fiber::~Fiber() = default;
-
-bool Fiber::available() { return true; }
 
 // makecontext hands on whole numbers only.
 void Fiber::enter(unsigned high, unsigned low) {
@@ -145,19 +135,5 @@ void Fiber::begin() {
 }
 
 void Fiber::stop() { change(state_->inside, state_->outside); }
-
-#else
-
-struct Fiber::State {};
-Fiber::Fiber(std::function<void()> body) : body_(std::move(body)) {}
-Fiber::~Fiber() = default;
-bool Fiber::available() { return false; }
-void Fiber::enter(unsigned /*high*/, unsigned /*low*/) {}
-void Fiber::run() {}
-void Fiber::begin() {}
-void Fiber::resume() {}
-void Fiber::stop() {}
-
-#endif
 
 }  // namespace raysteps::remote

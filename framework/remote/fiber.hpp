@@ -1,6 +1,6 @@
 #pragma once
-// A function with a stack of its own, which can stop in the middle and go on later: so that many pixels can wait for the
-// box at the same time, on one thread.
+// A function with a stack of its own, which can stop in the middle and go on later: so that many pixels can wait for
+// the box at the same time, on one thread.
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -22,9 +22,6 @@ public:
     /// Called in the body: goes back to whoever resumed it.
     void stop();
     [[nodiscard]] bool ended() const { return ended_; }
-
-    /// Systems without them have none at all.
-    [[nodiscard]] static bool available();
 
 private:
     struct State;

@@ -128,11 +128,11 @@ Result ask(FunctionId id, std::type_identity_t<Parameters>... values) {
 }
 
 template <typename Result, typename... Parameters>
-Result ask_as(Result (*/*type*/)(Parameters...), FunctionId id, std::type_identity_t<Parameters>... values) {
+Result ask_as(Result (* /*type*/)(Parameters...), FunctionId id, std::type_identity_t<Parameters>... values) {
     return ask<Result, Parameters...>(id, values...);
 }
 template <typename Class, typename Result, typename... Parameters>
-Result ask_as(Result (Class::*/*type*/)(Parameters...) const, FunctionId id, const Class& self,
+Result ask_as(Result (Class::* /*type*/)(Parameters...) const, FunctionId id, const Class& self,
               std::type_identity_t<Parameters>... values) {
     return ask<Result, const Class&, Parameters...>(id, self, values...);
 }
@@ -162,8 +162,7 @@ template <typename Result, typename... Parameters, Result (*Function)(Parameters
 struct ServiceOf<Function> {
     static void serve(Reader& in, Wire& wire) {
         call_with(
-            in,
-            [&](Parameters... values) { send_result<Result>(wire, Function(std::forward<Parameters>(values)...)); },
+            in, [&](Parameters... values) { send_result<Result>(wire, Function(std::forward<Parameters>(values)...)); },
             static_cast<std::tuple<Parameters...>*>(nullptr));
     }
 };

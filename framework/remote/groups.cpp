@@ -46,34 +46,33 @@ void describe(Writer& out, const Surface& surface) {
         write(out, surface.bounds());
         write(out, surface.fill());
     };
-    std::visit(ByShape{[&](const Sphere* sphere) {
-                           out.put(Look::sphere);
-                           write(out, *sphere);
-                       },
-                       [&](const Triangle* triangle) {
-                           out.put(Look::triangle);
-                           write(out, *triangle);
-                       },
-                       [&](const SmoothTriangle* triangle) {
-                           out.put(Look::smooth_triangle);
-                           write<Triangle>(out, *triangle);
-                           for (const glm::vec3& normal :
-                                {triangle->normal_a(), triangle->normal_b(), triangle->normal_c()}) {
-                               write(out, normal);
-                           }
-                       },
-                       [&](const Cone* cone) {
-                           out.put(Look::cone);
-                           for (const Cone::End& end : {cone->base(), cone->apex()}) {
-                               write(out, end.center);
-                               out.put(end.radius);
-                           }
-                           out.put(cone->sidedness());
-                           write(out, cone->fill());
-                       },
-                       [&](const InwardSphere* sphere) { other(sphere); },
-                       [&](std::monostate nothing) { other(nothing); }},
-               surface.shape());
+    std::visit(
+        ByShape{[&](const Sphere* sphere) {
+                    out.put(Look::sphere);
+                    write(out, *sphere);
+                },
+                [&](const Triangle* triangle) {
+                    out.put(Look::triangle);
+                    write(out, *triangle);
+                },
+                [&](const SmoothTriangle* triangle) {
+                    out.put(Look::smooth_triangle);
+                    write<Triangle>(out, *triangle);
+                    for (const glm::vec3& normal : {triangle->normal_a(), triangle->normal_b(), triangle->normal_c()}) {
+                        write(out, normal);
+                    }
+                },
+                [&](const Cone* cone) {
+                    out.put(Look::cone);
+                    for (const Cone::End& end : {cone->base(), cone->apex()}) {
+                        write(out, end.center);
+                        out.put(end.radius);
+                    }
+                    out.put(cone->sidedness());
+                    write(out, cone->fill());
+                },
+                [&](const InwardSphere* sphere) { other(sphere); }, [&](std::monostate nothing) { other(nothing); }},
+        surface.shape());
     out.put(static_cast<std::uint64_t>(surface.order()));
 }
 
@@ -140,7 +139,8 @@ std::shared_ptr<OwnGroup> Groups::write(Writer& out, const SurfaceList& surfaces
     }
     auto group = std::make_shared<OwnGroup>(OwnGroup{++last_, surfaces, std::move(description), 0});
     own_[group->id] = group;
-    std::erase_if(own_, [&](const auto& one) { return one.first <= oldest_kept(last_) && one.second.use_count() == 1; });
+    std::erase_if(own_,
+                  [&](const auto& one) { return one.first <= oldest_kept(last_) && one.second.use_count() == 1; });
     out.put(group->id);
     out.put(true);
     out.put(group->description);

@@ -99,12 +99,12 @@ bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
     return Groups::all().lent({group, index}).overlaps(box);
 }
 
-[[maybe_unused]] const bool offered =
-    offer_function<&closest_hit_of>(FunctionId::lent_closest_hit) &&
-    offer_function<&occluded_of>(FunctionId::lent_occluded) &&
-    offer_function<&direct_lighting_of>(FunctionId::lent_direct_lighting) &&
-    offer_function<&trace_of>(FunctionId::lent_trace) && offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
-    offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
+[[maybe_unused]] const bool offered = offer_function<&closest_hit_of>(FunctionId::lent_closest_hit) &&
+                                      offer_function<&occluded_of>(FunctionId::lent_occluded) &&
+                                      offer_function<&direct_lighting_of>(FunctionId::lent_direct_lighting) &&
+                                      offer_function<&trace_of>(FunctionId::lent_trace) &&
+                                      offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
+                                      offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
 
 PlaceInGroup place_of(const Surface& copy) {
     const PlaceInGroup* place = Groups::all().place_of(&copy);

@@ -1,6 +1,6 @@
 #pragma once
-// What travels between a program and the box that a student's code is in: values in the order in which they are written.
-// Both ends are built from the same sources, so a value is its bytes.
+// What travels between a program and the box that a student's code is in: values in the order in which they are
+// written. Both ends are built from the same sources, so a value is its bytes.
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>

@@ -18,8 +18,8 @@ constexpr TreeId k_kept = 16;  // trees that both ends remember
 constexpr int k_deepest = 2000;
 constexpr std::uint32_t k_nowhere = 0xFFFFFFFFU;  // an entry that is no surface of the group
 
-/// By which a tree is found again that was sent before: where its parts are in memory, and some of its boxes. A tree may
-/// be moved, which leaves the parts where they are.
+/// By which a tree is found again that was sent before: where its parts are in memory, and some of its boxes. A tree
+/// may be moved, which leaves the parts where they are.
 class Mark {
 public:
     void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x9E3779B97F4A7C15U + (value_ >> 29U); }

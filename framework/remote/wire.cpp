@@ -1,5 +1,6 @@
 #include "remote/wire.hpp"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -8,12 +9,6 @@
 #include <utility>
 
 #include "remote/message.hpp"
-
-#ifdef _WIN32
-#include <io.h>
-#else
-#include <unistd.h>
-#endif
 
 namespace raysteps::remote {
 namespace {
@@ -27,22 +22,6 @@ constexpr std::size_t k_first_visitor = 512;
 constexpr int k_deepest = 200;  // questions within questions; the stack of a fiber holds some more
 
 thread_local bool t_has_fibers = false;  // whether this is the thread that all fibers run on
-
-long read_some(int from, char* bytes, std::size_t size) {
-#ifdef _WIN32
-    return _read(from, bytes, static_cast<unsigned>(size));
-#else
-    return read(from, bytes, size);
-#endif
-}
-
-long write_some(int to, const char* bytes, std::size_t size) {
-#ifdef _WIN32
-    return _write(to, bytes, static_cast<unsigned>(size));
-#else
-    return write(to, bytes, size);
-#endif
-}
 
 }  // namespace
 
@@ -60,8 +39,7 @@ std::size_t Wire::current() {
     if (t_has_fibers) {
         return running_;
     }
-    const auto [place, is_new] =
-        visitors_.try_emplace(std::this_thread::get_id(), k_first_visitor + visitors_.size());
+    const auto [place, is_new] = visitors_.try_emplace(std::this_thread::get_id(), k_first_visitor + visitors_.size());
     if (is_new) {
         conversation(place->second).visitor = true;
     }
@@ -147,7 +125,7 @@ void Wire::answer(const Message& question) {
 }
 
 void Wire::run_together(int count, const std::function<void()>& work) {
-    if (!Fiber::available() || running_ != 0) {
+    if (running_ != 0) {
         work();
         return;
     }
@@ -231,7 +209,7 @@ std::shared_ptr<const std::string> Wire::read_batch() {
     std::size_t have = 0;
     BatchSize size = 0;
     while (have < sizeof size || have < sizeof size + size) {
-        const long got = read_some(pipes_.in, batch->data() + have, batch->size() - have);
+        const ssize_t got = read(pipes_.in, batch->data() + have, batch->size() - have);
         if (got < 0 && errno == EINTR) {
             continue;
         }
@@ -268,7 +246,7 @@ void Wire::deliver(const std::shared_ptr<const std::string>& batch) {
             continue;
         }
         if (talk.fiber == nullptr) {
-            if (kind != Kind::question || !Fiber::available()) {
+            if (kind != Kind::question) {
                 throw BadMessage("an answer came that nobody asked for");
             }
             talk.fiber = std::make_unique<Fiber>([this] { serve(); });
@@ -279,7 +257,7 @@ void Wire::deliver(const std::shared_ptr<const std::string>& batch) {
 
 void Wire::write_all(std::string_view bytes) {
     while (!bytes.empty()) {
-        const long written = write_some(pipes_.out, bytes.data(), bytes.size());
+        const ssize_t written = write(pipes_.out, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) {
             continue;
         }

@@ -75,14 +75,14 @@ public:
     /// Answers questions for ever.
     void serve();
 
-    /// Runs `work` in `count` conversations at once, or in one where there are no fibers, and waits for all. What
-    /// leaves one of them is thrown again.
+    /// Runs `work` in `count` conversations at once, and waits for all. What leaves one of them is thrown again.
     void run_together(int count, const std::function<void()>& work);
 
     /// The number of the current conversation.
     [[nodiscard]] std::size_t current();
 
-    /// A number of the call of run_together that goes on; 0 for none. What its work is made of does not change meanwhile.
+    /// A number of the call of run_together that goes on; 0 for none. What its work is made of does not change
+    /// meanwhile.
     [[nodiscard]] std::uint64_t together() const { return together_; }
 
     [[noreturn]] void end(int code, const char* why);
@@ -114,7 +114,7 @@ private:
     Farewell farewell_;
     std::recursive_mutex mutex_;  ///< a student may have threads of its own
     std::array<std::unique_ptr<Conversation>, k_max_conversations> conversations_;
-    std::deque<std::size_t> ready_;                    ///< fibers that something came for, in that order
+    std::deque<std::size_t> ready_;  ///< fibers that something came for, in that order
     std::uint64_t together_ = 0;
     std::uint64_t last_together_ = 0;
     std::size_t running_ = 0;                          ///< the conversation of the thread that fibers run on

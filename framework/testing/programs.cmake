@@ -30,6 +30,10 @@ endif()
 # What follows tests the kit itself, with the reference.
 file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "render/*_test.cpp" "apps/*_test.cpp"
      "inspect/*_test.cpp" "testing/*_test.cpp" "view/*_test.cpp" "wide/*_test.cpp")
+if(TARGET raysteps-wire)
+    file(GLOB remote_tests CONFIGURE_DEPENDS "remote/*_test.cpp")
+    list(APPEND framework_tests ${remote_tests} $<TARGET_OBJECTS:raysteps-wire>)
+endif()
 raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp
                   apps/inspect_options.cpp apps/view_options.cpp $<TARGET_OBJECTS:raysteps-inspect-recorded>)
 target_link_libraries(test-framework PRIVATE raysteps-view raysteps-inspect raysteps-render raysteps-io raysteps-core)

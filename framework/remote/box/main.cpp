@@ -1,5 +1,7 @@
 // The box: answers what a program asks of the student's functions, and holds nothing else. `box NN...` is told which
 // steps are the student's. The wire is its stdin and stdout.
+#include <fcntl.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -8,16 +10,6 @@
 
 #include "remote/box/own_steps.hpp"
 #include "remote/session.hpp"
-
-#ifdef _WIN32
-#include <fcntl.h>
-#include <io.h>
-#define dup _dup
-#define dup2 _dup2
-#else
-#include <fcntl.h>
-#include <unistd.h>
-#endif
 
 namespace raysteps::remote {
 namespace {
@@ -33,13 +25,7 @@ bool is_own(std::string_view step) {
 Wire::Pipes take_pipes() {
     const Wire::Pipes pipes{dup(0), dup(1)};
     dup2(2, 1);
-#ifdef _WIN32
-    _setmode(pipes.in, _O_BINARY);
-    _setmode(pipes.out, _O_BINARY);
-    const int nothing = _open("NUL", _O_RDONLY);
-#else
     const int nothing = open("/dev/null", O_RDONLY);
-#endif
     if (nothing >= 0) {
         dup2(nothing, 0);
     }

@@ -3,6 +3,8 @@
 
 namespace raysteps::remote {
 
-[[maybe_unused]] static const bool offered = offer_function<&raysteps::mirror>(FunctionId::mirror) && offer_function<&raysteps::diffuse>(FunctionId::diffuse) && offer_function<&raysteps::specular>(FunctionId::specular) && offer_function<&raysteps::shade>(FunctionId::shade);
+[[maybe_unused]] static const bool offered =
+    offer_function<&raysteps::mirror>(FunctionId::mirror) && offer_function<&raysteps::diffuse>(FunctionId::diffuse) &&
+    offer_function<&raysteps::specular>(FunctionId::specular) && offer_function<&raysteps::shade>(FunctionId::shade);
 
 }  // namespace raysteps::remote

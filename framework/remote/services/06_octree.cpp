@@ -8,7 +8,8 @@ namespace {
 void build(Reader& in, Wire& wire) { serve_octree(&raysteps::build_octree, in, wire); }
 
 [[maybe_unused]] const bool offered =
-    offer_function<&Box::clip>(FunctionId::box_clip) && offer_function<&Sphere::overlaps>(FunctionId::sphere_overlaps) &&
+    offer_function<&Box::clip>(FunctionId::box_clip) &&
+    offer_function<&Sphere::overlaps>(FunctionId::sphere_overlaps) &&
     offer_function<&Triangle::overlaps>(FunctionId::triangle_overlaps) &&
     offer_function<&raysteps::bounds_of>(FunctionId::bounds_of) &&
     offer_function<&raysteps::split>(FunctionId::split) && offer(FunctionId::build_octree, build) &&

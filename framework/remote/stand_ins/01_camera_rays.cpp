@@ -10,6 +10,8 @@ glm::vec3 point_at(const Ray& ray, float distance) { return ask<&point_at>(Funct
 
 ViewFrame view_frame(const Camera& camera) { return ask<&view_frame>(FunctionId::view_frame, camera); }
 
-Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y) { return ask<&primary_ray>(FunctionId::primary_ray, camera, frame, x, y); }
+Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y) {
+    return ask<&primary_ray>(FunctionId::primary_ray, camera, frame, x, y);
+}
 
 }  // namespace raysteps

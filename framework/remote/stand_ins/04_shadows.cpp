@@ -6,8 +6,12 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
-Ray shadow_ray(const HitRecord& hit, const Light& light) { return ask<&shadow_ray>(FunctionId::shadow_ray, hit, light); }
+Ray shadow_ray(const HitRecord& hit, const Light& light) {
+    return ask<&shadow_ray>(FunctionId::shadow_ray, hit, light);
+}
 
-bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) { return ask<&is_lit>(FunctionId::is_lit, scene, hit, light); }
+bool is_lit(const SceneQuery& scene, const HitRecord& hit, const Light& light) {
+    return ask<&is_lit>(FunctionId::is_lit, scene, hit, light);
+}
 
 }  // namespace raysteps

@@ -9,9 +9,7 @@ using remote::FunctionId;
 
 std::optional<Interval> Box::clip(const Ray& ray) const { return ask<&Box::clip>(FunctionId::box_clip, *this, ray); }
 
-bool Sphere::overlaps(const Box& box) const {
-    return ask<&Sphere::overlaps>(FunctionId::sphere_overlaps, *this, box);
-}
+bool Sphere::overlaps(const Box& box) const { return ask<&Sphere::overlaps>(FunctionId::sphere_overlaps, *this, box); }
 
 bool Triangle::overlaps(const Box& box) const {
     return ask<&Triangle::overlaps>(FunctionId::triangle_overlaps, *this, box);

@@ -6,10 +6,14 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
-std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& normal, float eta) { return ask<&refract>(FunctionId::refract, direction, normal, eta); }
+std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& normal, float eta) {
+    return ask<&refract>(FunctionId::refract, direction, normal, eta);
+}
 
 Ray transmitted_ray(const HitRecord& hit) { return ask<&transmitted_ray>(FunctionId::transmitted_ray, hit); }
 
-Color transmitted_light(Tracer& tracer, const HitRecord& hit, int depth) { return ask<&transmitted_light>(FunctionId::transmitted_light, tracer, hit, depth); }
+Color transmitted_light(Tracer& tracer, const HitRecord& hit, int depth) {
+    return ask<&transmitted_light>(FunctionId::transmitted_light, tracer, hit, depth);
+}
 
 }  // namespace raysteps

@@ -9,8 +9,7 @@ using remote::FunctionId;
 
 float surface_area(const Box& box) { return ask<&surface_area>(FunctionId::surface_area, box); }
 
-float split_cost(const Box& left, std::size_t left_count, const Box& right, std::size_t right_count,
-                 const Box& whole) {
+float split_cost(const Box& left, std::size_t left_count, const Box& right, std::size_t right_count, const Box& whole) {
     return ask<&split_cost>(FunctionId::split_cost, left, left_count, right, right_count, whole);
 }
 

@@ -1,0 +1,119 @@
+"""A box holds a student's step and nothing that earns points; and what is asked of it is what one program would do."""
+
+import re
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.images.render import Rendered, reference_picture, reference_work, render
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Input, Task
+from raysteps.toolchain.compile import Program, StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import limits_of
+
+_LEAST = 24  # bytes of machine code that are nobody else's by chance
+_SYMBOL = re.compile(r"^\s*\d+:\s+([0-9a-f]+)\s+(\d+)\s+FUNC\s+\w+\s+\w+\s+(\d+)\s+(\S+)", re.MULTILINE)
+_SECTION = re.compile(r"^\s*\[\s*(\d+)\]\s+(\.text\S*)\s+PROGBITS\s+\S+\s+([0-9a-f]+)", re.MULTILINE)
+_RELOCATIONS = re.compile(r"section '\.rela(\.text\S*)'.*?\n(.*?)(?:\n\n|\Z)", re.DOTALL)
+
+
+def _readelf(option: str, path: Path) -> str:
+    return subprocess.run(["readelf", "-W", option, path], capture_output=True, text=True, check=True).stdout
+
+
+def _machine_code(path: Path) -> dict[str, list[bytes]]:
+    """Of each function of an object, what no linker changes."""
+    data = path.read_bytes()
+    sections = {number: (name, int(offset, 16)) for number, name, offset in _SECTION.findall(_readelf("-S", path))}
+    changed: dict[str, list[int]] = {}
+    for name, lines in _RELOCATIONS.findall(_readelf("-r", path)):
+        changed[name] = [int(line.split()[0], 16) for line in lines.splitlines() if re.match(r"[0-9a-f]{12}", line)]
+    found: dict[str, list[bytes]] = {}
+    for start, size, section, name in _SYMBOL.findall(_readelf("-s", path)):
+        if section not in sections:
+            continue
+        part, offset = sections[section]
+        first, last = int(start, 16), int(start, 16) + int(size)
+        places = [first - 4, *sorted(at for at in changed.get(part, []) if first <= at < last), last]
+        pieces = [data[offset + a + 4 : offset + b] for a, b in pairwise(places) if b - a - 4 >= _LEAST]
+        found[name] = pieces
+    return found
+
+
+def test_no_reference_is_in_a_box(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:
+    code = {
+        f"{step.number} {name}": piece
+        for step in kit.steps
+        for name, pieces in _machine_code(kit.folder / "parts" / "references" / f"{step.number}.o").items()
+        for piece in pieces
+    }
+    assert len(code) > 3 * len(kit.steps)
+    # It would be found: every reference is in the program that draws the expected pictures.
+    whole = kit.reference("raytrace").read_bytes()
+    assert sum(piece in whole for piece in code.values()) > 0.9 * len(code)
+    for step in kit.steps:
+        for together in (False, True):
+            program = _program(kit, step, solved, tmp_path / f"{step.number}{together}", together=together)
+            own = {word for word in program.words if isinstance(word, str)}
+            for given in Task(program.words).all_inputs():
+                if given.inner_name == "steps":
+                    continue  # the student's own, here the reference's code
+                data = given.path.read_bytes()
+                assert [name for name, piece in code.items() if piece in data] == []
+            libraries = next(word.path for word in program.words if isinstance(word, Input))
+            assert {path.stem.removeprefix("libstep-") for path in libraries.iterdir()} <= own
+
+
+def _program(kit: BuiltKit, step: Step, sources: dict[str, str], folder: Path, *, together: bool) -> Program:
+    build = StudentBuild(kit, LimitsOnly(), folder)
+    binaries = {}
+    for other in kit.steps:
+        if other == step or (together and other.index < step.index):
+            compiled = build.compile(other, sources[other.id].encode(), limits_of(other, {}))
+            assert compiled.binary is not None, compiled.ran.outcome.stderr
+            binaries[other.number] = compiled.binary
+    program, ran = build.program("raytrace", step, binaries, limits_of(step, {}), together=together)
+    assert program is not None, ran
+    assert program.home is not None
+    return program
+
+
+def _last_case(step: Step, project: Project, kit: BuiltKit, program: Program) -> tuple[Path, tuple[str, ...], Rendered]:
+    case = step.images[-1]
+    scene, args = project.root / case.scene, (*case.args[:-1], "61x47")
+    return scene, args, render(LimitsOnly(), program, scene, args, limits_of(step, {}).of_program())
+
+
+@pytest.mark.parametrize("together", [False, True])
+def test_the_same_picture_and_the_same_counts(
+    kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path, *, together: bool
+) -> None:
+    for step in kit.steps:
+        program = _program(kit, step, solved, tmp_path / step.number, together=together)
+        scene, args, rendered = _last_case(step, project, kit, program)
+        assert rendered.pixels is not None, rendered.ran.outcome.stderr
+        assert (rendered.pixels == reference_picture(kit, scene, args)).all(), step.id
+        assert rendered.work == reference_work(kit, scene, args), step.id
+
+
+def test_a_box_that_ends_is_what_became_of_the_step(
+    kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path
+) -> None:
+    step = kit.steps[0]
+    begins = "Ray primary_ray("
+    endings = {"std::abort();": -6, "std::exit(0);": 0, "for (volatile int i = 0;;) { i = 1; }": -9}
+    for number, (statement, code) in enumerate(endings.items()):
+        source = "#include <cstdlib>\n" + solved[step.id]
+        at = source.index("{", source.index(begins)) + 1
+        broken = {step.id: f"{source[:at]} if (x == 3 && y == 2) {{ {statement} }} {source[at:]}"}
+        program = _program(kit, step, broken, tmp_path / str(number), together=False)
+        case = step.images[0]
+        limits = limits_of(step, {"seconds": 2.0}).of_program()
+        rendered = render(LimitsOnly(), program, project.root / case.scene, case.args, limits)
+        assert rendered.pixels is None
+        assert rendered.ran.outcome.code == code
