@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 from class_documents import without_times
-from class_fakes import FAKE, start_class, write_entry
+from class_fakes import start_class, write_entry
+from fake_grader import FAKE
 
 from raysteps.classroom.jobs import Job, to_line
 from raysteps.results.settings import Settings
