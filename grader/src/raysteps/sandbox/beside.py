@@ -162,7 +162,7 @@ def _run_outside(task: Task, pipes: tuple[int, int]) -> _Ended:
 def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
     outcome = replace(inside.outcome, stdout=outside.stdout)
     cpu_seconds = inside.cpu_seconds + outside.cpu_seconds
-    if outside.code in (0, 1):  # nothing was left to ask: whatever the box does afterwards
+    if 0 <= outside.code < _CLOSED:  # nothing was left to ask: whatever the box does afterwards
         ended = Outcome(outside.code, False, outside.stdout, inside.outcome.stderr + outside.stderr, outside.seconds)
         return TaskResult(ended, outside.outputs, cpu_seconds, "")
     if outside.code in _WHY_BROKEN:
