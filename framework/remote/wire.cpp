@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -33,6 +34,7 @@ void Wire::end(int code, const char* why) {
 Wire::Wire(Pipes pipes, Service service, Farewell farewell)
     : pipes_(pipes), service_(service), farewell_(farewell), outgoing_(sizeof(BatchSize), '\0') {
     t_has_fibers = true;
+    std::signal(SIGPIPE, SIG_IGN);  // who is gone is heard of by what write returns
 }
 
 std::size_t Wire::current() {
