@@ -74,12 +74,12 @@ struct Parameter<const Node&> : TreeParameter<Node> {};
 template <>
 struct Parameter<const Bvh&> : TreeParameter<Bvh> {};
 
-/// A box that has step 02 tests spheres and triangles itself. All other tests of surfaces are counted where they are
-/// made, and nobody's word is taken for them. The boxes of step 06 are shown, but not graded.
-inline void add_counts(FunctionId id, Reader& in) {
+/// A box that has step 02 tests spheres and triangles itself, and is believed: there a wrong count wins nothing. All
+/// other tests of surfaces are counted where they are made. The boxes of step 06 are shown, but not graded.
+inline void add_counts(Reader& in) {
     const auto surface_tests = in.get<std::uint32_t>();
     thread_stats().box_tests += in.get<std::uint32_t>();
-    thread_stats().surface_tests += id == FunctionId::closest_hit ? surface_tests : 0;
+    thread_stats().surface_tests += Session::box_counts_surfaces() ? surface_tests : 0;
 }
 
 /// What this end has counted since it was last asked. A program keeps its own counts.
@@ -113,7 +113,7 @@ auto ask_and_read(FunctionId id, const ReadResult& read_result, std::type_identi
     });
     try {
         Reader in(answer.bytes);
-        add_counts(id, in);
+        add_counts(in);
         return read_result(in, *open);
     } catch (const BadMessage& error) {
         session.broken(error.what());

@@ -7,6 +7,7 @@ namespace raysteps::remote {
 namespace {
 
 Session* g_session = nullptr;
+bool g_box_counts_surfaces = false;
 
 constexpr std::size_t k_longest_words = 200;  // of an exception
 
@@ -27,6 +28,10 @@ bool offer(FunctionId id, Session::Service service) {
 Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell) : end_(end), wire_(pipes, answer, farewell) {
     g_session = this;
 }
+
+bool Session::box_counts_surfaces() { return g_box_counts_surfaces; }
+
+bool Session::let_box_count_surfaces() { return g_box_counts_surfaces = true; }
 
 Session& Session::current() {
     if (g_session == nullptr) {

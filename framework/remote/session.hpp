@@ -45,6 +45,10 @@ public:
         return wait_for_answer();
     }
 
+    /// Whether step 02 is in the box. Its stand-ins say so.
+    [[nodiscard]] static bool box_counts_surfaces();
+    static bool let_box_count_surfaces();  ///< always true
+
     [[noreturn]] void broken(const char* why) { wire_.end(Wire::k_broken, why); }
 
 private:

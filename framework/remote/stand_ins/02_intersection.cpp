@@ -7,6 +7,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool counted_in_box = remote::Session::let_box_count_surfaces();
+
 std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
     return ask<&Triangle::intersect>(FunctionId::triangle_intersect, *this, ray);
 }

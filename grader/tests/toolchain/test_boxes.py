@@ -17,6 +17,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import limits_of
 
 _LEAST = 24  # bytes of machine code that are nobody else's by chance
+_OF_A_COMPILER = re.compile(r"[CD]\dE[vO]")  # constructors and destructors, made alike wherever a type is used
 _SYMBOL = re.compile(r"^\s*\d+:\s+([0-9a-f]+)\s+(\d+)\s+FUNC\s+\w+\s+\w+\s+(\d+)\s+(\S+)", re.MULTILINE)
 _SECTION = re.compile(r"^\s*\[\s*(\d+)\]\s+(\.text\S*)\s+PROGBITS\s+\S+\s+([0-9a-f]+)", re.MULTILINE)
 _RELOCATIONS = re.compile(r"section '\.rela(\.text\S*)'.*?\n(.*?)(?:\n\n|\Z)", re.DOTALL)
@@ -50,6 +51,7 @@ def test_no_reference_is_in_a_box(kit: BuiltKit, solved: dict[str, str], tmp_pat
         f"{step.number} {name}": piece
         for step in kit.steps
         for name, pieces in _machine_code(kit.folder / "parts" / "references" / f"{step.number}.o").items()
+        if not _OF_A_COMPILER.search(name)
         for piece in pieces
     }
     assert len(code) > 3 * len(kit.steps)
@@ -85,7 +87,8 @@ def _program(kit: BuiltKit, step: Step, sources: dict[str, str], folder: Path, *
 
 def _last_case(step: Step, project: Project, kit: BuiltKit, program: Program) -> tuple[Path, tuple[str, ...], Rendered]:
     case = step.images[-1]
-    scene, args = project.root / case.scene, (*case.args[:-1], "61x47")
+    at = case.args.index("--size") + 1
+    scene, args = project.root / case.scene, (*case.args[:at], "61x47", *case.args[at + 1 :])
     return scene, args, render(LimitsOnly(), program, scene, args, limits_of(step, {}).of_program())
 
 

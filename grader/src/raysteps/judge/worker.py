@@ -119,6 +119,8 @@ def _what_came(ran: TaskResult, cases: Sequence[Case], first: int) -> tuple[list
     lines = ran.outcome.stdout.split("\n")
     rest = lines.pop()
     replies = _read(lines, first, len(cases) - 1)
+    if len(replies) == len(cases) - first:
+        return replies, None
     # Cut off, perhaps at the end of a line: after the last case a worker says so. It may also have ended itself in
     # the next case, and will do so again when that is the first one.
     ended = f"end {len(cases) - first}" in lines[-1:]
