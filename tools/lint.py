@@ -1,5 +1,6 @@
 """What reads the kit's own code without running it: linters and formatters, the same for `test`, `dev lint` and git."""
 
+import json
 import re
 import shutil
 import sys
@@ -7,6 +8,7 @@ import sysconfig
 from functools import partial
 from pathlib import Path
 
+from raysteps.common.files import write_json
 from raysteps.common.platform import executable
 from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
@@ -41,6 +43,14 @@ def _cpp(project: Project, *words: str) -> Report:
     return command([_tool("clang-format"), *words, *files], project.root)
 
 
+def _each_once(folder: Path) -> Path:
+    """Where the commands of a build folder stand once for each source: some belong to several programs."""
+    commands = json.loads((folder / "compile_commands.json").read_text(encoding="utf-8"))
+    once = {command["file"]: command for command in commands}
+    write_json(folder / "once" / "compile_commands.json", list(once.values()))
+    return folder / "once"
+
+
 def _tidy(project: Project, *words: str) -> Report:
     """Looks at each source but tests and stubs as the preset `dev` compiles it, yet with no header that others brought;
     nothing has to be built."""
@@ -49,7 +59,7 @@ def _tidy(project: Project, *words: str) -> Report:
         tree.configure()
     sources = rf"^{re.escape(project.root.as_posix())}/(bench|framework|solutions)/(?!testing/|io/fuzz/|.*_test\.)"
     runner: list[str | Path] = [sys.executable, _tool("run-clang-tidy.py"), "-clang-tidy-binary", _tool("clang-tidy")]
-    return command([*runner, "-quiet", "-p", tree.folder, *words, sources], project.root, _TIDY_SECONDS)
+    return command([*runner, "-quiet", "-p", _each_once(tree.folder), *words, sources], project.root, _TIDY_SECONDS)
 
 
 def _is_python(place: str) -> bool:

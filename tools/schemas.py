@@ -1,8 +1,9 @@
 """JSON schemas of the kit's documents, for programs of others: made from the classes that the kit reads them with."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from pathlib import Path
-from typing import get_args
+from typing import get_args, get_type_hints
 
 import msgspec
 
@@ -26,13 +27,26 @@ DOCUMENTS: Mapping[str, type] = {
 }
 
 
+def _classes(kind: object, known: set[type]) -> Iterator[type]:
+    """The dataclasses that a type is made of."""
+    if isinstance(kind, type) and is_dataclass(kind) and kind not in known:
+        known.add(kind)
+        yield kind
+        for inner in get_type_hints(kind).values():
+            yield from _classes(inner, known)
+    for inner in get_args(kind):
+        yield from _classes(inner, known)
+
+
 def schema_of(kind: type) -> dict[str, object]:
-    """No object of ours takes a key that it does not know, but for the list of a release; each says its form."""
+    """No object of ours takes a key that it does not know, but for the list of a release. Required is what the kit
+    always writes: all but what older kits did not."""
     schema = msgspec.json.schema(kind)
-    for made in schema["$defs"].values():
-        if "properties" in made:
-            made["additionalProperties"] = kind is Release
-            made["required"] = [key for key in made["properties"] if key == "schema" or key in made.get("required", [])]
+    optional = {(made.__name__, one.name) for made in _classes(kind, set()) for one in fields(made) if one.metadata}
+    for name, form in schema["$defs"].items():
+        if "properties" in form:
+            form["additionalProperties"] = kind is Release
+            form["required"] = [key for key in form["properties"] if (name, key) not in optional]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 
 

@@ -7,6 +7,7 @@ function(raysteps_add_test name)
 endfunction()
 
 set(up_to "")
+set(step_tests "")
 foreach(step IN LISTS RAYSTEPS_STEPS)
     raysteps_split_step(${step} number step_name)
     list(APPEND up_to ${number})
@@ -14,6 +15,7 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
     add_library(test-${number}-objects OBJECT ${tests})
     target_link_libraries(test-${number}-objects PRIVATE raysteps-testing raysteps-strict)
     raysteps_precompile(testing test-${number}-objects)
+    list(APPEND step_tests $<TARGET_OBJECTS:test-${number}-objects>)
     if(RAYSTEPS_MODEL STREQUAL "reference")
         raysteps_add_test(test-reference-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects>)
         raysteps_add_test(test-isolated-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects> MINE ${number})
@@ -28,6 +30,11 @@ if(NOT RAYSTEPS_MODEL STREQUAL "reference")
 endif()
 
 # What follows tests the kit itself, with the reference.
+
+# The tests of all steps in one program, for where linking is slow: MinGW's linker takes half a minute for each.
+raysteps_add_test(test-reference SOURCES ${step_tests})
+set_target_properties(test-reference PROPERTIES EXCLUDE_FROM_ALL ON)
+
 file(GLOB framework_tests CONFIGURE_DEPENDS "core/*_test.cpp" "io/*_test.cpp" "render/*_test.cpp" "apps/*_test.cpp"
      "inspect/*_test.cpp" "testing/*_test.cpp" "view/*_test.cpp" "wide/*_test.cpp")
 raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double k_frame_seconds = 1.0 / 30.0;  // while something is going on
 constexpr double k_idle_seconds = 0.2;
-constexpr std::chrono::milliseconds k_patience{1000};  // with a step that does not end, when the window closes
+constexpr std::chrono::milliseconds k_stop_timeout{1000};  // with a step that does not end, when the window closes
 
 void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
@@ -161,7 +161,7 @@ private:
         const Image read = window_.show_and_read(image);
         write_picture(options_.strip ? read : without_status_bar(read, controls_.settings().camera),
                       path_of(options_.screenshot));
-        while (!inspector_.idle_within(k_patience)) {
+        while (!inspector_.idle_within(k_stop_timeout)) {
         }
         print_answer();
         done_ = true;
@@ -187,7 +187,7 @@ private:
     }
 
     void leave() {
-        if (!renderer_.stop(k_patience) || !inspector_.idle_within(k_patience)) {
+        if (!renderer_.stop(k_stop_timeout) || !inspector_.idle_within(k_stop_timeout)) {
             std::fputs("raysteps view: a step did not come to an end, and was left\n", stderr);
             std::_Exit(0);  // a thread that hangs cannot be joined
         }

@@ -45,6 +45,13 @@ def unsolved(project: Project, steps: list[Step]) -> Sources:
 
 
 @pytest.fixture
+def fake_grader(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Processes that grade a class find `fake_grader`, which writes down what it does."""
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent / "helpers"))
+    monkeypatch.setenv("FAKE_LOG", str(tmp_path / "log.txt"))
+
+
+@pytest.fixture
 def make_submission(tmp_path: Path, steps: list[Step]) -> MakeSubmission:
     """Writes sources to a folder of that name, as steps/NN-name/name.cpp."""
 

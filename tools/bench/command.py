@@ -13,9 +13,9 @@ from tools.bench.docs import bench_docs
 from tools.bench.grading import grading
 from tools.bench.loop import bench_loop
 from tools.bench.parse import bench_parse
-from tools.bench.render import RenderWish, bench_render
-from tools.bench.scale import ScaleWish, bench_scale
-from tools.bench.threads import ThreadsWish, bench_threads
+from tools.bench.render import RenderOptions, bench_render
+from tools.bench.scale import ScaleOptions, bench_scale
+from tools.bench.threads import ThreadsOptions, bench_threads
 
 
 def _number(least: int, most: int) -> Callable[[str], int]:
@@ -94,12 +94,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     match given.what:
         case "render":
             numbers = (given.size, given.depth, given.rounds, given.every)
-            wish = RenderWish(given.scenes, *numbers, given.structures, given.native, not given.no_povray)
-            return bench_render(project, wish, console)
+            options = RenderOptions(given.scenes, *numbers, given.structures, given.native, not given.no_povray)
+            return bench_render(project, options, console)
         case "scale":
-            return bench_scale(project, ScaleWish(given.most, given.structures, given.rounds), console)
+            return bench_scale(project, ScaleOptions(given.most, given.structures, given.rounds), console)
         case "threads":
-            return bench_threads(project, ThreadsWish(given.scenes, given.size, given.rounds), console)
+            return bench_threads(project, ThreadsOptions(given.scenes, given.size, given.rounds), console)
         case "parse":
             return bench_parse(project, given.scenes, given.rounds, console)
         case "loop":

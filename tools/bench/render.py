@@ -128,7 +128,7 @@ def print_pictures(rows: list[PovrayRow], console: Console) -> None:
 
 
 @dataclass(frozen=True)
-class RenderWish:
+class RenderOptions:
     """What `bench render` was asked for."""
 
     scenes: list[Path]
@@ -141,47 +141,49 @@ class RenderWish:
     povray: bool = True
 
 
-def _rays(programs: Programs, scene: Path, wish: RenderWish) -> SceneRays:
-    words = ["--size", wish.size, "--depth", wish.depth, "--rounds", wish.rounds, "--every", wish.every]
-    words += ["--structures", wish.structures] if wish.structures else []
+def _rays(programs: Programs, scene: Path, options: RenderOptions) -> SceneRays:
+    words = ["--size", options.size, "--depth", options.depth, "--rounds", options.rounds, "--every", options.every]
+    words += ["--structures", options.structures] if options.structures else []
     return ask_pinned(SceneRays, programs.bench, "render", scene, *[str(word) for word in words])
 
 
-def _measure(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> BuildRays:
+def _measure(programs: Programs, scenes: list[Path], options: RenderOptions, console: Console) -> BuildRays:
     rows = []
     for scene in scenes:
         with console.status(f"{programs.build} build: the rays of {escape(scene.name)}"):
-            rows.append(_rays(programs, scene, wish))
+            rows.append(_rays(programs, scene, options))
     print_rays(rows, programs.build, console)
     return BuildRays(programs.build, programs.machine, rows)
 
 
-def _race(programs: Programs, scenes: list[Path], wish: RenderWish, console: Console) -> list[PovrayRow]:
-    if shutil.which("povray") is None or not wish.povray:
+def _race(programs: Programs, scenes: list[Path], options: RenderOptions, console: Console) -> list[PovrayRow]:
+    if shutil.which("povray") is None or not options.povray:
         return []
     rows = []
-    trees = [name for name in accelerations(programs) if not wish.structures or name in wish.structures.split(",")]
+    trees = [
+        name for name in accelerations(programs) if not options.structures or name in options.structures.split(",")
+    ]
     if not trees:
         return []
     for scene in scenes:
         with console.status(f"POV-Ray and raytrace in turns: {escape(scene.name)}"):
-            rows.append(race_povray(programs, scene, Race(wish.size, wish.depth, wish.rounds, trees)))
+            rows.append(race_povray(programs, scene, Race(options.size, options.depth, options.rounds, trees)))
     print_pictures(rows, console)
     return rows
 
 
-def bench_render(project: Project, wish: RenderWish, console: Console) -> int:
+def bench_render(project: Project, options: RenderOptions, console: Console) -> int:
     """Measures, prints tables and writes build/bench/render.json."""
-    scenes = checked(wish.scenes) or default_scenes(project)
+    scenes = checked(options.scenes) or default_scenes(project)
     with console.status("building the benchmarks"):
         programs = portable(project)
     for line in what_is_missing(listed(programs.bench)):
         console.print(line, soft_wrap=True)
-    builds = [_measure(programs, scenes, wish, console)]
-    if wish.native:
+    builds = [_measure(programs, scenes, options, console)]
+    if options.native:
         with console.status("building for this very processor"):
             tuned = native(project)
-        builds.append(_measure(tuned, scenes, wish, console))
-    pictures = _race(programs, scenes, wish, console)
+        builds.append(_measure(tuned, scenes, options, console))
+    pictures = _race(programs, scenes, options, console)
     keep(project, RenderNumbers(builds=builds, povray=pictures), console)
     return 0

@@ -18,7 +18,7 @@ _ROUNDS = 3
 
 
 @dataclass(frozen=True)
-class ScaleWish:
+class ScaleOptions:
     """What `bench scale` was asked for."""
 
     most: int = 1_000_000
@@ -89,26 +89,26 @@ def _print_growth(lines: list[GrowthRow], console: Console) -> None:
         )
 
 
-def _chosen(programs: Programs, wish: ScaleWish) -> list[str]:
+def _chosen(programs: Programs, options: ScaleOptions) -> list[str]:
     structures = listed(programs.bench).structures
     trees = [side.name for side in structures if not side.slow and not side.foreign]
-    asked = wish.structures.split(",") if wish.structures else trees
+    asked = options.structures.split(",") if options.structures else trees
     for name in asked:
         if name not in [side.name for side in structures]:
             raise UsageError(f"--structures: expected names among {', '.join(trees)}, found '{name}'")
     return asked
 
 
-def bench_scale(project: Project, wish: ScaleWish, console: Console) -> int:
+def bench_scale(project: Project, options: ScaleOptions, console: Console) -> int:
     """Measures, prints a table and the slopes, and writes build/bench/scale.json."""
     with console.status("building the benchmarks"):
         programs = portable(project)
     rows: list[ScaleRow] = []
     for kind in KINDS:
-        for structure in _chosen(programs, wish):
-            for size in sizes(wish.most):
+        for structure in _chosen(programs, options):
+            for size in sizes(options.most):
                 with console.status(f"{kind} of {size} surfaces, {structure}"):
-                    rows.append(_measured(programs, kind, size, structure, wish.rounds))
+                    rows.append(_measured(programs, kind, size, structure, options.rounds))
     lines = list(growth_of(rows))
     _print(rows, console)
     _print_growth(lines, console)

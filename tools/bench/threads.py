@@ -21,7 +21,7 @@ _SECONDS = 3600
 
 
 @dataclass(frozen=True)
-class ThreadsWish:
+class ThreadsOptions:
     """What `bench threads` was asked for."""
 
     scenes: list[Path]
@@ -49,13 +49,13 @@ def _render(programs: Programs, scene: Path, accel: str, threads: int, size: int
         return document["render_seconds"], document["build_seconds"]
 
 
-def _measured(programs: Programs, scene: Path, accel: str, wish: ThreadsWish) -> list[ThreadsRow]:
+def _measured(programs: Programs, scene: Path, accel: str, options: ThreadsOptions) -> list[ThreadsRow]:
     """All counts in turns; the first round warms up."""
     counts = thread_counts(os.cpu_count() or 1)
     times: dict[int, list[tuple[float, float]]] = {count: [] for count in counts}
-    for number in range(wish.rounds + 1):
+    for number in range(options.rounds + 1):
         for count in counts:
-            taken = _render(programs, scene, accel, count, wish.size)
+            taken = _render(programs, scene, accel, count, options.size)
             if number > 0:
                 times[count].append(taken)
     rows = []
@@ -82,16 +82,16 @@ def _print(rows: list[ThreadsRow], console: Console) -> None:
     console.print(table)
 
 
-def bench_threads(project: Project, wish: ThreadsWish, console: Console) -> int:
+def bench_threads(project: Project, options: ThreadsOptions, console: Console) -> int:
     """Measures, prints a table and writes build/bench/threads.json."""
-    scenes = checked(wish.scenes) or default_scenes(project)
+    scenes = checked(options.scenes) or default_scenes(project)
     with console.status("building the benchmarks"):
         programs = portable(project)
     rows: list[ThreadsRow] = []
     for scene in scenes:
         for accel in accelerations(programs):
             with console.status(f"{escape(scene.name)} with {accel}"):
-                rows += _measured(programs, scene, accel, wish)
+                rows += _measured(programs, scene, accel, options)
     _print(rows, console)
     keep(project, ThreadsNumbers(machine=programs.machine, rows=rows), console)
     return 0

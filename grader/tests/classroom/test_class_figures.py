@@ -6,7 +6,6 @@ import sqlite3
 from pathlib import Path
 from typing import Any
 
-import class_fakes
 import pytest
 from class_documents import STEPS, document, missing, result, student, submission
 from class_fakes import grade_class, write_entry
@@ -148,9 +147,8 @@ def test_a_class_without_a_single_grade_has_a_page(submissions: list[dict[str, o
 
 
 def test_a_graded_class_has_a_page_that_links_to_what_is_there_and_can_be_made_anew(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, fake_grader: None
 ) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
     write_entry(tmp_path / "in", "ann & co", "// points 7\n")
     write_entry(tmp_path / "in", "bob", "// fault\n")
     out = tmp_path / "grades"
@@ -186,10 +184,8 @@ def test_a_graded_class_has_a_page_that_links_to_what_is_there_and_can_be_made_a
         "UPDATE results SET status = 'great'",
     ],
 )
-def test_a_database_with_what_no_run_wrote_is_told(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, change: str
-) -> None:
-    out = _graded_once(tmp_path, monkeypatch)
+def test_a_database_with_what_no_run_wrote_is_told(tmp_path: Path, fake_grader: None, change: str) -> None:
+    out = _graded_once(tmp_path)
     with sqlite3.connect(out / "class.sqlite") as connection:
         connection.execute("PRAGMA ignore_check_constraints = ON")
         assert connection.execute(change).rowcount > 0
@@ -198,8 +194,8 @@ def test_a_database_with_what_no_run_wrote_is_told(
 
 
 @pytest.mark.parametrize("told", ["'{}'", "x'00ff'"])
-def test_results_of_another_form_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, told: str) -> None:
-    out = _graded_once(tmp_path, monkeypatch)
+def test_results_of_another_form_are_named(tmp_path: Path, fake_grader: None, told: str) -> None:
+    out = _graded_once(tmp_path)
     with sqlite3.connect(out / "class.sqlite") as connection:
         assert connection.execute(f"UPDATE results SET document = {told}").rowcount == 1
     with open_readonly(out / "class.sqlite") as connection:
@@ -207,8 +203,7 @@ def test_results_of_another_form_are_named(tmp_path: Path, monkeypatch: pytest.M
     assert (one.note, one.results) == ("graded by a kit of another form; grade it again", None)
 
 
-def _graded_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
+def _graded_once(folder: Path) -> Path:
     write_entry(folder / "in", "ann", "// points 7\n")
     assert grade_class(folder / "in", "--out", folder / "grades") == 0
     return folder / "grades"

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator
 from contextlib import closing
 from pathlib import Path
 
-import class_fakes
 import pytest
 from class_documents import without_times
 from class_fakes import grade_class, start_class, write_entry
@@ -65,9 +64,7 @@ def wait_for(what: Callable[[], bool]) -> None:
 
 
 @pytest.fixture
-def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[_Cluster]:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
-    monkeypatch.setenv("FAKE_LOG", str(tmp_path / "log.txt"))
+def cluster(tmp_path: Path, fake_grader: None) -> Iterator[_Cluster]:
     running = _Cluster(tmp_path)
     try:
         running.start()

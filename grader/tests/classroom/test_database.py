@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 import sqlite3
 import unicodedata
 from contextlib import closing
@@ -201,22 +202,26 @@ def test_messages_survive_the_way() -> None:
     assert from_line(to_line(answer), Answer) == answer
 
 
+_OUTSIDE = "key in $.pictures: expected str matching regex "
+_EITHER = "$: results without a fault, or a fault without results, expected"
+
+
 @pytest.mark.parametrize(
-    "change",
+    ("change", "words"),
     [
-        {"pictures": {"../../etc/passwd.png": ""}},
-        {"pictures": {"pictures/../../a.png": ""}},
-        {"pictures": {"/pictures/a.png": ""}},
-        {"status": "great"},
-        {"results": None},
-        {"fault": "and yet"},
-        {"seconds": -1},
-        {"more": 1},
+        ({"pictures": {"../../etc/passwd.png": ""}}, _OUTSIDE),
+        ({"pictures": {"pictures/../../a.png": ""}}, _OUTSIDE),
+        ({"pictures": {"/pictures/a.png": ""}}, _OUTSIDE),
+        ({"status": "great"}, "$.status: invalid enum value 'great'"),
+        ({"results": None}, _EITHER),
+        ({"fault": "and yet"}, _EITHER),
+        ({"seconds": -1}, "$.seconds: expected int >= 0"),
+        ({"more": 1}, "$: unknown key 'more'; known are name, "),
     ],
 )
-def test_what_is_no_answer(change: dict[str, object]) -> None:
+def test_what_is_no_answer(change: dict[str, object], words: str) -> None:
     good = json.loads(to_line(Answer("ann", "graded", _results())))
-    with pytest.raises(GraderFault, match="this is no answer: "):
+    with pytest.raises(GraderFault, match=re.escape(f"this is no answer: {words}")):
         from_line(json.dumps({**good, **change}).encode(), Answer)
 
 

@@ -10,7 +10,6 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-import class_fakes
 import pytest
 from class_documents import without_times
 from class_fakes import FIRST, grade_class, write_entry
@@ -19,11 +18,7 @@ from rich.console import Console
 from raysteps.common.errors import UsageError
 from raysteps.results.store import validate
 
-
-@pytest.fixture(autouse=True)
-def _fakes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
-    monkeypatch.setenv("FAKE_LOG", str(tmp_path / "log.txt"))
+pytestmark = pytest.mark.usefixtures("fake_grader")
 
 
 @pytest.fixture

@@ -11,10 +11,10 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-import class_fakes
 import pytest
 from class_documents import without_times
-from class_fakes import FAKE, start_class, write_entry
+from class_fakes import start_class, write_entry
+from fake_grader import FAKE
 
 from raysteps.classroom.jobs import Job, to_line
 from raysteps.results.settings import Settings
@@ -24,9 +24,7 @@ _TIMEOUT = 60
 
 
 @pytest.fixture(autouse=True)
-def _fakes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
-    monkeypatch.setenv("FAKE_LOG", str(tmp_path / "log.txt"))
+def _scratch(fake_grader: None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     scratch = tmp_path / "scratch"
     scratch.mkdir()
     monkeypatch.setenv("TMPDIR", str(scratch))

@@ -118,8 +118,9 @@ def test_only_right_pictures_are_ranked(
     assert "wrong: picture slivers-octree is not right" in shown
     assert "A surface test and a box test weigh alike" in shown
 
-    database = _class(tmp_path / "strange", {"strange": strange}) / "class.sqlite"
-    assert "of another form" in _others(_ranking(project, tmp_path, database)["steps"][0])["strange"]
+    folder = _class(tmp_path / "strange", {"strange": strange})
+    for name in ("class.sqlite", "class.json"):
+        assert "of another form" in _others(_ranking(project, tmp_path, folder / name)["steps"][0])["strange"]
 
 
 def test_every_form_of_a_class_gives_the_same(tmp_path: Path, project: Project, steps: list[Step]) -> None:

@@ -8,7 +8,6 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-import class_fakes
 import pytest
 from class_fakes import grade_class, write_entry
 
@@ -16,12 +15,9 @@ from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.classroom.entries import Shard
 from raysteps.common.errors import UsageError
 
+pytestmark = pytest.mark.usefixtures("fake_grader")
+
 _FIRST, _SECOND = ([f"s{number}" for number in range(8) if Shard(index, 2).holds(f"s{number}")] for index in (1, 2))
-
-
-@pytest.fixture(autouse=True)
-def _fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
 
 
 @pytest.fixture

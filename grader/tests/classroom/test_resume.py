@@ -8,7 +8,6 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-import class_fakes
 import pytest
 from class_fakes import grade_class, write_entry
 
@@ -21,10 +20,7 @@ from raysteps.classroom.jobs import Answer, Job
 from raysteps.classroom.local_pool import LocalPool
 from raysteps.cli.grade_class import add_arguments, line_to_go_on, read_options
 
-
-@pytest.fixture(autouse=True)
-def _fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
+pytestmark = pytest.mark.usefixtures("fake_grader")
 
 
 @pytest.fixture

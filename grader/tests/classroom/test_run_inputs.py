@@ -7,19 +7,15 @@ import sqlite3
 from contextlib import closing
 from pathlib import Path
 
-import class_fakes
 import pytest
 from class_fakes import FIRST, grade_class, write_entry
 
 import raysteps.cli.grade_class
 from raysteps.common.errors import UsageError
 
+pytestmark = pytest.mark.usefixtures("fake_grader")
+
 _AGAIN = "is used again"
-
-
-@pytest.fixture(autouse=True)
-def _fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
 
 
 class Class:

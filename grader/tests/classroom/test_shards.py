@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-import class_fakes
 import pytest
 from class_documents import without_times
 from class_fakes import grade_class, write_entry
@@ -12,10 +11,7 @@ from class_fakes import grade_class, write_entry
 from raysteps.classroom.entries import Shard
 from raysteps.common.errors import UsageError
 
-
-@pytest.fixture(autouse=True)
-def _fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(class_fakes.__file__).parent))
+pytestmark = pytest.mark.usefixtures("fake_grader")
 
 
 @pytest.fixture

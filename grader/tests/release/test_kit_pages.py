@@ -1,8 +1,13 @@
 """The pages of a students' kit tell people to type only what can be typed there."""
 
+import ast
 import json
 import re
+import sys
+import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
@@ -29,6 +34,24 @@ def released(
     folder = tmp_path_factory.mktemp("course") / "kit"
     write_release(kit, first_steps(None if request.param == "all" else request.param, steps), "Graphics 101", folder)
     return folder
+
+
+def _imported(path: Path) -> Iterator[str]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        match node:
+            case ast.Import():
+                yield from (alias.name.partition(".")[0] for alias in node.names)
+            case ast.ImportFrom(module=str(module), level=0):
+                yield module.partition(".")[0]
+
+
+def test_it_installs_what_it_imports_and_nothing_else(released: Path) -> None:
+    table = tomllib.loads((released / "grader" / "pyproject.toml").read_text(encoding="utf-8"))
+    named = {re.split("[=;]", name)[0] for name in table["project"]["dependencies"]}
+    modules = {name for path in (released / "grader" / "src").rglob("*.py") for name in _imported(path)}
+    others = modules - sys.stdlib_module_names - {"raysteps", "markupsafe"}  # Jinja2 brings MarkupSafe
+    brought = packages_distributions()
+    assert {name.lower().replace("_", "-") for module in others for name in brought[module][:1]} == named
 
 
 def _numbers(root: Path) -> list[str]:

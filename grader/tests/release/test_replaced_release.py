@@ -1,7 +1,9 @@
 """A release in the place of an older one: the history stays and is looked through, and nothing is lost."""
 
 import re
+import shutil
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -21,12 +23,25 @@ def _git(folder: Path, *words: str) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-@pytest.fixture
-def older(kit: BuiltKit, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A release of step 01 that somebody keeps in a repository, and built. No test here looks at its pictures."""
-    monkeypatch.setattr(making, "write_reference_artifacts", lambda *_: None)
-    out = tmp_path / "out" / "course"
+@pytest.fixture(scope="module", autouse=True)
+def _no_pictures() -> Iterator[None]:
+    """No test here looks at those that the reference draws."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(making, "write_reference_artifacts", lambda *_: None)
+        yield
+
+
+@pytest.fixture(scope="module")
+def spring(kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("spring") / "course"
     assert _released(kit, steps, out, "Spring")
+    return out
+
+
+@pytest.fixture
+def older(spring: Path, tmp_path: Path) -> Path:
+    """A release of step 01 that somebody keeps in a repository, and built."""
+    out = shutil.copytree(spring, tmp_path / "out" / "course")
     _git(out, "init", "--quiet")
     _git(out, "add", ".")
     _git(out, "commit", "--quiet", "-m", "Spring")

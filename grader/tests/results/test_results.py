@@ -79,6 +79,13 @@ def test_what_is_no_results_json_is_refused_with_its_place(old: str, new: str, s
         parse_results(_GOOD.replace(old, new, 1).encode())
 
 
+def test_two_steps_of_one_name_are_refused() -> None:
+    document = json.loads(_GOOD)
+    document["steps"] *= 2
+    with pytest.raises(Malformed, match=r"several steps are called 01-camera-rays$"):
+        parse_results(json.dumps(document).encode())
+
+
 def test_what_is_written_is_read(tmp_path: Path) -> None:
     bonus = _step(id="08-refraction", bonus=True)
     bonus.images = [ImageResult("i", "scenes/a.nff", True, 0.01, work=Work(1, 2, 3, 4, 5, 6))]
@@ -93,7 +100,7 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
 
 def test_exit_codes() -> None:
     broken = _step(status="does-not-build")
-    assert exit_code(Results.of("a", [_step(), _step(bonus=True, status="not-started")])) == 0
-    assert exit_code(Results.of("a", [_step(), broken])) == 3
-    assert exit_code(Results.of("a", [broken, _step(status="partial")])) == 1
+    assert exit_code(Results.of("a", [_step(), _step(id="08-refraction", bonus=True, status="not-started")])) == 0
+    assert exit_code(Results.of("a", [_step(id="02-intersection"), broken])) == 3
+    assert exit_code(Results.of("a", [broken, _step(id="02-intersection", status="partial")])) == 1
     assert exit_code(Results.of("a", [_step(status="not-started")])) == 1

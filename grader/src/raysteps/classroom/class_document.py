@@ -39,7 +39,7 @@ def _mistakes(step: StepResult) -> list[str]:
     return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
 
 
-_OTHER_FORM = "graded by a kit of another form; grade it again"
+OTHER_FORM = "graded by a kit of another form; grade it again"
 
 
 class Standings:
@@ -127,7 +127,7 @@ class Standings:
             before=self._before(row["id"], run),
             isolation=results.isolation.name if results is not None else "",
             fault=current["fault"] if current is not None else "",
-            note=" ".join(filter(None, (row["note"], _OTHER_FORM if is_unread else ""))),
+            note=" ".join(filter(None, (row["note"], OTHER_FORM if is_unread else ""))),
             results=f"submissions/{row['name']}/results.json" if results is not None else None,
         )
 

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.classroom.class_document import read_class_document
+from raysteps.classroom.class_document import OTHER_FORM, read_class_document
 from raysteps.classroom.database import FILE, LATEST, open_readonly
 from raysteps.common.documents import Amount, Count, Text, checked
 from raysteps.common.errors import UsageError
@@ -26,6 +26,7 @@ _WANTED = "expected the folder of a graded class, its class.json or class.sqlite
 _WHY_NOT = {
     "fault": "not graded, because of a fault of the grader",
     "unreadable": "nothing could be taken from it",
+    "graded": OTHER_FORM,
 }
 _QUERY = (
     "SELECT submissions.name, results.status, results.document FROM submissions LEFT JOIN results "  # noqa: S608
@@ -52,12 +53,10 @@ def _of_database(path: Path) -> list[LeaderboardEntry]:
     entered = []
     with open_readonly(path) as connection:
         for row in connection.execute(_QUERY):
-            if row["status"] != "graded":
-                entered.append(_without(row["name"], row["status"]))
-                continue
-            results = stored_results(row["document"])
-            why = "graded by a kit of another form; grade it again" if results is None else ""
-            entered.append(LeaderboardEntry(row["name"], results, why))
+            results = stored_results(row["document"]) if row["status"] == "graded" else None
+            entered.append(
+                _without(row["name"], row["status"]) if results is None else LeaderboardEntry(row["name"], results)
+            )
     return entered
 
 

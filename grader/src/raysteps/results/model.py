@@ -1,5 +1,6 @@
 """What came of a grading: these classes are the form raysteps/results/v1 of results.json."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Literal, Self
@@ -203,6 +204,12 @@ class Results:
     inconsistent: bool  # some step claims more than the judge saw
     total: Total
     steps: list[StepResult]
+
+    def __post_init__(self) -> None:
+        amount = Counter(step.id for step in self.steps)
+        twice = [name for name, times in amount.items() if times > 1]
+        if twice:  # a page would show one of them, and count both
+            raise ValueError(f"several steps are called {twice[0]}")
 
     @classmethod
     def of(
