@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from raysteps.classroom.jobs import gave_up
 from raysteps.classroom.process_tree import end_tree, remove
 from raysteps.common.errors import GraderFault
 
@@ -48,7 +49,7 @@ def supervised(work: Callable[[], int], seconds: float) -> int:
     os.close(held)
     try:
         if not _wait(end, seconds):
-            raise GraderFault(f"the grader gave up after {seconds:.0f} s; look at the submission by hand")
+            raise GraderFault(gave_up(seconds))
     finally:
         end_tree(child)
         _, status = os.waitpid(child, 0)
