@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from hostile.folders import FOLDERS
-from hostile.parts import BOTH_FUNCTIONS, OCTREE_OF_ONE_LEAF
+from hostile.parts import BOTH_FUNCTIONS, PARTS
 from hostile.tars import TARS
 from hostile.zips import ZIPS
 
@@ -57,10 +57,10 @@ Facts = Mapping[str, str | Callable[[], str]]
 
 
 def fill_in(text: str, facts: Facts) -> str:
-    """Replaces @NAME@ by what this machine and this run are like."""
+    """Replaces @NAME@ by a part that several attacks share, or by what this machine and this run are like."""
 
     def fact(found: re.Match[str]) -> str:
-        value = OCTREE_OF_ONE_LEAF if found[1] == "OCTREE_OF_ONE_LEAF" else facts.get(found[1])
+        value = PARTS.get(found[1]) or facts.get(found[1])
         return found[0] if value is None else value if isinstance(value, str) else value()
 
     def both(found: re.Match[str]) -> str:

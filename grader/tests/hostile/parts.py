@@ -94,3 +94,26 @@ bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
 
 }  // namespace raysteps
 """
+
+# The word behind an option in the program's own command line. Wants <fstream>, <string> and <vector>.
+AFTER_OPTION = """\
+static std::vector<std::string> command() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(file, word, '\\0');) {
+        words.push_back(word);
+    }
+    return words;
+}
+
+static std::string after(const std::string& option) {
+    const auto words = command();
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        if (words[i] == option) {
+            return words[i + 1];
+        }
+    }
+    return "";
+}"""
+
+PARTS = {"OCTREE_OF_ONE_LEAF": OCTREE_OF_ONE_LEAF, "AFTER_OPTION": AFTER_OPTION}

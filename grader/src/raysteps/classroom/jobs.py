@@ -31,6 +31,13 @@ class Job:
 
 
 GAVE_UP = "the grader gave up after"  # so a fault begins that --resume does not wait for again
+
+
+def gave_up(seconds: float) -> str:
+    """The fault of a grader that was ended from outside."""
+    return f"{GAVE_UP} {seconds:.0f} s; look at the submission by hand"
+
+
 _FILE = r"^(pictures(/[A-Za-z0-9_-][A-Za-z0-9._-]*){1,3}\.png|cases/[a-z0-9-]+\.json)$"
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from raysteps.classroom.jobs import GAVE_UP, Answer, Job, from_line, to_line
+from raysteps.classroom.jobs import Answer, Job, from_line, gave_up, to_line
 from raysteps.classroom.process_tree import end_tree
 from raysteps.common.errors import GraderFault
 from raysteps.toolchain.limits import give_up_after
@@ -71,7 +71,7 @@ class GradingProcess:
             timer.cancel()
         if not line.endswith(b"\n"):
             if self._overtime:
-                raise Overtime(f"{GAVE_UP} {most_seconds:.0f} s; look at the submission by hand")
+                raise Overtime(gave_up(most_seconds))
             raise WorkerDied(self._why())
         return from_line(line, Answer)
 

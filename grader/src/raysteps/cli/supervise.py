@@ -9,6 +9,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from raysteps.classroom.jobs import gave_up
+from raysteps.classroom.process_tree import end_tree, remove
 from raysteps.common.errors import GraderFault
 
 _PR_SET_PDEATHSIG = 1
@@ -35,8 +37,6 @@ def supervised(work: Callable[[], int], seconds: float) -> int:
     seconds it is a fault of the grader, whose temporary files go as well."""
     if sys.platform != "linux":
         return work()
-    from raysteps.classroom.process_tree import end_tree, remove  # students, who do not grade, have none
-
     scratch = Path(tempfile.mkdtemp(prefix="raysteps-grade-"))
     end, held = os.pipe()
     child = os.fork()
@@ -49,7 +49,7 @@ def supervised(work: Callable[[], int], seconds: float) -> int:
     os.close(held)
     try:
         if not _wait(end, seconds):
-            raise GraderFault(f"the grader gave up after {seconds:.0f} s; look at the submission by hand")
+            raise GraderFault(gave_up(seconds))
     finally:
         end_tree(child)
         _, status = os.waitpid(child, 0)

@@ -15,6 +15,7 @@ PROCESSES = 64
 FILE_MB = 64
 NAMES = ("seconds", "memory_mb", "compile_seconds", "compile_memory_mb", "processes", "file_mb")
 _OF_ALL = "submission_seconds"
+_ON_THE_COMMAND_LINE = (*NAMES, _OF_ALL)
 SUBMISSION_SECONDS = 1800.0  # an honest submission takes some minutes, on a slow machine too
 _GIVE_UP_FACTOR = 2
 
@@ -90,13 +91,12 @@ def parse_limits(words: Sequence[str]) -> dict[str, Amount]:
         name, _, value = word.partition("=")
         whole = not name.endswith("seconds")
         if (
-            name not in (*NAMES, _OF_ALL)
+            name not in _ON_THE_COMMAND_LINE
             or not re.fullmatch(r"[0-9]+" if whole else r"[0-9]+(\.[0-9]+)?", value)
             or not float(value)
         ):
             kind = "a whole number" if whole else "a number"
-            raise UsageError(
-                f"--limit {word}: expected one of {', '.join((*NAMES, _OF_ALL))}, then = and {kind} above 0"
-            )
+            names = ", ".join(_ON_THE_COMMAND_LINE)
+            raise UsageError(f"--limit {word}: expected one of {names}, then = and {kind} above 0")
         changes[name] = float(value)
     return changes

@@ -8,24 +8,7 @@
 #include <string>
 #include <vector>
 
-static std::vector<std::string> command() {
-    std::ifstream file("/proc/self/cmdline", std::ios::binary);
-    std::vector<std::string> words;
-    for (std::string word; std::getline(file, word, '\0');) {
-        words.push_back(word);
-    }
-    return words;
-}
-
-static std::string after(const std::string& option) {
-    const auto words = command();
-    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-        if (words[i] == option) {
-            return words[i + 1];
-        }
-    }
-    return "";
-}
+@AFTER_OPTION@
 
 static const int done = [] {
     if (!after("--stats").empty()) {
