@@ -25,6 +25,8 @@ std::atomic<WorkRunner>& chosen_runner() {
 
 void set_work_runner(WorkRunner runner) { chosen_runner() = runner; }
 
+bool work_waits() { return chosen_runner() != nullptr; }
+
 int default_threads() { return chosen_threads(); }
 
 void set_default_threads(int count) { chosen_threads() = std::max(1, count); }

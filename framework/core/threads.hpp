@@ -19,6 +19,8 @@ void run_on_threads(int count, const std::function<void()>& work);
 /// Takes the place of run_on_threads from now on: for a program whose work waits for another one.
 using WorkRunner = void (*)(int count, const std::function<void()>& work);
 void set_work_runner(WorkRunner runner);
+/// Whether that was done. Then work had better be cut into many small parts, of which many wait at the same time.
+[[nodiscard]] bool work_waits();
 
 /// Calls work(0) to work(count - 1), each once, in any order and on default_threads() threads, which take `portion`
 /// numbers at a time. Where there is one portion only, the caller does it alone.

@@ -12,6 +12,7 @@ enum class FunctionId : std::uint8_t {
     triangle_intersect,
     sphere_intersect,
     closest_hit,
+    any_hit,
     mirror,
     diffuse,
     specular,
@@ -44,8 +45,11 @@ enum class FunctionId : std::uint8_t {
     lent_direct_lighting,
     lent_trace,
     lent_surface_hit,
+    lent_surface_hits,
     lent_surface_overlaps,
     lent_boxes,
+    // of the process itself
+    run_on_processor,
     count,
 };
 

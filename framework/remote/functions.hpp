@@ -63,23 +63,19 @@ struct Parameter<const SurfaceList&> {
 };
 
 template <typename Tree>
-struct TreeParameter {
-    using Received = std::shared_ptr<const KnownTree<Tree>>;
-    static LentTree send(Writer& out, const Tree& tree) { return write_tree(out, tree); }
-    static Received receive(Reader& in) { return read_tree<Tree>(in); }
-    static const Tree& give(const Received& received) { return received->tree; }
+struct Parameter<const Search<Tree>&> {
+    using Received = ReceivedSearch<Tree>;
+    static LentTree send(Writer& out, const Search<Tree>& search) { return write_search(out, search); }
+    static Received receive(Reader& in) { return read_search<Tree>(in); }
+    static const Search<Tree>& give(const Received& received) { return received.search; }
 };
-template <>
-struct Parameter<const Node&> : TreeParameter<Node> {};
-template <>
-struct Parameter<const Bvh&> : TreeParameter<Bvh> {};
 
 /// A box that has step 02 tests spheres and triangles itself, and is believed: there a wrong count wins nothing. All
 /// other tests of surfaces are counted where they are made. The boxes of step 06 are shown, but not graded.
 inline void add_counts(Reader& in) {
     const auto surface_tests = in.get<std::uint32_t>();
     thread_stats().box_tests += in.get<std::uint32_t>();
-    thread_stats().surface_tests += Session::box_counts_surfaces() ? surface_tests : 0;
+    thread_stats().surface_tests += Session::asks(FunctionId::sphere_intersect) ? surface_tests : 0;
 }
 
 /// What this end has counted since it was last asked. A program keeps its own counts.

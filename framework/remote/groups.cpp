@@ -1,10 +1,13 @@
 #include "remote/groups.hpp"
 
+#include <typeinfo>
 #include <variant>
 
 #include "core/cone.hpp"
 #include "core/smooth_triangle.hpp"
 #include "remote/lent.hpp"
+#include "remote/searches.hpp"
+#include "remote/session.hpp"
 #include "remote/travel.hpp"
 
 namespace raysteps::remote {
@@ -128,16 +131,28 @@ Groups& Groups::all() {
 bool Groups::is_unchanged(const OwnGroup& group) { return group.description == description_of(group.surfaces); }
 
 std::shared_ptr<OwnGroup> Groups::write(Writer& out, const SurfaceList& surfaces) {
-    std::string description = description_of(surfaces);
+    const std::uint64_t together = Session::current().wire().together();
+    std::string description;
     for (auto recent = own_.upper_bound(oldest_kept(last_)); recent != own_.end(); ++recent) {
         const std::shared_ptr<OwnGroup>& group = recent->second;
-        if (group->surfaces == surfaces && group->description == description) {
+        if (group->surfaces != surfaces) {
+            continue;
+        }
+        const bool is_known = together != 0 && group->described_in == together;
+        if (!is_known && description.empty()) {
+            description = description_of(surfaces);
+        }
+        if (is_known || group->description == description) {
+            group->described_in = together;
             out.put(group->id);
             out.put(false);
             return group;
         }
     }
-    auto group = std::make_shared<OwnGroup>(OwnGroup{++last_, surfaces, std::move(description), 0});
+    if (description.empty()) {
+        description = description_of(surfaces);
+    }
+    auto group = std::make_shared<OwnGroup>(OwnGroup{++last_, surfaces, std::move(description), together, 0});
     own_[group->id] = group;
     std::erase_if(own_,
                   [&](const auto& one) { return one.first <= oldest_kept(last_) && one.second.use_count() == 1; });
@@ -190,6 +205,11 @@ const Surface& Groups::lent(PlaceInGroup place) const {
 const PlaceInGroup* Groups::place_of(const Surface* surface) const {
     const auto found = places_.find(surface);
     return found == places_.end() ? nullptr : &found->second;
+}
+
+bool is_asked(const Surface& surface) {
+    const std::type_info* type = &typeid(surface);  // one program: each type has one
+    return type == &typeid(LeafEntry) || type == &typeid(UnknownSurface);
 }
 
 const Surface& no_surface() {

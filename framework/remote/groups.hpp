@@ -20,7 +20,8 @@ struct OwnGroup {
     GroupId id = 0;
     SurfaceList surfaces;
     std::string description;
-    int lent = 0;  ///< open questions that may lead to one of these surfaces
+    std::uint64_t described_in = 0;  ///< the call of run_together in which it was last described
+    int lent = 0;                    ///< open questions that may lead to one of these surfaces
 };
 
 /// Its copies at the other end, in the same order.
@@ -81,6 +82,9 @@ public:
 private:
     std::shared_ptr<OwnGroup> group_;
 };
+
+/// Whether whoever tests the surface asks the other end, which counts the test.
+[[nodiscard]] bool is_asked(const Surface& surface);
 
 /// What an entry of a student's tree becomes that leads to no surface of the scene: no ray hits it.
 [[nodiscard]] const Surface& no_surface();

@@ -1,5 +1,8 @@
 #include "remote/session.hpp"
 
+#if defined(__linux__)
+#include <sched.h>
+#endif
 #include <string>
 #include <utility>
 
@@ -7,15 +10,20 @@ namespace raysteps::remote {
 namespace {
 
 Session* g_session = nullptr;
-bool g_box_counts_surfaces = false;
 
 constexpr std::size_t k_longest_words = 200;  // of an exception
 
-using Services = std::array<Session::Service, static_cast<std::size_t>(FunctionId::count)>;
+/// Of each function: before main begins, whatever comes first makes it.
+template <typename T>
+using OfEach = std::array<T, static_cast<std::size_t>(FunctionId::count)>;
 
-Services& services() {
-    static Services offered{};
+OfEach<Session::Service>& services() {
+    static OfEach<Session::Service> offered{};
     return offered;
+}
+OfEach<bool>& stand_ins() {
+    static OfEach<bool> asked{};
+    return asked;
 }
 
 }  // namespace
@@ -25,13 +33,30 @@ bool offer(FunctionId id, Session::Service service) {
     return true;
 }
 
+bool stand_in(FunctionId id) { return stand_ins().at(static_cast<std::size_t>(id)) = true; }
+
 Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell) : end_(end), wire_(pipes, answer, farewell) {
     g_session = this;
 }
 
-bool Session::box_counts_surfaces() { return g_box_counts_surfaces; }
+bool run_on_processor(int processor) {
+#if defined(__linux__)
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    if (processor < 0 || processor >= CPU_SETSIZE) {
+        return false;
+    }
+    CPU_SET(static_cast<unsigned>(processor), &one);
+    return sched_setaffinity(0, sizeof one, &one) == 0;
+#else
+    static_cast<void>(processor);
+    return false;
+#endif
+}
 
-bool Session::let_box_count_surfaces() { return g_box_counts_surfaces = true; }
+bool Session::asks(FunctionId id) { return stand_ins().at(static_cast<std::size_t>(id)); }
+
+bool Session::offers(FunctionId id) { return services().at(static_cast<std::size_t>(id)) != nullptr; }
 
 Session& Session::current() {
     if (g_session == nullptr) {

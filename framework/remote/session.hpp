@@ -45,9 +45,9 @@ public:
         return wait_for_answer();
     }
 
-    /// Whether step 02 is in the box. Its stand-ins say so.
-    [[nodiscard]] static bool box_counts_surfaces();
-    static bool let_box_count_surfaces();  ///< always true
+    /// Whether a function of the other end stands in for this one here, or is here for the other end to ask.
+    [[nodiscard]] static bool asks(FunctionId id);
+    [[nodiscard]] static bool offers(FunctionId id);
 
     [[noreturn]] void broken(const char* why) { wire_.end(Wire::k_broken, why); }
 
@@ -60,7 +60,11 @@ private:
     std::exception_ptr kept_;  ///< what went out of a question that the other end asked, until it comes back
 };
 
-/// Called before main begins, by whoever has the function. Always true.
+/// Whether this process keeps to that processor from now on.
+bool run_on_processor(int processor);
+
+/// Called before main begins, by whoever has the function, or a stand-in for it. Always true.
 bool offer(FunctionId id, Session::Service service);
+bool stand_in(FunctionId id);
 
 }  // namespace raysteps::remote

@@ -160,6 +160,13 @@ bool is_same(const Bvh& a, const Bvh& b) {
     return a.surfaces == b.surfaces && std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same);
 }
 
+void number_boxes(KnownTree<Node>& /*known*/) {}
+void number_boxes(KnownTree<Bvh>& known) {
+    if (!Session::current().offers(FunctionId::box_clip)) {
+        known.numbers = std::make_unique<BoxNumbers>(known.tree);
+    }
+}
+
 /// What one end knows of the trees of one kind.
 template <typename Tree>
 class Trees {
@@ -200,12 +207,13 @@ public:
         return nullptr;
     }
 
-    std::shared_ptr<const KnownTree<Tree>> keep(KnownTree<Tree> tree) {
-        const TreeId id = tree.id;
-        auto kept = std::make_shared<const KnownTree<Tree>>(std::move(tree));
-        kept_[id] = kept;
-        forget_old(kept_, id);
-        return kept;
+    void keep(const std::shared_ptr<KnownTree<Tree>>& tree) {
+        if (!Session::current().offers(FunctionId::sphere_intersect)) {
+            enter_leaves(tree->tree, tree->entries);
+        }
+        number_boxes(*tree);
+        kept_[tree->id] = tree;
+        forget_old(kept_, tree->id);
     }
     [[nodiscard]] std::shared_ptr<const KnownTree<Tree>> kept(TreeId id) const {
         const auto found = kept_.find(id);
@@ -233,10 +241,20 @@ LentTree lend(TreeId id, const Bvh& bvh, const std::shared_ptr<OwnGroup>& group)
     return {Loan(group), std::make_unique<TreeLoan>(id, bvh)};
 }
 
-std::shared_ptr<const KnownTree<Node>> start_search(std::shared_ptr<const KnownTree<Node>> known) { return known; }
-std::shared_ptr<const KnownTree<Bvh>> start_search(std::shared_ptr<const KnownTree<Bvh>> known) {
-    search_in(known->id, known->tree);
-    return known;
+void write_boxes_of(Writer& /*out*/, const Search<Node>& /*search*/) {}
+void write_boxes_of(Writer& out, const Search<Bvh>& search) {
+    if (!Session::asks(FunctionId::box_clip)) {
+        write_boxes(out, search.tree, search.ray);
+    }
+}
+
+void begin(const KnownTree<Node>& /*known*/, const Search<Node>& search, Reader& /*in*/) { begin_search(search.until); }
+void begin(const KnownTree<Bvh>& known, const Search<Bvh>& search, Reader& in) {
+    if (known.numbers == nullptr) {
+        begin_search(search.until);
+    } else {
+        begin_search(search.until, known.id, *known.numbers, search.ray, in);
+    }
 }
 
 template <typename Tree>
@@ -256,17 +274,20 @@ template <typename Tree>
 void serve_tree(Tree (*build)(const SurfaceList&), Reader& in, Wire& wire) {
     const auto id = in.get<TreeId>();
     const std::shared_ptr<CopiedGroup> group = Groups::all().read(in);
-    const auto known = Trees<Tree>::all().keep({id, build(group->scene.surfaces()), group});
+    auto known = std::make_shared<KnownTree<Tree>>();
+    known->id = id;
+    known->tree = build(group->scene.surfaces());
+    known->group = group;
     const Groups& groups = Groups::all();
     const IndexOf index_of = [&](const Surface* entry) {
         const PlaceInGroup* place = groups.place_of(entry);
         return place != nullptr && place->group == group->id ? place->index : k_nowhere;
     };
     send_answer(wire, [&](Writer& out) { write_parts(out, known->tree, index_of); });
+    Trees<Tree>::all().keep(known);
 }
 
-}  // namespace
-
+/// Writes which tree is meant, and all of it where the box does not know it.
 template <typename Tree>
 LentTree write_tree(Writer& out, const Tree& tree) {
     Trees<Tree>& trees = Trees<Tree>::all();
@@ -293,19 +314,40 @@ std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
     const bool is_known = in.get<bool>();
     const auto id = in.get<TreeId>();
     if (is_known) {
-        return start_search(trees.kept(id));
+        return trees.kept(id);
     }
-    KnownTree<Tree> tree;
-    tree.id = id;
-    tree.group = Groups::all().read(in);
-    read_parts(in, tree.group->scene.surfaces(), tree.tree);
-    return start_search(trees.keep(std::move(tree)));
+    auto known = std::make_shared<KnownTree<Tree>>();
+    known->id = id;
+    known->group = Groups::all().read(in);
+    read_parts(in, known->group->scene.surfaces(), known->tree);
+    trees.keep(known);
+    return known;
 }
 
-template LentTree write_tree(Writer&, const Node&);
-template LentTree write_tree(Writer&, const Bvh&);
-template std::shared_ptr<const KnownTree<Node>> read_tree(Reader&);
-template std::shared_ptr<const KnownTree<Bvh>> read_tree(Reader&);
+}  // namespace
+
+template <typename Tree>
+LentTree write_search(Writer& out, const Search<Tree>& search) {
+    LentTree lent = write_tree(out, search.tree);
+    write(out, search.ray);
+    out.put(search.until);
+    write_boxes_of(out, search);
+    return lent;
+}
+
+template <typename Tree>
+ReceivedSearch<Tree> read_search(Reader& in) {
+    std::shared_ptr<const KnownTree<Tree>> known = read_tree<Tree>(in);
+    const Ray ray = read<Ray>(in);
+    const Search<Tree> search{known->tree, ray, in.get<float>()};
+    begin(*known, search, in);
+    return {std::move(known), search};
+}
+
+template LentTree write_search(Writer&, const Search<Node>&);
+template LentTree write_search(Writer&, const Search<Bvh>&);
+template ReceivedSearch<Node> read_search(Reader&);
+template ReceivedSearch<Bvh> read_search(Reader&);
 
 Node ask_octree(const SurfaceList& surfaces) { return ask_tree<Node>(FunctionId::build_octree, surfaces); }
 Bvh ask_bvh(const SurfaceList& surfaces) { return ask_tree<Bvh>(FunctionId::build_bvh, surfaces); }

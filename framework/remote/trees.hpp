@@ -6,9 +6,9 @@
 
 #include "core/bvh.hpp"
 #include "core/node.hpp"
-#include "remote/boxes_on_ray.hpp"
 #include "remote/groups.hpp"
 #include "remote/message.hpp"
+#include "remote/searches.hpp"
 #include "remote/wire.hpp"
 
 namespace raysteps::remote {
@@ -19,6 +19,8 @@ struct KnownTree {
     TreeId id = 0;
     Tree tree;
     std::shared_ptr<CopiedGroup> group;
+    Scene entries;                        ///< of the leaves
+    std::unique_ptr<BoxNumbers> numbers;  ///< of a Bvh whose boxes the other end clips
 };
 
 /// What a question about a tree lends.
@@ -27,11 +29,16 @@ struct LentTree {
     std::unique_ptr<TreeLoan> boxes;  ///< of a Bvh
 };
 
-/// Writes which tree is meant, and all of it where the box does not know it.
+/// A question about a tree and a ray.
 template <typename Tree>
-[[nodiscard]] LentTree write_tree(Writer& out, const Tree& tree);
+[[nodiscard]] LentTree write_search(Writer& out, const Search<Tree>& search);
 template <typename Tree>
-[[nodiscard]] std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in);
+struct ReceivedSearch {
+    std::shared_ptr<const KnownTree<Tree>> known;
+    Search<Tree> search;
+};
+template <typename Tree>
+[[nodiscard]] ReceivedSearch<Tree> read_search(Reader& in);
 
 /// A function of a step that builds a tree, seen from the program: asks the box, and knows the tree from then on.
 [[nodiscard]] Node ask_octree(const SurfaceList& surfaces);

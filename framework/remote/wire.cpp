@@ -16,7 +16,7 @@ namespace {
 
 using BatchSize = std::uint32_t;  // stands before a batch, in bytes
 
-constexpr std::size_t k_usual_batch = std::size_t{32} << 10U;
+constexpr std::size_t k_usual_batch = std::size_t{128} << 10U;
 constexpr std::size_t k_max_batch = std::size_t{128} << 20U;
 constexpr std::size_t k_message_head = sizeof(std::uint16_t) + sizeof(Kind) + sizeof(std::uint32_t);
 constexpr std::size_t k_first_visitor = 512;
@@ -32,7 +32,7 @@ void Wire::end(int code, const char* why) {
 }
 
 Wire::Wire(Pipes pipes, Service service, Farewell farewell)
-    : pipes_(pipes), service_(service), farewell_(farewell), outgoing_(sizeof(BatchSize), '\0') {
+    : pipes_(pipes), service_(service), farewell_(farewell), outgoing_(sizeof(BatchSize), '\0'), incoming_(k_usual_batch) {
     t_has_fibers = true;
     std::signal(SIGPIPE, SIG_IGN);  // who is gone is heard of by what write returns
 }
@@ -126,40 +126,34 @@ void Wire::answer(const Message& question) {
     --talk.depth;
 }
 
-void Wire::run_together(int count, const std::function<void()>& work) {
+void Wire::run_together(int most, const std::function<void()>& work) {
     if (running_ != 0) {
         work();
         return;
     }
     together_ = ++last_together_;
     std::exception_ptr failed;
+    std::size_t started = 0;
+    std::size_t ended = 0;
     const auto guarded = [&] {
         try {
             work();
         } catch (...) {
             failed = std::current_exception();
         }
+        ++ended;
     };
-    const auto first = std::size_t{1};
-    const std::size_t last = first + static_cast<std::size_t>(count);
-    for (std::size_t number = first; number < last; ++number) {
-        conversation(number).fiber = std::make_unique<Fiber>(guarded);
-        ready_.push_back(number);
+    while (started < static_cast<std::size_t>(most) && ended == 0) {
+        ++started;
+        conversation(started).fiber = std::make_unique<Fiber>(guarded);
+        resume(started);
     }
-    const auto all_ended = [&] {
-        for (std::size_t number = first; number < last; ++number) {
-            if (!conversation(number).fiber->ended()) {
-                return false;
-            }
-        }
-        return true;
-    };
-    while (!all_ended()) {
+    while (ended < started) {
         if (!resume_one()) {
             exchange();
         }
     }
-    for (std::size_t number = first; number < last; ++number) {
+    for (std::size_t number = 1; number <= started; ++number) {
         conversation(number).fiber.reset();
     }
     together_ = 0;
@@ -206,12 +200,11 @@ void Wire::exchange() {
     }
 }
 
-std::shared_ptr<const std::string> Wire::read_batch() {
-    auto batch = std::make_shared<std::string>(k_usual_batch, '\0');
+std::string_view Wire::read_batch() {
     std::size_t have = 0;
     BatchSize size = 0;
     while (have < sizeof size || have < sizeof size + size) {
-        const ssize_t got = read(pipes_.in, batch->data() + have, batch->size() - have);
+        const ssize_t got = read(pipes_.in, incoming_.data() + have, incoming_.size() - have);
         if (got < 0 && errno == EINTR) {
             continue;
         }
@@ -220,22 +213,23 @@ std::shared_ptr<const std::string> Wire::read_batch() {
         }
         have += static_cast<std::size_t>(got);
         if (have >= sizeof size) {
-            std::memcpy(&size, batch->data(), sizeof size);
+            std::memcpy(&size, incoming_.data(), sizeof size);
             if (size > k_max_batch) {
                 end(k_broken, "a message is too long");
             }
-            batch->resize(std::max(batch->size(), sizeof size + size));
+            incoming_.resize(std::max(incoming_.size(), sizeof size + size));
         }
     }
     if (have > sizeof size + size) {
         end(k_broken, "a batch came out of turn");
     }
-    batch->resize(have);
-    return batch;
+    return {incoming_.data() + sizeof size, size};
 }
 
-void Wire::deliver(const std::shared_ptr<const std::string>& batch) {
-    Reader reader(std::string_view(*batch).substr(sizeof(BatchSize)));
+void Wire::deliver(std::string_view batch) {
+    const std::shared_ptr<char[]> kept(new char[batch.size()]);  // not set to 0 first
+    std::memcpy(kept.get(), batch.data(), batch.size());
+    Reader reader(std::string_view(kept.get(), batch.size()));
     while (!reader.at_end()) {
         const std::size_t number = reader.get<std::uint16_t>();
         const Kind kind = reader.get<Kind>();
@@ -243,7 +237,7 @@ void Wire::deliver(const std::shared_ptr<const std::string>& batch) {
         if (kind > Kind::unwound || talk.received) {
             throw BadMessage("a message came that nobody can have sent");
         }
-        talk.received = Message{kind, reader.text(), batch};
+        talk.received = Message{kind, reader.text(), kept};
         if (number == 0 || talk.visitor) {
             continue;
         }

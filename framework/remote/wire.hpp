@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "core/stats.hpp"
 #include "remote/fiber.hpp"
@@ -31,7 +32,7 @@ enum class Kind : std::uint8_t {
 struct Message {
     Kind kind = Kind::question;
     std::string_view bytes;
-    std::shared_ptr<const std::string> batch;
+    std::shared_ptr<const char[]> batch;
 };
 
 class Wire {
@@ -51,6 +52,8 @@ public:
     static constexpr int k_broken = 71;
     static constexpr int k_endless = 72;
     using Farewell = void (*)(int code, const char* why);
+
+    static constexpr std::size_t k_max_conversations = 1024;
 
     Wire(Pipes pipes, Service service, Farewell farewell);
 
@@ -75,8 +78,9 @@ public:
     /// Answers questions for ever.
     void serve();
 
-    /// Runs `work` in `count` conversations at once, and waits for all. What leaves one of them is thrown again.
-    void run_together(int count, const std::function<void()>& work);
+    /// Runs `work` in `most` conversations at once, and waits for all: in fewer if one of them finds nothing left to
+    /// do. What leaves one of them is thrown again.
+    void run_together(int most, const std::function<void()>& work);
 
     /// The number of the current conversation.
     [[nodiscard]] std::size_t current();
@@ -95,15 +99,14 @@ private:
         int depth = 0;                    ///< questions that are being answered
         bool visitor = false;             ///< of a thread that a student has started
     };
-    static constexpr std::size_t k_max_conversations = 1024;
 
     [[nodiscard]] std::size_t begin_message(Kind kind);
     void end_message(std::size_t start);
     [[nodiscard]] Message receive();
     void answer(const Message& question);
     void exchange();
-    std::shared_ptr<const std::string> read_batch();
-    void deliver(const std::shared_ptr<const std::string>& batch);
+    std::string_view read_batch();
+    void deliver(std::string_view batch);
     void resume(std::size_t number);
     bool resume_one();
     Conversation& conversation(std::size_t number);
@@ -120,6 +123,7 @@ private:
     std::size_t running_ = 0;                          ///< the conversation of the thread that fibers run on
     std::map<std::thread::id, std::size_t> visitors_;  ///< conversations of other threads
     std::string outgoing_;
+    std::vector<char> incoming_;
 };
 
 }  // namespace raysteps::remote

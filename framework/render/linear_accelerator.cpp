@@ -1,19 +1,12 @@
 #include "render/accelerators.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "render/any_hit.hpp"
 #include "steps/02-intersection/intersection.hpp"
 
 namespace raysteps {
 namespace {
-
-bool any_of_list(const SurfaceList& surfaces, const Ray& ray, float distance) {
-    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface* surface) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        return hit && hit->distance < distance;
-    });
-}
 
 class LinearAccelerator final : public Accelerator {
 public:
@@ -24,7 +17,7 @@ public:
     }
 
     [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
-        return any_of_list(surfaces_, ray, distance);
+        return any_hit(surfaces_, ray, distance);
     }
 
 private:

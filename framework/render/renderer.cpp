@@ -70,7 +70,7 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const double build_seconds = seconds_since(build_start);
 
     const Clock::time_point render_start = Clock::now();
-    std::vector<Rect> tiles = tiles_of(crop);
+    std::vector<Rect> tiles = work_waits() ? tiles_of(crop, 1) : tiles_of(crop);
     const std::size_t count = tiles.size();
     Job job{.scene = scene,
             .accelerator = *accelerator,

@@ -7,16 +7,15 @@
 
 namespace raysteps {
 
-/// Row by row, at most 16 x 16 pixels each; together exactly the area.
-[[nodiscard]] inline std::vector<Rect> tiles_of(const Rect& area) {
-    constexpr int k_side = 16;
+/// Row by row, at most `side` x `side` pixels each; together exactly the area.
+[[nodiscard]] inline std::vector<Rect> tiles_of(const Rect& area, int side = 16) {
     std::vector<Rect> tiles;
-    for (int y = 0; y < area.height; y += k_side) {
-        for (int x = 0; x < area.width; x += k_side) {
+    for (int y = 0; y < area.height; y += side) {
+        for (int x = 0; x < area.width; x += side) {
             tiles.push_back({.x = area.x + x,
                              .y = area.y + y,
-                             .width = std::min(k_side, area.width - x),
-                             .height = std::min(k_side, area.height - y)});
+                             .width = std::min(side, area.width - x),
+                             .height = std::min(side, area.height - y)});
         }
     }
     return tiles;

@@ -2,14 +2,18 @@
 // student's, spheres and triangles are tested here.
 #include "core/stats.hpp"
 #include "core/surface.hpp"
-#include "remote/box/own_steps.hpp"
-#include "remote/boxes_on_ray.hpp"
 #include "remote/lent.hpp"
+#include "remote/searches.hpp"
+#include "remote/session.hpp"
 
 namespace raysteps {
 
 std::optional<HitRecord> Surface::hit(const Ray& ray) const {
-    if (!remote::has_own_intersections() && remote::Groups::all().place_of(this) != nullptr) {
+    if (remote::is_asked(*this)) {
+        return intersect(ray);
+    }
+    static const bool tests_itself = remote::Session::offers(remote::FunctionId::sphere_intersect);
+    if (!tests_itself && remote::Groups::all().place_of(this) != nullptr) {
         return remote::ask_hit(*this, ray);
     }
     ++thread_stats().surface_tests;
@@ -18,7 +22,8 @@ std::optional<HitRecord> Surface::hit(const Ray& ray) const {
 
 std::optional<Interval> Box::hit(const Ray& ray) const {
     ++thread_stats().box_tests;
-    return remote::has_own_clip() ? clip(ray) : remote::ask_clip(*this, ray);
+    static const bool clips_itself = remote::Session::offers(remote::FunctionId::box_clip);
+    return clips_itself ? clip(ray) : remote::ask_clip(*this, ray);
 }
 
 }  // namespace raysteps

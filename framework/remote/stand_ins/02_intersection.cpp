@@ -1,13 +1,14 @@
 #include "steps/02-intersection/intersection.hpp"
 
 #include "remote/functions.hpp"
+#include "render/any_hit.hpp"
 
 namespace raysteps {
 
 using remote::ask;
 using remote::FunctionId;
 
-[[maybe_unused]] static const bool counted_in_box = remote::Session::let_box_count_surfaces();
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::sphere_intersect);
 
 std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
     return ask<&Triangle::intersect>(FunctionId::triangle_intersect, *this, ray);
@@ -19,6 +20,10 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
 
 std::optional<HitRecord> closest_hit(const SurfaceList& surfaces, const Ray& ray) {
     return ask<&closest_hit>(FunctionId::closest_hit, surfaces, ray);
+}
+
+bool any_hit(const SurfaceList& surfaces, const Ray& ray, float distance) {
+    return ask<&any_hit>(FunctionId::any_hit, surfaces, ray, distance);
 }
 
 }  // namespace raysteps

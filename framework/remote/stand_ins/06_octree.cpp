@@ -6,6 +6,9 @@ namespace raysteps {
 
 using remote::ask;
 using remote::FunctionId;
+using remote::Search;
+
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::box_clip);
 
 std::optional<Interval> Box::clip(const Ray& ray) const { return ask<&Box::clip>(FunctionId::box_clip, *this, ray); }
 
@@ -22,11 +25,11 @@ std::array<Box, 8> split(const Box& box) { return ask<&split>(FunctionId::split,
 Node build_octree(const SurfaceList& surfaces) { return remote::ask_octree(surfaces); }
 
 std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
-    return ask<&closest_hit_in_octree>(FunctionId::closest_hit_in_octree, root, ray);
+    return ask<std::optional<HitRecord>, const Search<Node>&>(FunctionId::closest_hit_in_octree, {root, ray});
 }
 
 bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
-    return ask<&occluded_in_octree>(FunctionId::occluded_in_octree, root, ray, distance);
+    return ask<bool, const Search<Node>&>(FunctionId::occluded_in_octree, {root, ray, distance});
 }
 
 }  // namespace raysteps

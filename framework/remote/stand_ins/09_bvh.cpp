@@ -6,6 +6,7 @@ namespace raysteps {
 
 using remote::ask;
 using remote::FunctionId;
+using remote::Search;
 
 float surface_area(const Box& box) { return ask<&surface_area>(FunctionId::surface_area, box); }
 
@@ -16,11 +17,11 @@ float split_cost(const Box& left, std::size_t left_count, const Box& right, std:
 Bvh build_bvh(const SurfaceList& surfaces) { return remote::ask_bvh(surfaces); }
 
 std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
-    return ask<&closest_hit_in_bvh>(FunctionId::closest_hit_in_bvh, bvh, ray);
+    return ask<std::optional<HitRecord>, const Search<Bvh>&>(FunctionId::closest_hit_in_bvh, {bvh, ray});
 }
 
 bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
-    return ask<&occluded_in_bvh>(FunctionId::occluded_in_bvh, bvh, ray, distance);
+    return ask<bool, const Search<Bvh>&>(FunctionId::occluded_in_bvh, {bvh, ray, distance});
 }
 
 }  // namespace raysteps

@@ -242,7 +242,7 @@ class StudentBuild:
         box = boxes.box(numbers, self._folder)
         home = boxes.home(f"test-{numbers[-1]}" if kind == "test" else kind, numbers, self._folder)
         loader = self._loader(box.name, [binaries[number] for number in numbers])
-        return Program((*loader, Input(box, "box"), *numbers), home)
+        return Program((*loader, Input(box, "box")), home)
 
     def _loader(self, name: str, libraries: list[Path]) -> tuple[Word, ...]:
         """Starts a program with these libraries."""

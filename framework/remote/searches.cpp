@@ -1,0 +1,263 @@
+#include "remote/searches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <string_view>
+
+#include "remote/functions.hpp"
+
+namespace raysteps::remote {
+namespace {
+
+constexpr std::size_t k_most_boxes = 2000;     // of one answer; a search that comes to more asks for them one by one
+constexpr std::size_t k_most_surfaces = 4096;  // likewise
+
+struct OpenTree {
+    const Bvh* bvh = nullptr;
+    int loans = 0;
+};
+
+std::map<TreeId, OpenTree>& lent_trees() {
+    static std::map<TreeId, OpenTree> trees;
+    return trees;
+}
+
+/// Visits the boxes from the root on, below those that the ray meets: visit(node) says whether it does.
+template <typename Visit>
+void walk(const Bvh& bvh, const Visit& visit) {
+    std::vector<std::uint32_t> rest;
+    if (!bvh.nodes.empty()) {
+        rest.push_back(0);
+    }
+    for (std::size_t visited = 0; !rest.empty() && visited < k_most_boxes; ++visited) {
+        const std::uint32_t place = rest.back();
+        rest.pop_back();
+        const BvhNode& node = bvh.nodes[place];
+        if (visit(place) && !node.is_leaf() && std::size_t{node.first} + 1 < bvh.nodes.size()) {
+            rest.push_back(node.first);
+            rest.push_back(node.first + 1);
+        }
+    }
+}
+
+void serve_boxes(Reader& in, Wire& wire) {
+    const auto found = lent_trees().find(in.get<TreeId>());
+    if (found == lent_trees().end()) {
+        throw BadMessage("a tree was asked that no open question has lent");
+    }
+    const Ray ray = read<Ray>(in);
+    send_answer(wire, [&](Writer& out) { write_boxes(out, *found->second.bvh, ray); });
+}
+
+/// Up to the first that ends the search.
+std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<std::uint32_t>& indices, const Ray& ray,
+                                              float until) {
+    std::vector<std::optional<HitRecord>> hits;
+    for (const std::uint32_t index : indices) {
+        hits.push_back(Groups::all().lent({group, index}).hit(ray));
+        if (hits.back() && hits.back()->distance < until) {
+            break;
+        }
+    }
+    return hits;
+}
+
+[[maybe_unused]] const bool offered =
+    offer(FunctionId::lent_boxes, serve_boxes) && offer_function<&hits_of>(FunctionId::lent_surface_hits);
+
+template <typename T>
+bool same_bytes(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// What is known in one conversation.
+struct State {
+    float until = 0.0F;
+
+    const BoxNumbers* numbers = nullptr;
+    TreeId tree = 0;
+    Ray box_ray;
+    std::uint32_t round = 0;
+    struct Answer {
+        std::uint32_t round = 0;
+        std::optional<Interval> part;
+    };
+    std::vector<Answer> of_box;
+
+    const Leaf* leaf = nullptr;
+    Ray leaf_ray;
+    std::size_t first = 0;  ///< the place in the leaf that the first of `hits` is of
+    std::vector<std::optional<HitRecord>> hits;
+};
+
+State& state() {
+    static std::array<std::unique_ptr<State>, Wire::k_max_conversations> all;
+    std::unique_ptr<State>& current = all.at(Session::current().wire().current());
+    if (current == nullptr) {
+        current = std::make_unique<State>();
+    }
+    return *current;
+}
+
+void read_boxes(Reader& in, State& known, const Ray& ray) {
+    known.box_ray = ray;
+    ++known.round;
+    const Bvh& bvh = known.numbers->bvh();
+    known.of_box.resize(std::max(known.of_box.size(), bvh.nodes.size()));
+    walk(bvh, [&](std::uint32_t place) {
+        const auto part = read<std::optional<Interval>>(in);
+        known.of_box[known.numbers->of_node(place)] = {known.round, part};
+        return part.has_value();
+    });
+}
+
+void ask_boxes(State& known, const Ray& ray) {
+    const auto read_all = [&](Reader& in, const auto& /*open*/) {
+        read_boxes(in, known, ray);
+        return 0;
+    };
+    static_cast<void>(ask_and_read<TreeId, Ray>(FunctionId::lent_boxes, read_all, known.tree, ray));
+}
+
+const Surface* entry_for(const Surface* copy, const std::shared_ptr<const Leaf>& leaf, std::size_t place,
+                         Scene& entries) {
+    entries.add(std::make_unique<LeafEntry>(*copy, leaf, place), copy->order());
+    return entries.surfaces().back();
+}
+
+void enter_leaf(const Surface** begin, const Surface** end, Scene& entries) {
+    auto leaf = std::make_shared<Leaf>();
+    for (const Surface** one = begin; one != end; ++one) {
+        const PlaceInGroup* place = Groups::all().place_of(*one);
+        if (place == nullptr) {
+            return;  // no surface of the scene
+        }
+        leaf->group = place->group;
+        leaf->indices.push_back(place->index);
+    }
+    for (const Surface** one = begin; one != end; ++one) {
+        *one = entry_for(*one, leaf, static_cast<std::size_t>(one - begin), entries);
+    }
+}
+
+}  // namespace
+
+TreeLoan::TreeLoan(TreeId id, const Bvh& bvh) : id_(id) {
+    OpenTree& lent = lent_trees()[id];
+    lent.bvh = &bvh;
+    ++lent.loans;
+}
+
+TreeLoan::~TreeLoan() {
+    const auto lent = lent_trees().find(id_);
+    if (--lent->second.loans == 0) {
+        lent_trees().erase(lent);
+    }
+}
+
+void write_boxes(Writer& out, const Bvh& bvh, const Ray& ray) {
+    walk(bvh, [&](std::uint32_t place) {
+        const std::optional<Interval> part = bvh.nodes[place].box.clip(ray);
+        write(out, part);
+        return part.has_value();
+    });
+}
+
+bool BoxNumbers::SameBytes::operator()(const Box& a, const Box& b) const { return same_bytes(a, b); }
+
+std::size_t BoxNumbers::HashOfBytes::operator()(const Box& box) const {
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(&box), sizeof box});
+}
+
+BoxNumbers::BoxNumbers(const Bvh& bvh) : bvh_(bvh) {
+    for (std::size_t place = 0; place < bvh.nodes.size(); ++place) {
+        const auto number = static_cast<std::uint32_t>(place);
+        of_node_.push_back(of_box_.try_emplace(bvh.nodes[place].box, number).first->second);
+    }
+}
+
+std::optional<std::uint32_t> BoxNumbers::find(const Box& box) const {
+    // Most searches ask for the boxes of the nodes themselves.
+    const auto offset = reinterpret_cast<std::uintptr_t>(&box) - reinterpret_cast<std::uintptr_t>(bvh_.nodes.data());
+    const std::size_t place = offset / sizeof(BvhNode);
+    if (place < of_node_.size() && &bvh_.nodes[place].box == &box) {
+        return of_node_[place];
+    }
+    const auto found = of_box_.find(box);
+    return found == of_box_.end() ? std::nullopt : std::optional(found->second);
+}
+
+LeafEntry::LeafEntry(const Surface& copy, std::shared_ptr<const Leaf> leaf, std::size_t place)
+    : Surface(copy.fill()), copy_(copy), leaf_(std::move(leaf)), place_(place) {}
+
+std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
+    State& known = state();
+    const bool is_known = known.leaf == leaf_.get() && place_ >= known.first &&
+                          place_ - known.first < known.hits.size() && same_bytes(known.leaf_ray, ray);
+    if (!is_known) {
+        const auto first = leaf_->indices.begin() + static_cast<std::ptrdiff_t>(place_);
+        const std::size_t count = std::min(k_most_surfaces, leaf_->indices.size() - place_);
+        const std::vector<std::uint32_t> rest(first, first + static_cast<std::ptrdiff_t>(count));
+        known.hits = ask<std::vector<std::optional<HitRecord>>, GroupId, std::vector<std::uint32_t>, Ray, float>(
+            FunctionId::lent_surface_hits, leaf_->group, rest, ray, known.until);
+        known.leaf = leaf_.get();
+        known.leaf_ray = ray;
+        known.first = place_;
+    }
+    return known.hits.at(place_ - known.first);
+}
+
+void enter_leaves(Node& root, Scene& entries) {
+    enter_leaf(root.surfaces.data(), root.surfaces.data() + root.surfaces.size(), entries);
+    for (Node& child : root.children) {
+        enter_leaves(child, entries);
+    }
+}
+
+void enter_leaves(Bvh& bvh, Scene& entries) {
+    std::vector<bool> entered(bvh.surfaces.size());
+    for (const BvhNode& node : bvh.nodes) {
+        const std::size_t last = std::size_t{node.first} + node.count;
+        if (!node.is_leaf() || last > entered.size()) {
+            continue;
+        }
+        const auto begin = entered.begin() + node.first;
+        const auto end = entered.begin() + static_cast<std::ptrdiff_t>(last);
+        if (std::find(begin, end, true) == end) {
+            std::fill(begin, end, true);
+            enter_leaf(bvh.surfaces.data() + node.first, bvh.surfaces.data() + last, entries);
+        }
+    }
+}
+
+void begin_search(float until) {
+    State& known = state();
+    known.until = until;
+    known.leaf = nullptr;
+    known.numbers = nullptr;
+}
+
+void begin_search(float until, TreeId id, const BoxNumbers& numbers, const Ray& ray, Reader& in) {
+    begin_search(until);
+    State& known = state();
+    known.numbers = &numbers;
+    known.tree = id;
+    read_boxes(in, known, ray);
+}
+
+std::optional<Interval> ask_clip(const Box& box, const Ray& ray) {
+    State& known = state();
+    const std::optional<std::uint32_t> number = known.numbers == nullptr ? std::nullopt : known.numbers->find(box);
+    if (!number) {
+        return box.clip(ray);
+    }
+    if (!same_bytes(known.box_ray, ray)) {
+        ask_boxes(known, ray);
+    }
+    const State::Answer& answer = known.of_box[*number];
+    return answer.round == known.round ? answer.part : box.clip(ray);
+}
+
+}  // namespace raysteps::remote
