@@ -57,7 +57,9 @@ struct Parameter<std::span<const Light>> {
 template <>
 struct Parameter<const SurfaceList&> {
     using Received = std::shared_ptr<CopiedGroup>;
-    static Loan send(Writer& out, const SurfaceList& surfaces) { return Loan(Groups::all().write(out, surfaces)); }
+    static Loan send(Writer& out, const SurfaceList& surfaces) {
+        return Loan(Groups::all().write(out, surfaces, Session::current().wire().together()));
+    }
     static Received receive(Reader& in) { return Groups::all().read(in); }
     static const SurfaceList& give(const Received& copies) { return copies->scene.surfaces(); }
 };

@@ -7,7 +7,6 @@
 #include "core/smooth_triangle.hpp"
 #include "remote/lent.hpp"
 #include "remote/searches.hpp"
-#include "remote/session.hpp"
 #include "remote/travel.hpp"
 
 namespace raysteps::remote {
@@ -130,8 +129,7 @@ Groups& Groups::all() {
 
 bool Groups::is_unchanged(const OwnGroup& group) { return group.description == description_of(group.surfaces); }
 
-std::shared_ptr<OwnGroup> Groups::write(Writer& out, const SurfaceList& surfaces) {
-    const std::uint64_t together = Session::current().wire().together();
+std::shared_ptr<OwnGroup> Groups::write(Writer& out, const SurfaceList& surfaces, std::uint64_t together) {
     std::string description;
     for (auto recent = own_.upper_bound(oldest_kept(last_)); recent != own_.end(); ++recent) {
         const std::shared_ptr<OwnGroup>& group = recent->second;

@@ -20,7 +20,7 @@ struct OwnGroup {
     GroupId id = 0;
     SurfaceList surfaces;
     std::string description;
-    std::uint64_t described_in = 0;  ///< the call of run_together in which it was last described
+    std::uint64_t described_in = 0;  ///< `together` when it was last described
     int lent = 0;                    ///< open questions that may lead to one of these surfaces
 };
 
@@ -40,8 +40,9 @@ class Groups {
 public:
     [[nodiscard]] static Groups& all();
 
-    /// Writes which group these surfaces are, and what they look like if the other end does not know it yet.
-    std::shared_ptr<OwnGroup> write(Writer& out, const SurfaceList& surfaces);
+    /// Writes which group these surfaces are, and what they look like if the other end does not know it yet. Between
+    /// two calls with the same `together`, which is not 0, no surface has changed.
+    std::shared_ptr<OwnGroup> write(Writer& out, const SurfaceList& surfaces, std::uint64_t together = 0);
 
     /// Whether the surfaces of an own group, which still exist, look as they did.
     [[nodiscard]] static bool is_unchanged(const OwnGroup& group);

@@ -84,6 +84,24 @@ TEST_CASE("a group is described once, and again when a surface has changed", "[r
     CHECK(third.size() == first.size());
 }
 
+TEST_CASE("a group is described once in work that changes nothing", "[remote]") {
+    Groups groups;
+    Sphere sphere({0.0F, 0.0F, 0.0F}, 1.0F, k_fill);
+    const SurfaceList list{&sphere};
+    const auto bytes_written = [&](std::uint64_t together) {
+        std::string bytes;
+        Writer out(bytes);
+        groups.write(out, list, together);
+        return bytes.size();
+    };
+    const std::size_t whole = bytes_written(1);
+    sphere = Sphere({0.0F, 0.0F, 5.0F}, 1.0F, k_fill);
+    CHECK(bytes_written(1) < whole);
+    CHECK(bytes_written(2) == whole);
+    CHECK(bytes_written(2) < whole);
+    CHECK(bytes_written(0) < whole);
+}
+
 TEST_CASE("only what an open question has lent can be asked for", "[remote]") {
     Groups groups;
     const Scene scene = one_of_each();
