@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <span>
 #include <string_view>
 
 #include "remote/functions.hpp"
@@ -121,24 +122,49 @@ void ask_boxes(State& known, const Ray& ray) {
     static_cast<void>(ask_and_read<TreeId, Ray>(FunctionId::lent_boxes, read_all, known.tree, ray));
 }
 
-const Surface* entry_for(const Surface* copy, const std::shared_ptr<const Leaf>& leaf, std::size_t place,
-                         Scene& entries) {
-    entries.add(std::make_unique<LeafEntry>(*copy, leaf, place), copy->order());
-    return entries.surfaces().back();
+/// How often each surface is in a tree.
+using Occurrences = std::unordered_map<const Surface*, int>;
+
+void count(const Node& node, Occurrences& times) {
+    for (const Surface* entry : node.surfaces) {
+        ++times[entry];
+    }
+    for (const Node& child : node.children) {
+        count(child, times);
+    }
 }
 
-void enter_leaf(const Surface** begin, const Surface** end, Scene& entries) {
+void enter_run(std::span<const Surface*> run, Scene& entries) {
     auto leaf = std::make_shared<Leaf>();
-    for (const Surface** one = begin; one != end; ++one) {
-        const PlaceInGroup* place = Groups::all().place_of(*one);
-        if (place == nullptr) {
-            return;  // no surface of the scene
-        }
-        leaf->group = place->group;
-        leaf->indices.push_back(place->index);
+    for (const Surface* surface : run) {
+        const PlaceInGroup place = *Groups::all().place_of(surface);
+        leaf->group = place.group;
+        leaf->indices.push_back(place.index);
     }
-    for (const Surface** one = begin; one != end; ++one) {
-        *one = entry_for(*one, leaf, static_cast<std::size_t>(one - begin), entries);
+    for (std::size_t place = 0; place < run.size(); ++place) {
+        entries.add(std::make_unique<LeafEntry>(*run[place], leaf, place), run[place]->order());
+        run[place] = entries.surfaces().back();
+    }
+}
+
+/// A surface in several leaves stays the same in all of them, for a search that remembers what it has tested. Such a
+/// one ends a run: whether the search comes to what is behind it nobody knows.
+void enter_leaf(std::span<const Surface*> leaf, const Occurrences& times, Scene& entries) {
+    const auto is_in_run = [&](const Surface* surface) {
+        return times.at(surface) == 1 && Groups::all().place_of(surface) != nullptr;
+    };
+    for (auto begin = leaf.begin(); begin != leaf.end();) {
+        begin = std::find_if(begin, leaf.end(), is_in_run);
+        const auto end = std::find_if_not(begin, leaf.end(), is_in_run);
+        enter_run({begin, end}, entries);
+        begin = end;
+    }
+}
+
+void enter_node(Node& node, const Occurrences& times, Scene& entries) {
+    enter_leaf(node.surfaces, times, entries);
+    for (Node& child : node.children) {
+        enter_node(child, times, entries);
     }
 }
 
@@ -210,13 +236,16 @@ std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
 }
 
 void enter_leaves(Node& root, Scene& entries) {
-    enter_leaf(root.surfaces.data(), root.surfaces.data() + root.surfaces.size(), entries);
-    for (Node& child : root.children) {
-        enter_leaves(child, entries);
-    }
+    Occurrences times;
+    count(root, times);
+    enter_node(root, times, entries);
 }
 
 void enter_leaves(Bvh& bvh, Scene& entries) {
+    Occurrences times;
+    for (const Surface* entry : bvh.surfaces) {
+        ++times[entry];
+    }
     std::vector<bool> entered(bvh.surfaces.size());
     for (const BvhNode& node : bvh.nodes) {
         const std::size_t last = std::size_t{node.first} + node.count;
@@ -227,7 +256,7 @@ void enter_leaves(Bvh& bvh, Scene& entries) {
         const auto end = entered.begin() + static_cast<std::ptrdiff_t>(last);
         if (std::find(begin, end, true) == end) {
             std::fill(begin, end, true);
-            enter_leaf(bvh.surfaces.data() + node.first, bvh.surfaces.data() + last, entries);
+            enter_leaf(std::span(bvh.surfaces).subspan(node.first, node.count), times, entries);
         }
     }
 }

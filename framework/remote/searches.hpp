@@ -67,7 +67,7 @@ private:
     std::unordered_map<Box, std::uint32_t, HashOfBytes, SameBytes> of_box_;
 };
 
-/// The surfaces of a leaf, as the other end knows them.
+/// Surfaces side by side in a leaf and nowhere else in the tree, as the other end knows them.
 struct Leaf {
     GroupId group = 0;
     std::vector<std::uint32_t> indices;
@@ -91,7 +91,7 @@ private:
     std::size_t place_;
 };
 
-/// Puts entries into the leaves of a tree of copies, which `entries` then owns.
+/// Puts such entries into the leaves of a tree of copies. `entries` then owns them.
 void enter_leaves(Node& root, Scene& entries);
 void enter_leaves(Bvh& bvh, Scene& entries);
 
