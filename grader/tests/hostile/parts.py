@@ -27,8 +27,8 @@ std::uint8_t to_byte(float channel) {
 }  // namespace raysteps
 """
 
-# Step 06 without a tree, and otherwise right: what is left is to find the closest hit in a list of all surfaces.
-OCTREE_OF_ONE_LEAF = """
+# Step 06 but for its tree, and otherwise right: what is left is to build one, and to find the closest hit in it.
+OCTREE_BUT_BUILD = """
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -85,14 +85,21 @@ std::array<Box, 8> split(const Box& box) {
     return parts;
 }
 
-Node build_octree(const SurfaceList& surfaces) { return Node{bounds_of(surfaces), surfaces, {}}; }
-
 bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     const std::optional<HitRecord> closest = closest_hit_in_octree(root, ray);
     return closest && closest->distance < distance;
 }
 
 }  // namespace raysteps
+"""
+
+# The same with no tree at all: one list of all surfaces.
+OCTREE_OF_ONE_LEAF = f"""{OCTREE_BUT_BUILD}
+namespace raysteps {{
+
+Node build_octree(const SurfaceList& surfaces) {{ return Node{{bounds_of(surfaces), surfaces, {{}}}}; }}
+
+}}  // namespace raysteps
 """
 
 # The word behind an option in the program's own command line. Wants <fstream>, <string> and <vector>.
@@ -116,4 +123,63 @@ static std::string after(const std::string& option) {
     return "";
 }"""
 
-PARTS = {"OCTREE_OF_ONE_LEAF": OCTREE_OF_ONE_LEAF, "AFTER_OPTION": AFTER_OPTION}
+# What goes over the wire between the box and the program beside it, framed as framework/remote/wire.cpp frames it.
+WIRE = """\
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+// Whatever could be an end of the wire.
+static std::vector<int> pipes() {
+    std::vector<int> found;
+    for (int fd = 0; fd < 256; ++fd) {
+        struct stat what {};
+        if (fstat(fd, &what) == 0 && S_ISFIFO(what.st_mode)) {
+            found.push_back(fd);
+        }
+    }
+    return found;
+}
+
+template <typename T>
+static std::string bytes_of(const T& value) {
+    return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// Kind 0 is a question, 1 an answer.
+static std::string message(unsigned conversation, unsigned kind, const std::string& bytes) {
+    return bytes_of(static_cast<std::uint16_t>(conversation)) + bytes_of(static_cast<std::uint8_t>(kind)) +
+           bytes_of(static_cast<std::uint32_t>(bytes.size())) + bytes;
+}
+
+static void send_to_all(const std::string& messages) {
+    const std::string batch = bytes_of(static_cast<std::uint32_t>(messages.size())) + messages;
+    for (const int pipe : pipes()) {
+        static_cast<void>(!write(pipe, batch.data(), batch.size()));
+    }
+}
+
+// Whether an answer comes soon. Takes it off the wire.
+static bool anything_answers() {
+    for (const int pipe : pipes()) {
+        pollfd waiting{pipe, POLLIN, 0};
+        char head[7] = {};
+        if (poll(&waiting, 1, 50) == 1 && read(pipe, head, sizeof head) == sizeof head && head[6] == 1) {
+            return true;
+        }
+    }
+    return false;
+}
+"""
+
+PARTS = {
+    "OCTREE_BUT_BUILD": OCTREE_BUT_BUILD,
+    "OCTREE_OF_ONE_LEAF": OCTREE_OF_ONE_LEAF,
+    "AFTER_OPTION": AFTER_OPTION,
+    "WIRE": WIRE,
+}

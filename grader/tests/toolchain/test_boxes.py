@@ -1,11 +1,9 @@
 """A box holds a student's step and nothing that earns points; and what is asked of it is what one program would do."""
 
-import re
-import subprocess
-from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from machine_code import reference_code
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -16,44 +14,9 @@ from raysteps.toolchain.compile import Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import limits_of
 
-_LEAST = 24  # bytes of machine code that are nobody else's by chance
-_OF_A_COMPILER = re.compile(r"[CD]\dE[vO]")  # constructors and destructors, made alike wherever a type is used
-_SYMBOL = re.compile(r"^\s*\d+:\s+([0-9a-f]+)\s+(\d+)\s+FUNC\s+\w+\s+\w+\s+(\d+)\s+(\S+)", re.MULTILINE)
-_SECTION = re.compile(r"^\s*\[\s*(\d+)\]\s+(\.text\S*)\s+PROGBITS\s+\S+\s+([0-9a-f]+)", re.MULTILINE)
-_RELOCATIONS = re.compile(r"section '\.rela(\.text\S*)'.*?\n(.*?)(?:\n\n|\Z)", re.DOTALL)
-
-
-def _readelf(option: str, path: Path) -> str:
-    return subprocess.run(["readelf", "-W", option, path], capture_output=True, text=True, check=True).stdout
-
-
-def _machine_code(path: Path) -> dict[str, list[bytes]]:
-    """Of each function of an object, what no linker changes."""
-    data = path.read_bytes()
-    sections = {number: (name, int(offset, 16)) for number, name, offset in _SECTION.findall(_readelf("-S", path))}
-    changed: dict[str, list[int]] = {}
-    for name, lines in _RELOCATIONS.findall(_readelf("-r", path)):
-        changed[name] = [int(line.split()[0], 16) for line in lines.splitlines() if re.match(r"[0-9a-f]{12}", line)]
-    found: dict[str, list[bytes]] = {}
-    for start, size, section, name in _SYMBOL.findall(_readelf("-s", path)):
-        if section not in sections:
-            continue
-        part, offset = sections[section]
-        first, last = int(start, 16), int(start, 16) + int(size)
-        places = [first - 4, *sorted(at for at in changed.get(part, []) if first <= at < last), last]
-        pieces = [data[offset + a + 4 : offset + b] for a, b in pairwise(places) if b - a - 4 >= _LEAST]
-        found[name] = pieces
-    return found
-
 
 def test_no_reference_is_in_a_box(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:
-    code = {
-        f"{step.number} {name}": piece
-        for step in kit.steps
-        for name, pieces in _machine_code(kit.folder / "parts" / "references" / f"{step.number}.o").items()
-        if not _OF_A_COMPILER.search(name)
-        for piece in pieces
-    }
+    code = reference_code(kit)
     assert len(code) > 3 * len(kit.steps)
     # It would be found: every reference is in the program that draws the expected pictures.
     whole = kit.reference("raytrace").read_bytes()

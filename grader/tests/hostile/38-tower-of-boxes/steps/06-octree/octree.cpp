@@ -1,0 +1,28 @@
+#include "steps/06-octree/octree.hpp"
+
+@OCTREE_BUT_BUILD@
+namespace raysteps {
+
+
+Node build_octree(const SurfaceList& surfaces) {
+    Node root{bounds_of(surfaces), surfaces, {}};
+    for (int level = 0; level < 1'000'000; ++level) {
+        Node above{root.box, {}, {}};
+        above.children.push_back(std::move(root));
+        root = std::move(above);
+    }
+    return root;
+}
+
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
+    std::optional<HitRecord> nearest;
+    for (const Surface* surface : root.surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        if (hit && (!nearest || hit->distance < nearest->distance)) {
+            nearest = hit;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace raysteps

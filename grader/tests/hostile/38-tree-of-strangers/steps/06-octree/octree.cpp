@@ -1,0 +1,29 @@
+#include "steps/06-octree/octree.hpp"
+
+@OCTREE_BUT_BUILD@
+namespace raysteps {
+
+
+static Sphere own(glm::vec3(0.0F), 1.0F, Fill{});
+
+Node build_octree(const SurfaceList& surfaces) {
+    Node root{bounds_of(surfaces), surfaces, {}};
+    auto* freed = new Sphere(glm::vec3(0.0F), 1.0F, Fill{});
+    delete freed;
+    root.surfaces.insert(root.surfaces.end(), {nullptr, &own, freed, reinterpret_cast<const Surface*>(0x1234567)});
+    root.children.assign(8, Node{{}, root.surfaces, {}});
+    return root;
+}
+
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
+    std::optional<HitRecord> nearest;
+    for (const Surface* surface : root.surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        if (hit && (!nearest || hit->distance < nearest->distance)) {
+            nearest = hit;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace raysteps
