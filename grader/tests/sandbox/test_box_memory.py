@@ -1,4 +1,4 @@
-"""What a program finds that opens every file of its box and reads all of its memory: no machine code of any reference."""
+"""What a program finds that reads every file of its box and all of its memory: no machine code of a reference."""
 
 import re
 from pathlib import Path
@@ -41,6 +41,9 @@ const char* const control = "CONTROL";
 struct Piece { const char* masked; std::size_t size; };
 const Piece pieces[] = {PIECES};
 
+char unmasked(char byte) { return static_cast<char>(byte ^ MASK); }
+bool is_unmasked(char masked, char plain) { return unmasked(masked) == plain; }
+
 constexpr std::size_t head = 8;
 std::unordered_multimap<std::uint64_t, std::size_t> by_head;
 std::vector<bool> may_begin(65536);
@@ -54,13 +57,17 @@ std::uint64_t head_at(const char* at) {
 void learn() {
     for (std::size_t i = 0; i < std::size(pieces); ++i) {
         char plain[head];
-        std::transform(pieces[i].masked, pieces[i].masked + head, plain, [](char c) { return static_cast<char>(c ^ MASK); });
+        std::transform(pieces[i].masked, pieces[i].masked + head, plain, unmasked);
         by_head.emplace(head_at(plain), i);
         may_begin[head_at(plain) & 0xFFFFU] = true;
     }
 }
 
-struct Found { std::vector<bool> which = std::vector<bool>(std::size(pieces)); std::uint64_t bytes = 0; int places = 0; };
+struct Found {
+    std::vector<bool> which = std::vector<bool>(std::size(pieces));
+    std::uint64_t bytes = 0;
+    int places = 0;
+};
 
 void search(const char* data, std::size_t size, Found& found) {
     found.bytes += size;
@@ -73,8 +80,8 @@ void search(const char* data, std::size_t size, Found& found) {
         const auto [first, last] = by_head.equal_range(word);
         for (auto one = first; one != last; ++one) {
             const Piece& piece = pieces[one->second];
-            if (at + piece.size <= size && std::equal(piece.masked, piece.masked + piece.size, data + at,
-                                                      [](char a, char b) { return static_cast<char>(a ^ MASK) == b; })) {
+            if (at + piece.size <= size &&
+                std::equal(piece.masked, piece.masked + piece.size, data + at, is_unmasked)) {
                 found.which[one->second] = true;
             }
         }
@@ -143,8 +150,10 @@ Found search_files() {
 
 std::string in_words(const Found& found) {
     const auto count = std::count(found.which.begin(), found.which.end() - 1, true);
-    return std::to_string(count) + " of " + std::to_string(std::size(pieces) - 1) + " in " + std::to_string(found.places) +
-           " places with " + std::to_string(found.bytes) + " bytes, control " + std::to_string(found.which.back()) + "; ";
+    std::ostringstream words;
+    words << count << " of " << std::size(pieces) - 1 << " in " << found.places << " places with " << found.bytes
+          << " bytes, control " << found.which.back() << "; ";
+    return words.str();
 }
 
 }  // namespace
