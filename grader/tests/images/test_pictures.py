@@ -6,7 +6,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from raysteps.images.compare import PictureError, Pixels, compare, difference, is_flat, read_ppm, write_png
+from raysteps.images.compare import (
+    PictureError,
+    Pixels,
+    compare,
+    difference,
+    is_flat,
+    pixels_differ,
+    read_ppm,
+    shown,
+    write_png,
+)
 
 
 def _ramp() -> Pixels:
@@ -81,3 +91,21 @@ def test_difference_is_brightened_and_written(tmp_path: Path) -> None:
     assert (shown == 8).all()
     write_png(shown, tmp_path / "new" / "d.png")
     assert [path.name for path in (tmp_path / "new").iterdir()] == ["d.png"]
+
+
+def test_a_grossly_wrong_picture_is_shown_coarsely() -> None:
+    """What it carries: a pixel of four, five bits of each channel."""
+    data = np.random.default_rng(5).integers(0, 256, (61, 80, 3), dtype=np.uint8)
+    coarse = shown(data, 0.51)
+    assert coarse.shape == data.shape
+    assert (coarse[0::2][:30] == coarse[1::2]).all()
+    assert (coarse[:, 0::2] == coarse[:, 1::2]).all()
+    assert len(np.unique(coarse)) == 32
+    corners = pixels_differ(coarse[::2, ::2], data[::2, ::2])
+    assert corners.max() <= 4  # it still looks like the picture
+
+
+def test_other_pictures_are_shown_as_they_are() -> None:
+    data = np.random.default_rng(5).integers(0, 256, (6, 8, 3), dtype=np.uint8)
+    for wrong_share in (0.0, 0.02, 0.5):
+        assert (shown(data, wrong_share) == data).all()

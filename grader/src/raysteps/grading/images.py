@@ -6,7 +6,7 @@ from pathlib import Path
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
-from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, write_png
+from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, shown, write_png
 from raysteps.images.render import Rendered, describe_exit, reference_picture, reference_work, render
 from raysteps.results.model import ImageResult, Integration, Termination
 from raysteps.sandbox.task import Sandbox
@@ -73,9 +73,6 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
         result.outcome, result.message = trouble(rendered)
         return result
     gallery.made[case.name] = rendered.pixels
-    if rendered.pixels.shape == reference.shape:
-        result.mine = (folder / f"{case.name}-mine.png").as_posix()
-        write_png(rendered.pixels, gallery.out / result.mine)
     verdict = compare(rendered.pixels, reference, case.max_wrong)
     if not (verdict.passed or gallery.kit.has_reference) and case.has_tree:
         verdict = _beside_no_tree(gallery, program, scene, case, rendered.pixels) or verdict
@@ -88,8 +85,12 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
             result.passed, result.message = False, problem
     result.outcome = "ok" if result.passed else "wrong"
     if rendered.pixels.shape == reference.shape:
+        # In a students' kit there is nothing that a picture could carry out.
+        mine = shown(rendered.pixels, result.wrong_share) if gallery.kit.has_reference else rendered.pixels
+        result.mine = (folder / f"{case.name}-mine.png").as_posix()
+        write_png(mine, gallery.out / result.mine)
         result.difference = (folder / f"{case.name}-difference.png").as_posix()
-        write_png(difference(rendered.pixels, reference), gallery.out / result.difference)
+        write_png(difference(mine, reference), gallery.out / result.difference)
     return result
 
 
