@@ -56,12 +56,22 @@ struct Parameter<std::span<const Light>> {
 
 template <>
 struct Parameter<const SurfaceList&> {
-    using Received = std::shared_ptr<CopiedGroup>;
-    static Loan send(Writer& out, const SurfaceList& surfaces) {
-        return Loan(Groups::all().write(out, surfaces, Session::current().wire().together()));
+    using Received = ReceivedSurfaces;
+    static Loan send(Writer& out, const SurfaceList& surfaces) { return write_surfaces(out, surfaces); }
+    static Received receive(Reader& in) { return read_surfaces(in); }
+    static const SurfaceList& give(const Received& received) {
+        return received.copies == nullptr ? received.own : received.copies->scene.surfaces();
     }
-    static Received receive(Reader& in) { return Groups::all().read(in); }
-    static const SurfaceList& give(const Received& copies) { return copies->scene.surfaces(); }
+};
+
+/// Surfaces that the other end makes copies of, whoever has them.
+struct ToCopy {
+    const SurfaceList& surfaces;
+};
+template <>
+struct Parameter<const ToCopy&> {
+    using Received = std::shared_ptr<CopiedGroup>;
+    static Loan send(Writer& out, const ToCopy& list) { return Loan(Groups::all().write(out, list.surfaces)); }
 };
 
 template <typename Tree>

@@ -114,6 +114,21 @@ PlaceInGroup place_of(const Surface& copy) {
     return *place;
 }
 
+/// Where the other end has what these surfaces are copies of; nothing if some are not.
+std::vector<PlaceInGroup> places_of(const SurfaceList& surfaces) {
+    std::vector<PlaceInGroup> places;
+    for (const Surface* surface : surfaces) {
+        if (const auto* entry = dynamic_cast<const LeafEntry*>(surface)) {
+            places.push_back(entry->place());
+        } else if (const PlaceInGroup* place = Groups::all().place_of(surface)) {
+            places.push_back(*place);
+        } else {
+            return {};
+        }
+    }
+    return places;
+}
+
 }  // namespace
 
 QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer) {
@@ -164,6 +179,33 @@ ReceivedTracer read_tracer(Reader& in) {
     auto stand_in = std::make_unique<FarTracer>(id, max_ray_depth, background);
     Tracer* tracer = stand_in.get();
     return {std::move(stand_in), tracer};
+}
+
+Loan write_surfaces(Writer& out, const SurfaceList& surfaces) {
+    const std::vector<PlaceInGroup> places = places_of(surfaces);
+    out.put(!places.empty());
+    if (places.empty()) {
+        return Loan(Groups::all().write(out, surfaces, Session::current().wire().together()));
+    }
+    out.put(static_cast<std::uint32_t>(places.size()));
+    for (const PlaceInGroup place : places) {
+        out.put(place.group);
+        out.put(place.index);
+    }
+    return {};
+}
+
+ReceivedSurfaces read_surfaces(Reader& in) {
+    if (!in.get<bool>()) {
+        return {Groups::all().read(in), {}};
+    }
+    ReceivedSurfaces received;
+    received.own.resize(in.count(sizeof(PlaceInGroup)));
+    for (const Surface*& surface : received.own) {
+        const auto group = in.get<GroupId>();
+        surface = &Groups::all().lent({group, in.get<std::uint32_t>()});
+    }
+    return received;
 }
 
 std::optional<HitRecord> ask_hit(const Surface& copy, const Ray& ray) {

@@ -43,6 +43,14 @@ struct ReceivedTracer {
 [[nodiscard]] ReceivedQuery read_query(Reader& in);
 [[nodiscard]] ReceivedTracer read_tracer(Reader& in);
 
+/// Surfaces as they came with a question: copies, or own ones that the other end has copies of.
+struct ReceivedSurfaces {
+    std::shared_ptr<CopiedGroup> copies;
+    SurfaceList own;
+};
+[[nodiscard]] Loan write_surfaces(Writer& out, const SurfaceList& surfaces);
+[[nodiscard]] ReceivedSurfaces read_surfaces(Reader& in);
+
 /// Of the surface that this copy stands for. Counted at the end that has it, as one surface test.
 [[nodiscard]] std::optional<HitRecord> ask_hit(const Surface& copy, const Ray& ray);
 [[nodiscard]] bool ask_overlaps(const Surface& copy, const Box& box);

@@ -267,7 +267,7 @@ Tree ask_tree(FunctionId id, const SurfaceList& surfaces) {
         Trees<Tree>::all().remember(number, tree, group);
         return tree;
     };
-    return ask_and_read<TreeId, const SurfaceList&>(id, read_result, number, surfaces);
+    return ask_and_read<TreeId, const ToCopy&>(id, read_result, number, {surfaces});
 }
 
 template <typename Tree>
