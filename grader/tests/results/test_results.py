@@ -79,6 +79,17 @@ def test_what_is_no_results_json_is_refused_with_its_place(old: str, new: str, s
         parse_results(_GOOD.replace(old, new, 1).encode())
 
 
+def test_what_only_older_kits_wrote_is_passed_over() -> None:
+    """Where they wrote it, and nowhere else."""
+    older = _GOOD.replace('"kit"', '"inconsistent": true, "kit"').replace(
+        '"tests"', '"inconsistent": ["more"], "tests"'
+    )
+    assert older.count("inconsistent") == 2
+    assert as_text(parse_results(older.encode())) == _GOOD
+    with pytest.raises(Malformed, match=r"^\$\.timing: unknown key 'inconsistent'"):
+        parse_results(_GOOD.replace('"seconds"', '"inconsistent": true, "seconds"').encode())
+
+
 def test_two_steps_of_one_name_are_refused() -> None:
     document = json.loads(_GOOD)
     document["steps"] *= 2
