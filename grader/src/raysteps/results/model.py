@@ -81,17 +81,11 @@ class ImageResult:
 class CaseGroup:
     """One kind of hidden cases of a function, such as `origin inside`; all must be right."""
 
+    FORMER_KEYS: ClassVar = ("undecided", "wasteful")
+
     name: str
     cases: Count
     right: Count
-    # Not right, but perhaps it would be: never asked, or the answer is too large to be read.
-    undecided: Count = field(default=0, metadata=OPTIONAL)
-    wasteful: Count = field(default=0, metadata=OPTIONAL)  # not right only because it spares no work
-
-    @property
-    def decided(self) -> int:
-        """Cases in which the judge saw what the function does."""
-        return self.cases - self.undecided
 
 
 @dataclass
