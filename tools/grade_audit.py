@@ -131,8 +131,6 @@ class ObservedGrade:
         """Why the points are not true; empty when they are."""
         result, kind = self.result, self.entrant.kind
         points = f"{result.points:g} of {result.max:g} points"
-        if result.inconsistent:
-            return f"it is honest, and the grader contradicts it: {result.inconsistent[0]}"
         if kind == "stub":
             return "" if result.points == 0 else f"a stub has {points}"
         if result.status == "does-not-build":

@@ -8,6 +8,7 @@ from typing import get_args, get_type_hints
 import msgspec
 
 from raysteps.classroom.leaderboard import Leaderboard
+from raysteps.common.documents import former_keys
 from raysteps.common.files import write_json
 from raysteps.inspector.model import Record
 from raysteps.judge.counterexamples import CaseFile
@@ -40,13 +41,16 @@ def _classes(kind: object, known: set[type]) -> Iterator[type]:
 
 def schema_of(kind: type) -> dict[str, object]:
     """No object of ours takes a key that it does not know, but for the list of a release. Required is what the kit
-    always writes: all but what older kits did not."""
+    always writes: all but what older kits did not. What only older kits wrote may be anything."""
     schema = msgspec.json.schema(kind)
-    optional = {(made.__name__, one.name) for made in _classes(kind, set()) for one in fields(made) if one.metadata}
+    classes = list(_classes(kind, set()))
+    optional = {(made.__name__, one.name) for made in classes for one in fields(made) if one.metadata}
+    former = {made.__name__: former_keys(made) for made in classes}
     for name, form in schema["$defs"].items():
         if "properties" in form:
             form["additionalProperties"] = kind is Release
             form["required"] = [key for key in form["properties"] if (name, key) not in optional]
+            form["properties"] |= {key: {"deprecated": True} for key in former.get(name, ())}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 
 

@@ -66,7 +66,7 @@ TEST_CASE("point_at walks along the ray", "[01-camera-rays][point_at]") {
     CHECK_THAT(point_at(ray, -5.0F), IsNear({1.0F, -1.0F, 7.0F}));
 }
 
-TEST_CASE("view_frame of a camera that looks along +x", "[01-camera-rays][view_frame][part]") {
+TEST_CASE("view_frame of a camera that looks along +x", "[01-camera-rays][view_frame]") {
     Camera camera = straight_camera(100, 100);
     camera.from = {0.0F, 0.0F, 0.0F};
     camera.at = {7.0F, 0.0F, 0.0F};
@@ -78,7 +78,7 @@ TEST_CASE("view_frame of a camera that looks along +x", "[01-camera-rays][view_f
     CHECK_THAT(frame.up, IsNear({0.0F, 0.0F, 1.0F}));
 }
 
-TEST_CASE("view_frame turns a slanted up vector upright", "[01-camera-rays][view_frame][part]") {
+TEST_CASE("view_frame turns a slanted up vector upright", "[01-camera-rays][view_frame]") {
     Camera camera = straight_camera(100, 100);
     camera.from = {0.0F, 0.0F, 0.0F};
     camera.at = {0.0F, 0.0F, 2.0F};
@@ -89,7 +89,7 @@ TEST_CASE("view_frame turns a slanted up vector upright", "[01-camera-rays][view
     CHECK_THAT(frame.right, IsNear({-1.0F, 0.0F, 0.0F}));
 }
 
-TEST_CASE("view_frame: the angle is the full vertical one in degrees", "[01-camera-rays][view_frame][part]") {
+TEST_CASE("view_frame: the angle is the full vertical one in degrees", "[01-camera-rays][view_frame]") {
     Camera camera = straight_camera(100, 100);
     INFO("half_height = tan(angle / 2)");
     camera.angle = 90.0F;
@@ -100,7 +100,7 @@ TEST_CASE("view_frame: the angle is the full vertical one in degrees", "[01-came
     CHECK(view_frame(camera).half_height == about(0.414214));
 }
 
-TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays][view_frame][part]") {
+TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays][view_frame]") {
     INFO("half_width = half_height * width / height; pixels are square");
     const ViewFrame wide = view_frame(straight_camera(320, 160));
     CHECK(wide.half_height == about(1.0));
@@ -110,7 +110,7 @@ TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays][v
     CHECK(tall.half_width == about(1.0 / 3.0));
 }
 
-TEST_CASE("view_frame: the handout's worked example", "[01-camera-rays][view_frame][part]") {
+TEST_CASE("view_frame: the handout's worked example", "[01-camera-rays][view_frame]") {
     const ViewFrame frame = view_frame(straight_camera(4, 2));
     CHECK_THAT(frame.forward, IsNear({0.0F, 0.0F, -1.0F}));
     CHECK_THAT(frame.right, IsNear({1.0F, 0.0F, 0.0F}));
@@ -120,7 +120,7 @@ TEST_CASE("view_frame: the handout's worked example", "[01-camera-rays][view_fra
     CHECK(frame.half_width == about(2.0));
 }
 
-TEST_CASE("view_frame: three unit vectors at right angles for any camera", "[01-camera-rays][view_frame][part]") {
+TEST_CASE("view_frame: three unit vectors at right angles for any camera", "[01-camera-rays][view_frame]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -140,7 +140,7 @@ TEST_CASE("view_frame: three unit vectors at right angles for any camera", "[01-
     }
 }
 
-TEST_CASE("primary_ray of the middle pixel goes straight ahead", "[01-camera-rays][primary_ray][part]") {
+TEST_CASE("primary_ray of the middle pixel goes straight ahead", "[01-camera-rays][primary_ray]") {
     const Camera camera = straight_camera(3, 3);
     const ViewFrame frame = straight_frame(1.0F, 1.0F);
     const Ray middle = primary_ray(camera, frame, 1, 1);
@@ -150,7 +150,7 @@ TEST_CASE("primary_ray of the middle pixel goes straight ahead", "[01-camera-ray
     CHECK_THAT(primary_ray(camera, frame, 2, 1).direction, IsParallelTo({2.0F / 3.0F, 0.0F, -1.0F}));
 }
 
-TEST_CASE("primary_ray goes through the pixel's centre and not its corner", "[01-camera-rays][primary_ray][part]") {
+TEST_CASE("primary_ray goes through the pixel's centre and not its corner", "[01-camera-rays][primary_ray]") {
     // The plane from -1 to 1 holds two pixels each way: their centres lie at -0.5 and 0.5.
     const Camera camera = straight_camera(2, 2);
     const ViewFrame frame = straight_frame(1.0F, 1.0F);
@@ -160,7 +160,7 @@ TEST_CASE("primary_ray goes through the pixel's centre and not its corner", "[01
     CHECK_THAT(primary_ray(camera, frame, 1, 1).direction, IsParallelTo({0.5F, -0.5F, -1.0F}));
 }
 
-TEST_CASE("primary_ray: x runs to the right and y down", "[01-camera-rays][primary_ray][part]") {
+TEST_CASE("primary_ray: x runs to the right and y down", "[01-camera-rays][primary_ray]") {
     const Camera camera = straight_camera(4, 2);
     const ViewFrame frame = straight_frame(2.0F, 1.0F);
     INFO("pixel (0, 0) is the upper left one; the picture is 4 wide and 2 high");
@@ -170,13 +170,13 @@ TEST_CASE("primary_ray: x runs to the right and y down", "[01-camera-rays][prima
     CHECK_THAT(primary_ray(camera, frame, 1, 1).direction, IsParallelTo({-0.5F, -0.5F, -1.0F}));
 }
 
-TEST_CASE("primary_ray: the handout's worked example - unit length", "[01-camera-rays][primary_ray][part]") {
+TEST_CASE("primary_ray: the handout's worked example - unit length", "[01-camera-rays][primary_ray]") {
     const Ray ray = primary_ray(straight_camera(4, 2), straight_frame(2.0F, 1.0F), 3, 0);
     INFO("the pixel's point is (1.5, 0.5, -1); its length is 1.8708, and divided by that it is the direction");
     CHECK_THAT(ray.direction, IsNear({0.8018F, 0.2673F, -0.5345F}, 1e-3F));
 }
 
-TEST_CASE("primary_ray: a pixel's point in the window for any camera", "[01-camera-rays][primary_ray][any]") {
+TEST_CASE("primary_ray: a pixel's point in the window for any camera", "[01-camera-rays][primary_ray]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {

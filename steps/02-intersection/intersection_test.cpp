@@ -40,7 +40,7 @@ TEST_CASE("Triangle: a hit in the middle seen from the front", "[02-intersection
     CHECK(hit->front_face);
 }
 
-TEST_CASE("Triangle: the handout's worked example", "[02-intersection][Triangle::intersect][part]") {
+TEST_CASE("Triangle: the handout's worked example", "[02-intersection][Triangle::intersect]") {
     const Triangle triangle({0.0F, 0.0F, 0.0F}, {4.0F, 0.0F, 0.0F}, {0.0F, 4.0F, 0.0F}, Fill{});
     const std::optional<HitRecord> hit = triangle.intersect({{-2.0F, 1.0F, 4.0F}, {0.6F, 0.0F, -0.8F}});
     INFO("the plane is met at (16 * -4) / (16 * -0.8) = 5, at (1, 1, 0); its three sides are 4, 8 and 4");
@@ -52,8 +52,7 @@ TEST_CASE("Triangle: the handout's worked example", "[02-intersection][Triangle:
     CHECK_FALSE(triangle.intersect({{2.0F, 1.0F, 4.0F}, {0.6F, 0.0F, -0.8F}}).has_value());
 }
 
-TEST_CASE("Triangle: seen from behind the normal turns towards the ray",
-          "[02-intersection][Triangle::intersect][part]") {
+TEST_CASE("Triangle: seen from behind the normal turns towards the ray", "[02-intersection][Triangle::intersect]") {
     const Ray up{{0.25F, 0.25F, -3.0F}, {0.0F, 0.0F, 1.0F}};
     const std::optional<HitRecord> hit = corner_triangle().intersect(up);
     INFO("a triangle has two sides: the ray comes from below and hits its back");
@@ -63,7 +62,7 @@ TEST_CASE("Triangle: seen from behind the normal turns towards the ray",
     CHECK_FALSE(hit->front_face);
 }
 
-TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection][Triangle::intersect][part]") {
+TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection][Triangle::intersect]") {
     const Triangle triangle = corner_triangle();
     SECTION("0.01 inside each edge is a hit") {
         CHECK(triangle.intersect(down_onto(0.4F, 0.01F)).has_value());
@@ -82,7 +81,7 @@ TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection]
     }
 }
 
-TEST_CASE("Triangle: two that share an edge leave no crack", "[02-intersection][Triangle::intersect][part]") {
+TEST_CASE("Triangle: two that share an edge leave no crack", "[02-intersection][Triangle::intersect]") {
     const glm::vec3 left{-2.0F, 0.0F, 0.0F};
     const glm::vec3 right{2.0F, 0.0F, 0.0F};
     const Triangle upper(left, right, {-2.0F, 4.0F, 0.0F}, Fill{});
@@ -97,7 +96,7 @@ TEST_CASE("Triangle: two that share an edge leave no crack", "[02-intersection][
     CHECK_FALSE(lower.intersect(down_onto(2.5F, 0.0F)).has_value());
 }
 
-TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection][Triangle::intersect][part]") {
+TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection][Triangle::intersect]") {
     const Triangle triangle = corner_triangle();
     const glm::vec3 down{0.0F, 0.0F, -1.0F};
     const glm::vec3 along{1.0F, 0.0F, 0.0F};
@@ -116,7 +115,7 @@ TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection
     }
 }
 
-TEST_CASE("Triangle: any triangle from any side", "[02-intersection][Triangle::intersect][part]") {
+TEST_CASE("Triangle: any triangle from any side", "[02-intersection][Triangle::intersect]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -163,7 +162,7 @@ TEST_CASE("Sphere: head-on the nearer of the two points", "[02-intersection][Sph
     CHECK(hit->front_face);
 }
 
-TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-intersection][Sphere::intersect][part]") {
+TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-intersection][Sphere::intersect]") {
     const Sphere sphere({1.0F, 2.0F, 3.0F}, 5.0F, Fill{});
     const std::optional<HitRecord> hit = sphere.intersect({{4.0F, 2.0F, 13.0F}, {0.0F, 0.0F, -1.0F}});
     INFO("the line passes the centre at 3; the half chord is 4; the origin is 10 above the centre");
@@ -173,7 +172,7 @@ TEST_CASE("Sphere: off-centre a 3-4-5 triangle gives the distance", "[02-interse
     CHECK_THAT(hit->normal, IsNear({0.6F, 0.0F, 0.8F}));
 }
 
-TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection][Sphere::intersect][part]") {
+TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection][Sphere::intersect]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 2.0F, Fill{});
     const std::optional<HitRecord> hit = sphere.intersect({{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}});
     INFO("the points are at distances -3 and 1: the nearer one that is above 0 counts");
@@ -184,7 +183,7 @@ TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection][Sphere::
     CHECK_FALSE(hit->front_face);
 }
 
-TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::intersect][part]") {
+TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::intersect]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 1.0F, Fill{});
     const glm::vec3 down{0.0F, 0.0F, -1.0F};
     SECTION("the line passes the centre at 0.99: a hit") {
@@ -198,8 +197,7 @@ TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::interse
     }
 }
 
-TEST_CASE("Sphere: position on the surface and unit normal for any sphere",
-          "[02-intersection][Sphere::intersect][part]") {
+TEST_CASE("Sphere: position on the surface and unit normal for any sphere", "[02-intersection][Sphere::intersect]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -241,7 +239,7 @@ TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-inte
     }
 }
 
-TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersection][closest_hit][part]") {
+TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersection][closest_hit]") {
     const Sphere one({0.0F, 0.0F, -4.0F}, 1.0F, Fill{});
     const Sphere two({0.0F, 0.0F, -8.0F}, 1.0F, Fill{});
     const Ray away{{0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};

@@ -61,7 +61,7 @@ TEST_CASE("mirror: a ball bounces off the floor", "[03-phong-shading][mirror]") 
     CHECK_THAT(mirror({0.0F, -1.0F, 0.0F}, {0.6F, 0.8F, 0.0F}), IsNear({0.96F, 0.28F, 0.0F}));
 }
 
-TEST_CASE("mirror: angle in is angle out and twice is the way back", "[03-phong-shading][mirror][part]") {
+TEST_CASE("mirror: angle in is angle out and twice is the way back", "[03-phong-shading][mirror]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -87,7 +87,7 @@ TEST_CASE("diffuse: kd times colours times cosine", "[03-phong-shading][diffuse]
     CHECK_THAT(diffuse(fill, light, k_up, leaning(-60.0F)), IsNear({0.2F, 0.2F, 0.16F}));
 }
 
-TEST_CASE("diffuse: a light behind the surface adds nothing and takes nothing", "[03-phong-shading][diffuse][part]") {
+TEST_CASE("diffuse: a light behind the surface adds nothing and takes nothing", "[03-phong-shading][diffuse]") {
     const Fill fill = diffuse_fill({1.0F, 1.0F, 1.0F}, 1.0F);
     const Light light = light_of(k_white);
     {
@@ -99,7 +99,7 @@ TEST_CASE("diffuse: a light behind the surface adds nothing and takes nothing", 
     CHECK_THAT(diffuse(fill, light, k_up, leaning(180.0F)), IsNear(k_black));
 }
 
-TEST_CASE("diffuse: light from all sides of the sky averages one half", "[03-phong-shading][diffuse][part]") {
+TEST_CASE("diffuse: light from all sides of the sky averages one half", "[03-phong-shading][diffuse]") {
     Random random;
     INFO(random);
     const Fill fill = diffuse_fill(k_white, 1.0F);
@@ -120,7 +120,7 @@ TEST_CASE("diffuse: light from all sides of the sky averages one half", "[03-pho
     CHECK(sum / static_cast<float>(count) == about(0.5, 0.02));
 }
 
-TEST_CASE("specular: brightest where the eye sits in the mirror direction", "[03-phong-shading][specular][part]") {
+TEST_CASE("specular: brightest where the eye sits in the mirror direction", "[03-phong-shading][specular]") {
     const Fill fill = shiny_fill(0.5F, 10.0F);
     const Light light = light_of({1.0F, 0.8F, 0.6F});
     INFO("light 30 degrees to the left, eye 30 degrees to the right: r = v, so ks * light colour");
@@ -129,7 +129,7 @@ TEST_CASE("specular: brightest where the eye sits in the mirror direction", "[03
     CHECK_THAT(specular(fill, light, k_up, leaning(0.0F), leaning(0.0F)), IsNear({0.5F, 0.4F, 0.3F}));
 }
 
-TEST_CASE("specular: falls off with the cosine to the power of shine", "[03-phong-shading][specular][part]") {
+TEST_CASE("specular: falls off with the cosine to the power of shine", "[03-phong-shading][specular]") {
     const Light light = light_of(k_white);
     INFO("light at -30 degrees, r at 30, eye at 50: cos(20)^shine; a half vector would give cos(10)^shine");
     const glm::vec3 l = leaning(-30.0F);
@@ -139,7 +139,7 @@ TEST_CASE("specular: falls off with the cosine to the power of shine", "[03-phon
     CHECK_THAT(specular(shiny_fill(0.25F, 50.0F), light, k_up, l, v), IsNear(Color(0.25F * 0.044601F)));
 }
 
-TEST_CASE("specular: light and eye may change places", "[03-phong-shading][specular][part]") {
+TEST_CASE("specular: light and eye may change places", "[03-phong-shading][specular]") {
     Random random;
     INFO(random);
     const Fill fill = shiny_fill(0.7F, 3.0F);
@@ -157,7 +157,7 @@ TEST_CASE("specular: light and eye may change places", "[03-phong-shading][specu
     CHECK(bright < 90);
 }
 
-TEST_CASE("specular: no highlight from behind", "[03-phong-shading][specular][part]") {
+TEST_CASE("specular: no highlight from behind", "[03-phong-shading][specular]") {
     const Light light = light_of(k_white);
     {
         INFO("for comparison, a light at 60 degrees, r at -60 and the eye at -30: cos(30)^2 = 0.75");
@@ -173,7 +173,7 @@ TEST_CASE("specular: no highlight from behind", "[03-phong-shading][specular][pa
     }
 }
 
-TEST_CASE("shade: diffuse plus specular of one light", "[03-phong-shading][shade][part]") {
+TEST_CASE("shade: diffuse plus specular of one light", "[03-phong-shading][shade]") {
     Fill fill = shiny_fill(0.5F, 2.0F);
     fill.color = {1.0F, 0.5F, 0.0F};
     fill.kd = 0.6F;
@@ -183,14 +183,14 @@ TEST_CASE("shade: diffuse plus specular of one light", "[03-phong-shading][shade
     CHECK_THAT(shade(hit, lights), IsNear({0.48F + 0.32F, 0.24F + 0.32F, 0.32F}));
 }
 
-TEST_CASE("shade: the eye is where the ray came from", "[03-phong-shading][shade][part]") {
+TEST_CASE("shade: the eye is where the ray came from", "[03-phong-shading][shade]") {
     const HitRecord hit = floor_hit(shiny_fill(1.0F, 20.0F), -leaning(40.0F));
     INFO("the ray came from 40 degrees to the right; only a light 40 degrees to the left shines into the eye");
     CHECK_THAT(shade(hit, std::vector<Light>{{5.0F * leaning(-40.0F), k_white}}), IsNear(k_white));
     CHECK_THAT(shade(hit, std::vector<Light>{{5.0F * leaning(40.0F), k_white}}), IsNear(k_black));
 }
 
-TEST_CASE("shade: lights add up whether near or far", "[03-phong-shading][shade][part]") {
+TEST_CASE("shade: lights add up whether near or far", "[03-phong-shading][shade]") {
     const HitRecord hit = floor_hit(diffuse_fill(k_white, 1.0F), {0.0F, 0.0F, -1.0F});
     const Light red{5.0F * leaning(0.0F), {1.0F, 0.0F, 0.0F}};
     const Light far_red{500.0F * leaning(0.0F), {1.0F, 0.0F, 0.0F}};

@@ -47,7 +47,7 @@ TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-s
     CHECK_THAT(ray.direction, IsNear({0.6F, 0.0F, 0.8F}, 5e-3F));
 }
 
-TEST_CASE("shadow_ray for any hit and light", "[04-shadows][shadow_ray][any]") {
+TEST_CASE("shadow_ray for any hit and light", "[04-shadows][shadow_ray]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -69,7 +69,7 @@ TEST_CASE("shadow_ray for any hit and light", "[04-shadows][shadow_ray][any]") {
     }
 }
 
-TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows][is_lit]") {
     const FakeScene empty;
     std::uint64_t rays = 0;
     const CountingQuery scene(empty, rays);
@@ -80,7 +80,7 @@ TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows][is_lit]
     CHECK(rays >= 2);
 }
 
-TEST_CASE("is_lit: the handout's worked example", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: the handout's worked example", "[04-shadows][is_lit]") {
     const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
     const Light light{{4.0F, 2.0F, 4.0F}, k_white};
     const Sphere before = ball({3.1F, 2.0F, 2.8F}, 0.5F);
@@ -93,7 +93,7 @@ TEST_CASE("is_lit: the handout's worked example", "[04-shadows][is_lit][part]") 
     CHECK(is_lit(bright, hit, light));
 }
 
-TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows][is_lit]") {
     const Sphere blocker = ball({0.0F, 0.0F, 5.0F}, 1.0F);
     const FakeScene scene = scene_of({&blocker});
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
@@ -103,7 +103,7 @@ TEST_CASE("is_lit: a ball between hit and light blocks", "[04-shadows][is_lit][p
     CHECK(is_lit(scene, hit, {{10.0F, 0.0F, 5.0F}, k_white}));
 }
 
-TEST_CASE("is_lit: glass blocks like everything else", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: glass blocks like everything else", "[04-shadows][is_lit]") {
     Fill glass;
     glass.transmittance = 0.9F;
     glass.index_of_refraction = 1.5F;
@@ -116,7 +116,7 @@ TEST_CASE("is_lit: glass blocks like everything else", "[04-shadows][is_lit][par
     CHECK(is_lit(scene, hit, {{10.0F, 0.0F, 5.0F}, k_white}));
 }
 
-TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows][is_lit]") {
     const HitRecord hit = hit_at({0.0F, 0.0F, 0.0F}, k_up);
     const Light light{{0.0F, 0.0F, 5.0F}, k_white};
     SECTION("hit at 0, light at 5, ball from 5.5 to 7.5: lit") {
@@ -137,7 +137,7 @@ TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows
     }
 }
 
-TEST_CASE("is_lit: what lies on the other side of the surface does not block", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: what lies on the other side of the surface does not block", "[04-shadows][is_lit]") {
     const Sphere below = ball({0.0F, 0.0F, -5.0F}, 1.0F);
     const FakeScene scene = scene_of({&below});
     INFO("the ball is under the floor, on the line through light and hit but not between them");
@@ -146,7 +146,7 @@ TEST_CASE("is_lit: what lies on the other side of the surface does not block", "
     CHECK_FALSE(is_lit(scene, hit_at({0.0F, 0.0F, -9.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
 }
 
-TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shadows][is_lit]") {
     Random random;
     INFO(random);
     const Sphere sphere = ball({0.3F, -0.2F, 0.1F}, 1.7F);
@@ -170,7 +170,7 @@ TEST_CASE("is_lit: a ball does not shade its own lit side (no acne)", "[04-shado
     CHECK(eclipses == count);
 }
 
-TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows][is_lit]") {
     Random random;
     INFO(random);
     const glm::vec3 corner{-9.0F, -7.0F, 0.3F};
@@ -194,7 +194,7 @@ TEST_CASE("is_lit: a floor does not shade itself (no acne)", "[04-shadows][is_li
     CHECK_FALSE(is_lit(scene, hit_at({0.0F, 0.0F, -5.0F}, k_up), {{0.0F, 0.0F, 10.0F}, k_white}));
 }
 
-TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", "[04-shadows][is_lit]") {
     const Sphere pebble = ball({0.0F, 0.0F, 0.05F}, 0.02F);
     const FakeScene scene = scene_of({&pebble});
     const Light light{{0.0F, 0.0F, 10.0F}, k_white};
@@ -204,7 +204,7 @@ TEST_CASE("is_lit: a small thing close to the surface still throws its shadow", 
     CHECK(is_lit(scene, hit_at({0.1F, 0.0F, 0.0F}, k_up), light));
 }
 
-TEST_CASE("is_lit: a lamp inside a hollow ball lights its wall", "[04-shadows][is_lit][part]") {
+TEST_CASE("is_lit: a lamp inside a hollow ball lights its wall", "[04-shadows][is_lit]") {
     const Sphere room = ball({0.0F, 0.0F, 0.0F}, 5.0F);
     const FakeScene scene = scene_of({&room});
     const std::optional<HitRecord> hit = room.intersect({{0.0F, 0.0F, 0.0F}, {0.0F, 0.6F, -0.8F}});

@@ -45,7 +45,7 @@ void between_mirrors(FakeTracer& tracer, float ks, const Color& own_light) {
 
 }  // namespace
 
-TEST_CASE("reflected_ray: like a ball off the floor", "[05-reflection][reflected_ray][part]") {
+TEST_CASE("reflected_ray: like a ball off the floor", "[05-reflection][reflected_ray]") {
     const HitRecord hit = floor_hit(1.0F, {0.6F, 0.0F, -0.8F});
     const Ray ray = reflected_ray(hit);
     CAPTURE(ray);
@@ -55,7 +55,7 @@ TEST_CASE("reflected_ray: like a ball off the floor", "[05-reflection][reflected
     CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
 }
 
-TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection][reflected_ray][any]") {
+TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection][reflected_ray]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -75,7 +75,7 @@ TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection][r
     }
 }
 
-TEST_CASE("trace: a primary ray that misses sees the background", "[05-reflection][trace][part]") {
+TEST_CASE("trace: a primary ray that misses sees the background", "[05-reflection][trace]") {
     FakeTracer tracer;
     tracer.background_color = k_sky;
     follow_bounces(tracer);
@@ -84,7 +84,7 @@ TEST_CASE("trace: a primary ray that misses sees the background", "[05-reflectio
     CHECK(tracer.cast.size() == 1);
 }
 
-TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection][trace][part]") {
+TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection][trace]") {
     FakeTracer tracer;
     tracer.background_color = k_sky;
     tracer.answer_in_order({floor_hit(1.0F)});
@@ -96,7 +96,7 @@ TEST_CASE("trace: a bounced ray that misses brings black", "[05-reflection][trac
     CHECK_THAT(trace(tracer, k_eye_ray, 2), IsNear(k_black));
 }
 
-TEST_CASE("trace: a dull surface shows its own light and casts no second ray", "[05-reflection][trace][part]") {
+TEST_CASE("trace: a dull surface shows its own light and casts no second ray", "[05-reflection][trace]") {
     FakeTracer tracer;
     tracer.background_color = k_sky;
     tracer.answer_in_order({floor_hit(0.0F), floor_hit(0.0F)});
@@ -129,7 +129,7 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     CHECK(tracer.shaded[0].depth + tracer.shaded[1].depth == 3);
 }
 
-TEST_CASE("trace: the handout's worked example", "[05-reflection][trace][part]") {
+TEST_CASE("trace: the handout's worked example", "[05-reflection][trace]") {
     FakeTracer tracer;
     tracer.max_depth = 3;
     between_mirrors(tracer, 0.5F, k_white);
@@ -139,7 +139,7 @@ TEST_CASE("trace: the handout's worked example", "[05-reflection][trace][part]")
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear(Color(1.75F)));
 }
 
-TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-reflection][trace][part]") {
+TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-reflection][trace]") {
     const float ks = 0.5F;
     for (const int max_depth : {1, 2, 3, 5}) {
         FakeTracer tracer;
@@ -159,7 +159,7 @@ TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-re
     }
 }
 
-TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-reflection][trace][part]") {
+TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-reflection][trace]") {
     FakeTracer tracer;
     tracer.max_depth = 4;
     tracer.background_color = k_sky;
@@ -172,7 +172,7 @@ TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-
     CHECK(tracer.cast.size() == before);
 }
 
-TEST_CASE("trace: a mirror with ks below 1 never adds energy", "[05-reflection][trace][part]") {
+TEST_CASE("trace: a mirror with ks below 1 never adds energy", "[05-reflection][trace]") {
     FakeTracer tracer;
     tracer.max_depth = 30;
     between_mirrors(tracer, 0.8F, Color(0.2F, 0.1F, 0.05F));

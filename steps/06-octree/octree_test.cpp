@@ -56,7 +56,7 @@ void look_for(const Node& node, const Surface* surface, const glm::vec3& point, 
 
 }  // namespace
 
-TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree][any]") {
+TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 150, 10);
@@ -107,7 +107,7 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree",
 }
 
 TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
-          "[06-octree][build_octree][closest_hit_in_octree][part]") {
+          "[06-octree][build_octree][closest_hit_in_octree]") {
     // A large triangle, slanted, runs through boxes near and far; small balls stand before it.
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, -8.0F}, glm::vec3{24.0F, -8.0F, 8.0F},
@@ -125,7 +125,7 @@ TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
 }
 
 TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small things",
-          "[06-octree][build_octree][closest_hit_in_octree][part]") {
+          "[06-octree][build_octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);
@@ -142,7 +142,7 @@ TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small t
 }
 
 TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
-          "[06-octree][build_octree][closest_hit_in_octree][part]") {
+          "[06-octree][build_octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
@@ -175,7 +175,7 @@ TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
 }
 
 TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it",
-          "[06-octree][build_octree][occluded_in_octree][part]") {
+          "[06-octree][build_octree][occluded_in_octree]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);
@@ -193,7 +193,7 @@ TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it",
     CHECK_FALSE(occluded_in_octree(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
 }
 
-TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in_octree][part]") {
+TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in_octree]") {
     SECTION("100 spheres in the same place: dividing must come to an end") {
         Scene scene;
         for (int i = 0; i < 100; ++i) {

@@ -11,7 +11,7 @@ const Box k_cube{{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}};
 
 }  // namespace
 
-TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree][Sphere::overlaps][any]") {
+TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree][Sphere::overlaps]") {
     SECTION("where surface and box have a point in common") {
         INFO("inside the cube, through a face, through a corner, and a sphere larger than the cube");
         CHECK(Sphere({0.2F, 0.0F, 0.0F}, 0.5F, Fill{}).overlaps(k_cube));
@@ -39,7 +39,7 @@ TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree][Sphere::overlaps
     }
 }
 
-TEST_CASE("Triangle::overlaps: never a no too many", "[06-octree][Triangle::overlaps][any]") {
+TEST_CASE("Triangle::overlaps: never a no too many", "[06-octree][Triangle::overlaps]") {
     SECTION("all corners outside, and yet through the middle of the cube") {
         CHECK(Triangle({-9.0F, -9.0F, 0.0F}, {9.0F, -9.0F, 0.0F}, {0.0F, 9.0F, 0.0F}, Fill{}).overlaps(k_cube));
     }

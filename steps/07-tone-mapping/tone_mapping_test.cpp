@@ -26,14 +26,14 @@ TEST_CASE("tone_map: c / (c + 1) at known values", "[07-tone-mapping][tone_map]"
     CHECK_THAT(tone_map({9.0F, 0.25F, 99.0F}), IsNear({0.9F, 0.2F, 0.99F}));
 }
 
-TEST_CASE("tone_map: each channel by itself", "[07-tone-mapping][tone_map][part]") {
+TEST_CASE("tone_map: each channel by itself", "[07-tone-mapping][tone_map]") {
     INFO("red alone stays red alone; a map of the brightness as a whole would change the other channels");
     CHECK_THAT(tone_map({4.0F, 0.0F, 0.0F}), IsNear({0.8F, 0.0F, 0.0F}));
     CHECK_THAT(tone_map({1.0F, 0.0F, 1.0F}), IsNear({0.5F, 0.0F, 0.5F}));
     CHECK_THAT(tone_map({0.0F, 1.0F, 1000.0F}), IsNear({0.0F, 0.5F, 1000.0F / 1001.0F}));
 }
 
-TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-tone-mapping][tone_map][part]") {
+TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-tone-mapping][tone_map]") {
     INFO("little light hardly changes: 0.001 / 1.001");
     CHECK(tone_map(Color(0.001F)).g < 0.002F);
     float before = 0.0F;
@@ -49,7 +49,7 @@ TEST_CASE("tone_map: more light is never darker and never reaches past 1", "[07-
     CHECK(before == about(1.0, 1e-3));
 }
 
-TEST_CASE("tone_map: infinite and very large and negative and NaN", "[07-tone-mapping][tone_map][part]") {
+TEST_CASE("tone_map: infinite and very large and negative and NaN", "[07-tone-mapping][tone_map]") {
     const Color light = tone_map({k_infinity, 1.0F, k_largest});
     INFO("infinity / (infinity + 1) is NaN in floats: an infinite channel must become 1 all the same");
     CHECK(light.r == about(1.0));
@@ -68,7 +68,7 @@ TEST_CASE("to_byte: the ends and the middle", "[07-tone-mapping][to_byte]") {
     CHECK((byte(0.5F) == 127 || byte(0.5F) == 128));
 }
 
-TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mapping][to_byte][part]") {
+TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mapping][to_byte]") {
     INFO("100.4 of 255 -> 100, 100.6 of 255 -> 101");
     CHECK(byte(100.4F / 255.0F) == 100);
     CHECK(byte(100.6F / 255.0F) == 101);
@@ -77,7 +77,7 @@ TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mappi
     CHECK(byte(0.6F / 255.0F) == 1);
 }
 
-TEST_CASE("tone_map and to_byte: the handout's worked example", "[07-tone-mapping][tone_map][to_byte][part]") {
+TEST_CASE("tone_map and to_byte: the handout's worked example", "[07-tone-mapping][tone_map][to_byte]") {
     const Color shown = tone_map({3.0F, 1.5F, 0.25F});
     INFO("3/4, 1.5/2.5 and 0.25/1.25");
     CHECK_THAT(shown, IsNear({0.75F, 0.6F, 0.2F}));
@@ -87,14 +87,14 @@ TEST_CASE("tone_map and to_byte: the handout's worked example", "[07-tone-mappin
     CHECK(byte(shown.b) == 51);
 }
 
-TEST_CASE("to_byte: every byte comes back", "[07-tone-mapping][to_byte][part]") {
+TEST_CASE("to_byte: every byte comes back", "[07-tone-mapping][to_byte]") {
     for (int expected = 0; expected <= 255; ++expected) {
         CAPTURE(expected);
         REQUIRE(byte(static_cast<float>(expected) / 255.0F) == expected);
     }
 }
 
-TEST_CASE("to_byte: clamps and survives what is no colour", "[07-tone-mapping][to_byte][part]") {
+TEST_CASE("to_byte: clamps and survives what is no colour", "[07-tone-mapping][to_byte]") {
     INFO("above 1 is white, below 0 is black; without a clamp 1.1 would wrap round to almost black");
     CHECK(byte(1.1F) == 255);
     CHECK(byte(2.0F) == 255);

@@ -39,7 +39,7 @@ float sine(const glm::vec3& direction, const glm::vec3& normal) { return glm::le
 
 }  // namespace
 
-TEST_CASE("refract: straight down goes straight on in any glass", "[08-refraction][refract][part]") {
+TEST_CASE("refract: straight down goes straight on in any glass", "[08-refraction][refract]") {
     for (const float eta : {1.0F / 1.5F, 1.0F, 1.5F}) {
         CAPTURE(eta);
         const std::optional<glm::vec3> out = refract({0.0F, 0.0F, -1.0F}, k_up, eta);
@@ -62,7 +62,7 @@ TEST_CASE("refract: out of glass the ray bends away from the normal", "[08-refra
     CHECK_THAT(*out, IsNear({0.75F, 0.0F, -0.661438F}));
 }
 
-TEST_CASE("refract: the handout's worked example", "[08-refraction][refract][part]") {
+TEST_CASE("refract: the handout's worked example", "[08-refraction][refract]") {
     const std::optional<glm::vec3> in = refract({0.6F, 0.0F, -0.8F}, k_up, 1.0F / 1.5F);
     INFO("into glass: the sine 0.6 becomes 0.6 / 1.5 = 0.4, the cosine sqrt(1 - 0.16) = 0.9165");
     REQUIRE(in.has_value());
@@ -75,7 +75,7 @@ TEST_CASE("refract: the handout's worked example", "[08-refraction][refract][par
     CHECK_FALSE(refract({0.8F, 0.0F, -0.6F}, k_up, 1.5F).has_value());
 }
 
-TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction][refract][part]") {
+TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction][refract]") {
     INFO("index 1.5: the critical angle is asin(1 / 1.5) = 41.81 degrees");
     CHECK(refract(downwards(41.0F), k_up, 1.5F).has_value());
     CHECK_FALSE(refract(downwards(42.5F), k_up, 1.5F).has_value());
@@ -84,7 +84,7 @@ TEST_CASE("refract: nothing gets out beyond the critical angle", "[08-refraction
     CHECK(refract(downwards(89.0F), k_up, 1.0F / 1.5F).has_value());
 }
 
-TEST_CASE("refract: Snell's law for any direction", "[08-refraction][refract][any]") {
+TEST_CASE("refract: Snell's law for any direction", "[08-refraction][refract]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 300; ++i) {
@@ -115,7 +115,7 @@ TEST_CASE("refract: Snell's law for any direction", "[08-refraction][refract][an
     }
 }
 
-TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction][transmitted_ray][part]") {
+TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction][transmitted_ray]") {
     SECTION("from outside eta is 1 / index") {
         const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
         CHECK_THAT(transmitted_ray(hit).direction, IsNear({0.471405F, 0.0F, -0.881917F}));
@@ -133,7 +133,7 @@ TEST_CASE("transmitted_ray: into and out of glass", "[08-refraction][transmitted
     }
 }
 
-TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refraction][transmitted_ray][part]") {
+TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refraction][transmitted_ray]") {
     const HitRecord hit = glass_hit(downwards(60.0F), 1.5F, false);
     const Ray ray = transmitted_ray(hit);
     CAPTURE(ray);
@@ -143,7 +143,7 @@ TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refrac
     CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
 }
 
-TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][transmitted_ray][part]") {
+TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][transmitted_ray]") {
     for (const bool front_face : {true, false}) {
         for (const float index : {1.0F, 0.0F}) {
             CAPTURE(index, front_face);
@@ -158,7 +158,7 @@ TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][t
     CHECK(sine(bent.direction, k_up) == about(0.766044 / 1.1, 1e-3));
 }
 
-TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refraction][transmitted_ray][part]") {
+TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refraction][transmitted_ray]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -174,7 +174,7 @@ TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refra
     }
 }
 
-TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refraction][transmitted_light][part]") {
+TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refraction][transmitted_light]") {
     FakeTracer tracer;
     tracer.on_trace = [](const Ray&, int) { return Color(0.8F, 0.4F, 0.2F); };
     const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
@@ -185,7 +185,7 @@ TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refrac
     CHECK_THAT(tracer.traced[0].ray.direction, IsNear({0.471405F, 0.0F, -0.881917F}));
 }
 
-TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][transmitted_light][part]") {
+TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][transmitted_light]") {
     FakeTracer tracer;
     const Color beyond{0.3F, 0.6F, 0.9F};
     tracer.on_trace = [beyond](const Ray&, int) { return beyond; };
@@ -199,7 +199,7 @@ TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][
 }
 
 TEST_CASE("transmitted_light: neither colour nor kd nor ks of the glass matters",
-          "[08-refraction][transmitted_light][part]") {
+          "[08-refraction][transmitted_light]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 50; ++i) {

@@ -89,7 +89,7 @@ void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray)
 
 }  // namespace
 
-TEST_CASE("build_bvh: every surface is in one leaf, and every box holds what is below it", "[09-bvh][build_bvh][any]") {
+TEST_CASE("build_bvh: every surface is in one leaf, and every box holds what is below it", "[09-bvh][build_bvh]") {
     Random random;
     INFO(random);
     SECTION("small and large surfaces") { check_tree(mixed_scene(random, 300, 40)); }
@@ -100,7 +100,7 @@ TEST_CASE("build_bvh: every surface is in one leaf, and every box holds what is 
     }
 }
 
-TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
     SECTION("2000 spheres in the same place: dividing must come to an end") {
         Scene scene;
         for (int i = 0; i < 2000; ++i) {

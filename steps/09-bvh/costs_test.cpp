@@ -22,7 +22,7 @@ float area_of(const Box& box) {
 
 }  // namespace
 
-TEST_CASE("surface_area: two faces each of three sizes", "[09-bvh][surface_area][any]") {
+TEST_CASE("surface_area: two faces each of three sizes", "[09-bvh][surface_area]") {
     CHECK(surface_area(box_of({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F})) == about(6.0F));
     CHECK(surface_area(box_of({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 1.0F})) == about(28.0F));
     Random random;
@@ -40,7 +40,7 @@ TEST_CASE("surface_area: two faces each of three sizes", "[09-bvh][surface_area]
     }
 }
 
-TEST_CASE("surface_area: flat and empty boxes", "[09-bvh][surface_area][part]") {
+TEST_CASE("surface_area: flat and empty boxes", "[09-bvh][surface_area]") {
     INFO("a flat box has two faces");
     CHECK(surface_area(box_of({1.0F, 2.0F, 3.0F}, {3.0F, 5.0F, 3.0F})) == about(12.0F));
     INFO("a line has none");
@@ -62,7 +62,7 @@ TEST_CASE("split_cost: the worked example", "[09-bvh][split_cost]") {
     CHECK(split_cost(first, 5, all_but_first, 5, whole) == about(1.0F + 0.4F * 5.0F + 0.95F * 5.0F));
 }
 
-TEST_CASE("split_cost: each side by its own area and count", "[09-bvh][split_cost][any]") {
+TEST_CASE("split_cost: each side by its own area and count", "[09-bvh][split_cost]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 100; ++i) {
@@ -80,7 +80,7 @@ TEST_CASE("split_cost: each side by its own area and count", "[09-bvh][split_cos
     }
 }
 
-TEST_CASE("split_cost: empty boxes and boxes without area", "[09-bvh][split_cost][part]") {
+TEST_CASE("split_cost: empty boxes and boxes without area", "[09-bvh][split_cost]") {
     const Box whole = box_of({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 2.0F});
     INFO("a side without surfaces costs nothing");
     CHECK(split_cost(Box{}, 0, whole, 6, whole) == about(7.0F));

@@ -67,7 +67,7 @@ TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][bui
 }
 
 TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the scene counts",
-          "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+          "[09-bvh][build_bvh][closest_hit_in_bvh]") {
     Scene scene;
     for (int i = 0; i < 200; ++i) {
         Fill fill;
@@ -83,8 +83,7 @@ TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the 
     CHECK(hit->fill.kd == 0.0F);
 }
 
-TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree",
-          "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
@@ -116,8 +115,7 @@ TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bv
     }
 }
 
-TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count",
-          "[09-bvh][build_bvh][occluded_in_bvh][part]") {
+TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count", "[09-bvh][build_bvh][occluded_in_bvh]") {
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
                                          glm::vec3{0.0F, 1.0F, 0.0F}, Fill{}));
@@ -129,7 +127,7 @@ TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count",
     CHECK(occluded_in_bvh(bvh, ray, std::numeric_limits<float>::infinity()));
 }
 
-TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][build_bvh][closest_hit_in_bvh][part]") {
+TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
     const Scene scene = hundred_sheets();
     const Bvh bvh = build_bvh(scene.surfaces());
     const auto sheets_tested = [&bvh](const Ray& ray) {
@@ -142,7 +140,7 @@ TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][
     CHECK(sheets_tested({{0.0F, 0.0F, -105.0F}, -k_down}) < 50);
 }
 
-TEST_CASE("occluded_in_bvh: ends with the first hit", "[09-bvh][build_bvh][occluded_in_bvh][part]") {
+TEST_CASE("occluded_in_bvh: ends with the first hit", "[09-bvh][build_bvh][occluded_in_bvh]") {
     const Scene scene = hundred_sheets();
     const Bvh bvh = build_bvh(scene.surfaces());
     const std::uint64_t before = thread_stats().surface_tests;

@@ -98,18 +98,18 @@ def test_common_mistakes_know_who_made_them() -> None:
 def test_a_class_of_an_older_kit_tells_how_many_made_a_mistake_but_not_who() -> None:
     told: Any = plain(document([submission("ann", mistakes={_SECOND: ["too bright"]})]))
     del told["submissions"][0]["mistakes"], told["submissions"][0]["seconds"]
+    told["inconsistent"], told["submissions"][0]["inconsistent"] = ["ann"], {_SECOND: ["It says that it is right."]}
     facts = convert(told, ClassResults, complete=True)
     assert [(one.submissions, list(one.rows)) for one in common_mistakes(facts)] == [(1, [])]
     assert "too bright" in class_page(facts, lambda name: None)
 
 
 def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
-    claims = {_SECOND: ["It says that it is right."]}
     late = {"days": 1, "percent": 10, "points": 9, "deadline": "d", "words": "w"}
     facts = document(
         [
-            submission("ann", inconsistent=claims),
-            submission("bob"),
+            submission("ann"),
+            missing("bob", "unreadable", points=0, final=0),
             missing("cid", "fault", fault="the moon\nis in the way"),
             submission("dot", late=late, submitted_from="files", submitted_at="2026-11-21T01:00:00+00:00"),
         ],
@@ -119,12 +119,12 @@ def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
     found = {group.heading: [(item.who, list(item.words)) for item in group.items] for group in groups(facts)}
     assert found == {
         "Faults of the grader": [("cid", ["the moon"])],
-        "Inconsistent": [("ann", ["02: It says that it is right."])],
+        "Nothing could be taken from these": [("bob", [])],
         "Late by the time of the file": [("dot", ["2026-11-21T01:00:00+00:00, 1 day begun"])],
         "On the roster, but without a submission": [("5 Eve", [])],
         "Graded earlier, but no longer in the folder": [("fay", [])],
     }
-    assert marks(groups(facts)) == {0: ["inconsistent"], 2: ["fault"], 3: ["late by file time"]}
+    assert marks(groups(facts)) == {1: ["unreadable"], 2: ["fault"], 3: ["late by file time"]}
 
 
 def test_an_alias_stays_the_same_when_the_order_of_the_class_changes() -> None:

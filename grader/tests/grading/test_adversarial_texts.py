@@ -299,7 +299,7 @@ def test_any_words_of_a_compiler(steps: list[Step]) -> None:
 
 def test_any_report() -> None:
     whole = _report(
-        tags="[01][any]",
+        tags="[01][trace]",
         inside='<Section name="s"><Info>i</Info><Expression success="false" filename="a" line="1">'
         "<Original>!(a)</Original><Expanded>!true</Expanded><Exception>e</Exception></Expression></Section>",
         head='<?xml version="1.0" encoding="utf-8"?>',

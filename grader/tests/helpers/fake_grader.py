@@ -1,7 +1,7 @@
 """A grader that only reads what it is told in the sources of step 01. Its workers import this and no command line.
 
 `// points 7` gives points, `// wait 0.5` takes time, `// die`, `// die once`, `// fault`, `// oops` go wrong,
-`// claims` is inconsistent, `// program` starts a program that never ends, `// hang` never ends itself."""
+`// program` starts a program that never ends, `// hang` never ends itself."""
 
 import os
 import re
@@ -86,8 +86,6 @@ class FakeGrader:
                 (out / mine).write_bytes(source.encode())
                 (out / reference).write_bytes(_REFERENCE)
                 (out / "pictures" / step.id / "secret-mine.png").write_bytes(b"named nowhere")
-            if "// claims" in source and started:
-                result.inconsistent = ["It says that it is right."]
             if step.id in submission.notes:
                 result.messages = [submission.notes[step.id]]
             steps.append(result)

@@ -1,4 +1,4 @@
-"""Honest programs with a mistake lose what it costs, and nobody accuses them."""
+"""Programs with a mistake lose what it costs, and nothing else."""
 
 from pathlib import Path
 
@@ -73,7 +73,6 @@ def honest(kit: BuiltKit, make_submission: MakeSubmission, solved: Sources, tmp_
 def test_a_transmitted_ray_on_the_wrong_side(honest: _Honest, steps: list[Step]) -> None:
     """Every transmitted ray is wrong by its origin alone; tests of its direction and of its light still count."""
     result = honest.grade(steps[7], "hit.position - offset", "hit.position + offset")
-    assert result.inconsistent == []
     assert any(test.passed for test in result.tests if test.name.startswith("transmitted_ray"))
     assert all(test.passed for test in result.tests if test.name.startswith(("transmitted_light", "refract:")))
     assert {item.name: item.share for item in result.hidden if item.kind == "function"} == {
@@ -90,30 +89,27 @@ def test_a_reflected_ray_that_alone_is_wrong(honest: _Honest, steps: list[Step],
     """By its origin, or by its direction: what trace does with it still counts."""
     old = "return {hit.position + k_bounce_threshold * hit.normal, glm::normalize(direction)};"
     result = honest.grade(steps[4], old, f"return {wrong};")
-    assert result.inconsistent == []
     shares = {item.name: item.share for item in result.hidden if item.kind == "function"}
     assert shares["reflected_ray"] == 0
     assert shares["trace"] == 1
 
 
 def test_a_tree_that_spares_nothing(honest: _Honest, steps: list[Step]) -> None:
-    """Rays into the sky test few objects all the same, and nobody says that the program counts wrongly."""
+    """It costs the pictures; but where most of one is sky, rays test few objects all the same."""
     result = honest.grade(steps[5], "k_leaf_size = 8", "k_leaf_size = 100000")
-    assert result.inconsistent == []
     assert sum(image.passed for image in result.images) <= 1
 
 
 def test_a_tree_that_is_too_large_to_be_told(honest: _Honest, steps: list[Step], solved: Sources) -> None:
-    """It costs the kinds in which it is; nobody says that it is wrong."""
+    """It costs the kinds in which it is, and no others."""
     step = steps[5]
     source = solved[step.id]
     start = source.index("Node build_octree(")
     body = source[start : source.index("\n}\n", start) + 3]
     result = honest.grade(step, body, _FULL_TREE.strip() + "\n")
-    assert result.inconsistent == []
     assert all(test.passed for test in result.tests), [test.message for test in result.tests]
     tree = next(item for item in result.hidden if item.name == "build_octree")
     assert "more than 5000 boxes for " in tree.message
-    assert tree.groups[0].undecided == tree.groups[0].cases
+    assert tree.groups[0].right == 0
     assert tree.groups[-1].right == tree.groups[-1].cases
     assert next(item for item in result.hidden if item.name == "closest_hit_in_octree").share == 1

@@ -6,7 +6,7 @@ import tracemalloc
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.answers import Verdict
+from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.octrees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
@@ -128,8 +128,7 @@ def test_the_largest_tree_is_judged_at_once() -> None:
 def test_a_tree_that_was_too_large_to_tell(excess: str, said: str) -> None:
     verdict = TREE.verdict("build_octree", _TWO, _GOOD, f"large {excess}")
     assert said in verdict.problem
-    assert not verdict.decided
-    assert not verdict.wasteful
+    assert isinstance(verdict.problem, TooLarge)
     assert said.removesuffix(" for 2 surfaces") in verdict.actual
 
 
@@ -140,10 +139,10 @@ def test_many_small_surfaces_must_be_divided() -> None:
     assert verdict(_GOOD_HUNDRED).problem == ""
     whole = verdict(f"{_WHOLE_HUNDRED} 0")
     assert "hardly shorter" in whole.problem
-    assert whole.wasteful
+    assert isinstance(whole.problem, TooMuchWork)
     lost = verdict(f"tree {_AROUND_HUNDRED} 0 1 {_HALVES[0]}")
     assert lost.problem
-    assert not lost.wasteful
+    assert not isinstance(lost.problem, TooMuchWork)
 
 
 def test_no_surfaces() -> None:

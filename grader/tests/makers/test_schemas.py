@@ -32,6 +32,7 @@ def test_it_takes_what_the_kit_writes_and_nothing_else(steps: list[Step]) -> Non
         check.validate(document)
         assert isinstance(document, dict)
         assert not check.is_valid(document | {"more": 1})
+        assert check.is_valid(document | {"inconsistent": True}), "older kits wrote it"
         assert not check.is_valid(document | {"steps": [document["steps"][0] | {"more": 1}]})
         assert not check.is_valid(document | {"timing": {"seconds": -1, "cpu_seconds": 1}})
         for left_out in document:
@@ -39,9 +40,12 @@ def test_it_takes_what_the_kit_writes_and_nothing_else(steps: list[Step]) -> Non
             assert check.is_valid({key: told for key, told in document.items() if key != left_out}) == is_optional
 
 
-def test_what_older_kits_did_not_write_may_be_missing_inside_too() -> None:
+def test_what_older_kits_did_not_write_or_only_they_did_may_be_missing_inside_too() -> None:
     forms = cast(dict[str, dict[str, list[str]]], schema_of(DOCUMENTS["class"])["$defs"])
     missing = {
         name: set(form["properties"]) - set(form["required"]) for name, form in forms.items() if "properties" in form
     }
-    assert {name: keys for name, keys in missing.items() if keys} == {"GradedSubmission": {"mistakes", "seconds"}}
+    assert {name: keys for name, keys in missing.items() if keys} == {
+        "GradedSubmission": {"mistakes", "seconds", "inconsistent"},
+        "ClassResults": {"inconsistent"},
+    }

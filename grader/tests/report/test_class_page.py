@@ -24,7 +24,7 @@ def _page(folder: Path) -> Path:
             submission("ann", {_FIRST: result(10, 10), _SECOND: result(9, 20)}, mistakes={_SECOND: [_UNIT]}),
             submission("bob", {_FIRST: result(10, 10), _SECOND: result(0, 20, "crashed")}, late=late, final=8),
             submission("script", {_FIRST: result(2, 10)}, students=[student(_SCRIPT, "4711", "José.Groß@example.edu")]),
-            submission("dot", {_FIRST: result(8, 10)}, inconsistent={_FIRST: ["dot says that it is right"]}),
+            submission("dot", {_FIRST: result(8, 10)}, outdated=True),
             missing("eve", "fault", fault="eve is in the way"),
         ],
         late_policy="percent_per_day = 10\n# without eve",

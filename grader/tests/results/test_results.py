@@ -8,7 +8,7 @@ import pytest
 from raysteps.common.documents import Malformed, as_text
 from raysteps.common.errors import GraderFault
 from raysteps.grading.scoring import exit_code
-from raysteps.results.model import ImageResult, Results, StepResult, TestResult, Work
+from raysteps.results.model import CaseGroup, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.results.store import parse_results, read_results, write_results
 from raysteps.sandbox.task import Isolation
 
@@ -77,6 +77,23 @@ def test_what_is_no_results_json_is_refused_with_its_place(old: str, new: str, s
     assert old in _GOOD
     with pytest.raises(Malformed, match=said):
         parse_results(_GOOD.replace(old, new, 1).encode())
+
+
+def test_what_only_older_kits_wrote_is_passed_over() -> None:
+    """Where they wrote it, and nowhere else."""
+    hidden = [HiddenResult("mirror", "function", 1.0, groups=[CaseGroup("any", 10, 10)])]
+    now = as_text(Results.of("ann", [_step(hidden=hidden)]))
+    older = now
+    for key, former in (
+        ("kit", '"inconsistent": true'),
+        ("tests", '"inconsistent": ["a"]'),
+        ("right", '"undecided": 1, "wasteful": 2'),
+    ):
+        assert older.count(f'"{key}"') == 1
+        older = older.replace(f'"{key}"', f'{former}, "{key}"')
+    assert as_text(parse_results(older.encode())) == now
+    with pytest.raises(Malformed, match=r"^\$\.timing: unknown key 'inconsistent'"):
+        parse_results(now.replace('"cpu_seconds"', '"inconsistent": true, "cpu_seconds"').encode())
 
 
 def test_two_steps_of_one_name_are_refused() -> None:

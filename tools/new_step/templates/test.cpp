@@ -1,5 +1,4 @@
-// Visible tests of step @NUMBER@. Each has the tag of the step and of the functions that it tests; [any] when it asks for the
-// whole answer to any inputs, [part] when it asks for a part of it.
+// Visible tests of step @NUMBER@. Each has the tag of the step and of the functions that it tests.
 #include "steps/@ID@/@FILE@.hpp"
 
 #include <cmath>
@@ -10,7 +9,7 @@
 using namespace raysteps;
 using namespace raysteps::testing;
 
-TEST_CASE("@FILE@_color: a thing close by keeps its colour", "[@ID@][@FILE@_color][part]") {
+TEST_CASE("@FILE@_color: a thing close by keeps its colour", "[@ID@][@FILE@_color]") {
     INFO("exp(0) = 1: all of its light arrives");
     CHECK_THAT(@FILE@_color({0.9F, 0.1F, 0.2F}, 0.0F), IsNear({0.9F, 0.1F, 0.2F}));
 }
@@ -22,12 +21,12 @@ TEST_CASE("@FILE@_color: the worked example", "[@ID@][@FILE@_color]") {
     CHECK_THAT(@FILE@_color({0.0F, 1.0F, 0.0F}, 40.0F), IsNear({0.47557F, 0.65414F, 0.56203F}));
 }
 
-TEST_CASE("@FILE@_color: very far away there is only air", "[@ID@][@FILE@_color][part]") {
+TEST_CASE("@FILE@_color: very far away there is only air", "[@ID@][@FILE@_color]") {
     CHECK_THAT(@FILE@_color({3.0F, 0.0F, 1.0F}, 1e6F), IsNear(k_@FILE@_air));
     CHECK_THAT(@FILE@_color({3.0F, 0.0F, 1.0F}, std::numeric_limits<float>::infinity()), IsNear(k_@FILE@_air));
 }
 
-TEST_CASE("@FILE@_color: two stretches of air are as one", "[@ID@][@FILE@_color][part]") {
+TEST_CASE("@FILE@_color: two stretches of air are as one", "[@ID@][@FILE@_color]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {

@@ -116,7 +116,6 @@ class Standings:
             max=results.total.max if results is not None else None,
             run=run,
             steps={step.id: StepPoints(step.points, step.max, step.status) for step in steps},
-            inconsistent={step.id: step.inconsistent for step in steps if step.inconsistent},
             mistakes=mistakes,
             seconds=round(current["seconds"], 2) if current is not None else None,
             final=late.points if late is not None else points,
@@ -194,7 +193,6 @@ class _Report:
             not_graded=[one.name for one in submissions if one.status == "not-graded"],
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],
-            inconsistent=[one.name for one in submissions if one.inconsistent],
             changed=[
                 PointsChange(one.name, one.before.points, one.points)
                 for one in submissions

@@ -115,7 +115,7 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
 
 
 _HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")
-_TAIL = ("submitted_at", "days_late", "percent_off", "lateness", "inconsistent", "points_before", "fault", "note")
+_TAIL = ("submitted_at", "days_late", "percent_off", "lateness", "points_before", "fault", "note")
 
 
 def _row(one: GradedSubmission, student: Student, steps: list[str]) -> list[Cell]:
@@ -126,7 +126,6 @@ def _row(one: GradedSubmission, student: Student, steps: list[str]) -> list[Cell
         *(one.steps[step].points if step in one.steps else None for step in steps),
         one.submitted_at,
         *((late.days, late.percent, late.words) if late is not None else (None, None, "")),
-        "yes" if one.inconsistent else "",
         one.before.points if one.before is not None else None,
         *(one.fault, one.note),
     ]

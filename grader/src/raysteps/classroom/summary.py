@@ -109,7 +109,7 @@ def _cell(step: StepPoints | None) -> str:
 def _total(one: GradedSubmission) -> str:
     if one.points is None:
         return f"[red]{one.status}[/red]"
-    return number(one.points) + (" !" if one.inconsistent else "")
+    return number(one.points)
 
 
 def _is_late(document: ClassResults) -> bool:
@@ -188,13 +188,6 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     _print_list(console, "With an earlier result, because the last run was interrupted", document.outdated)
     unread = [f"{name} (results.json says why)" for name in document.unreadable]
     _print_list(console, "Nothing could be taken from these", unread)
-    claims = [
-        f"{name}, {step}: {claim}"
-        for name in document.inconsistent
-        for step, found in by_name[name].inconsistent.items()
-        for claim in found
-    ]
-    _print_list(console, "Inconsistent (!): the program claims what the judge did not see; look at the code", claims)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
     _print_list(console, "The most common mistakes, by submissions", _mistakes(document))
     changed = [f"{one.name}: {_points(one.before)} before, {_points(one.after)} now" for one in document.changed]

@@ -27,6 +27,12 @@ Text = Annotated[str, Meta(min_length=1)]
 OPTIONAL = {"optional": True}  # metadata of a field that older kits did not write
 
 
+def former_keys(kind: object) -> Collection[str]:
+    """What older kits wrote and nobody reads any more: FORMER_KEYS of a dataclass, or of an object of it."""
+    keys: Collection[str] = getattr(kind, "FORMER_KEYS", ())
+    return keys
+
+
 _LONGEST = 300  # characters of what is told of a stranger's file
 
 
@@ -57,7 +63,8 @@ def _children(
     if is_dataclass(found) and isinstance(told, dict):
         known = {field.name: field for field in fields(found)}
         if not extra:
-            _refuse_unknown(told, known, place)
+            former = former_keys(found)
+            _refuse_unknown([name for name in told if name not in former], known, place)
         for name, field in known.items():
             if name in told:
                 yield told[name], getattr(found, name), f"{place}.{name}"

@@ -157,7 +157,8 @@ def _hundredths(points: float) -> int:
 
 
 def _rest(result: StepResult, items: list[Item], earned: int, lost: int) -> list[Item]:
-    """One more entry for what no check accounts for: a step that was not run, claims that were not confirmed."""
+    """One more entry for what no check accounts for: a step that was not run, or points that an
+    older kit weighed otherwise."""
     all_wrong = earned > 0 and not sum(item.weight * item.share for item in items)
     all_right = lost > 0 and not sum(item.weight * (1 - item.share) for item in items)
     if items and not all_wrong and not all_right:
@@ -167,8 +168,7 @@ def _rest(result: StepResult, items: list[Item], earned: int, lost: int) -> list
         return [Item("step", result.status, 1.0, share, step_text(result))]
     if all_wrong != all_right:
         share = 1.0 if all_wrong else 0.0
-    claims = [clean(claim) for claim in result.inconsistent]
-    return [Item("step", "the rest", 1.0, share, "\n".join(["Points that no single check accounts for.", *claims]))]
+    return [Item("step", "the rest", 1.0, share, "Points that no single check accounts for.")]
 
 
 def entries_of(result: StepResult, step: Step | None) -> list[Entry]:

@@ -22,7 +22,6 @@ from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, S
 from raysteps.grading.withhold import withhold
 from raysteps.images.compare import compare
 from raysteps.images.render import reference_picture
-from raysteps.judge.claims import contradictions
 from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import run_hidden_tests
@@ -115,7 +114,6 @@ class HiddenStepGrader(StepGrader):
                 )
                 for scene in hidden_scenes(kit.project, step, plan, seed):
                     result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder))
-                result.inconsistent = contradictions(step, plan, result, kit.tests[step.id])
             result.messages += sum_up(result)
             if not is_right(result):
                 self._explain(programs)

@@ -207,7 +207,7 @@ class StepGrader:
         return program
 
     def _run_tests(self, program: Program) -> None:
-        names = list(self._work.kit.tests[self.step.id])
+        names = self._work.kit.tests[self.step.id]
         self._result.tests = run_tests(self._work.sandbox, program, names, self._limits)
         if any(test.outcome == "timeout" for test in self._result.tests):
             self._gallery.hung()

@@ -1,7 +1,7 @@
 """The visible tests of a step, run so that a crash in one of them does not hide the rest."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from raysteps.common.text import in_seconds
 from raysteps.images.render import ENDLESS, describe_exit
@@ -60,7 +60,7 @@ def _result_alone(ran: TaskResult, name: str) -> TestResult:
     return TestResult(name, False, "The program ended before the test was over.", outcome="crashed")
 
 
-def run_tests(sandbox: Sandbox, program: Program, names: list[str], limits: StepLimits) -> list[TestResult]:
+def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: StepLimits) -> list[TestResult]:
     """All test cases in one process; when that ends badly, each in a process of its own."""
     together = _complete(_run(sandbox, program, limits, limits.seconds), names)
     if together is not None:

@@ -36,7 +36,6 @@ def _share_only(items: list[HiddenResult], kind: str, name: str) -> list[HiddenR
 
 def _withheld_step(step: StepResult, feedback: Feedback) -> StepResult:
     hidden = step.hidden
-    step = replace(step, inconsistent=[])  # that is for the instructor
     if feedback == "diagnosis":
         return replace(step, hidden=[_without_case(item) for item in hidden])
     texts = {item.message for item in hidden if item.message}

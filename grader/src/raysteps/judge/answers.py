@@ -33,15 +33,6 @@ class Verdict:
     expected: str
     actual: str
 
-    @property
-    def wasteful(self) -> bool:
-        return isinstance(self.problem, TooMuchWork)
-
-    @property
-    def decided(self) -> bool:
-        """Whether the answer says anything about the function."""
-        return not isinstance(self.problem, TooLarge)
-
 
 @dataclass(frozen=True)
 class Answer(Generic[T]):

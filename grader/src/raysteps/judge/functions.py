@@ -20,13 +20,11 @@ Make = Callable[[RandomSource], Inputs]
 
 @dataclass(frozen=True)
 class Group:
-    """One kind of cases. `telling`: a stub, or a function that always answers the same, gets none of them right.
-    `saves`: who is wasteful in all of them spares the rays nothing. `exact`: the numbers are, and a little beside
-    them the right answer may be another."""
+    """One kind of cases. `saves`: they ask how much work is spared, which a scene of fewer surfaces would not. `exact`:
+    the numbers are, and a little beside them the right answer may be another."""
 
     name: str
     make: Make
-    telling: bool = True
     saves: bool = False
     exact: bool = False
 

@@ -149,11 +149,6 @@ class HiddenScene:
     weight: float
 
 
-def twin_name(image: str) -> str:
-    """What the twin of a visible picture is called."""
-    return f"{image}-twin"
-
-
 def _with_size(args: tuple[str, ...], size: str) -> tuple[str, ...]:
     if "--size" not in args:
         return (*args, "--size", size)
@@ -167,7 +162,7 @@ def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: 
     nff = perturbed_scene(text, draw, spheres=twin.moves == "camera and spheres")
     args = _with_size(image.args, twin.size)
     share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)
-    return HiddenScene(twin_name(image.name), image.name, nff, args, twin.max_wrong, share, twin.weight)
+    return HiddenScene(f"{image.name}-twin", image.name, nff, args, twin.max_wrong, share, twin.weight)
 
 
 def _random(step: Step, scene: RandomPlan, seed: int) -> HiddenScene:

@@ -45,8 +45,7 @@ def reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
 
 def _group(name: str, judged: Sequence[JudgedCase]) -> CaseGroup:
     right = sum(not one.verdict.problem for one in judged)
-    wasteful = sum(one.verdict.wasteful for one in judged)
-    return CaseGroup(name, len(judged), right, sum(not one.decided for one in judged), wasteful)
+    return CaseGroup(name, len(judged), right)
 
 
 def _groups(plan: FunctionPlan, judged: Sequence[JudgedCase]) -> list[CaseGroup]:

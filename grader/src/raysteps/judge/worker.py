@@ -181,11 +181,6 @@ class JudgedCase:
     outcome: Termination
     asked: bool = True
 
-    @property
-    def decided(self) -> bool:
-        """Whether it says anything about the function."""
-        return self.asked and self.verdict.decided
-
 
 def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> JudgedCase:
     """Compares with the reference's line."""

@@ -103,8 +103,7 @@ def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path) ->
             pixels = reference_picture(kit, scene, case.args)
             work = reference_work(kit, scene, case.args) if case.max_share is not None else None
             write_reference_image(target, step, case, scene, pixels, work)
-    tests = {step.id: {name: sorted(tags) for name, tags in kit.tests[step.id].items()} for step in steps}
-    write_given_tests(target, tests)
+    write_given_tests(target, {step.id: kit.tests[step.id] for step in steps})
 
 
 _EXECUTABLE = {"raysteps"}

@@ -55,12 +55,6 @@ class _Finder:
     def faults(self) -> list[Item]:
         return [self._item(name, [_first_line(one.fault)]) for name, one in self._of(self._document.faults)]
 
-    def inconsistent(self) -> list[Item]:
-        return [
-            self._item(name, [f"{step[:2]}: {claim}" for step, claims in one.inconsistent.items() for claim in claims])
-            for name, one in self._of(self._document.inconsistent)
-        ]
-
     def late_by_file(self) -> list[Item]:
         return [
             self._item(name, [f"{one.submitted_at}, {count(one.late.days, 'day')} begun"])
@@ -92,7 +86,6 @@ class _Finder:
 def groups(document: ClassResults) -> list[Group]:
     """Those with something in them, the most urgent first."""
     find = _Finder(document)
-    inconsistent = "The program claims what the judge did not see. Look at its code before you trust the points."
     found = [
         Group(
             "fault",
@@ -101,7 +94,6 @@ def groups(document: ClassResults) -> list[Group]:
             "No zero: --resume grades these again, but none that it gave up.",
             find.faults(),
         ),
-        Group("inconsistent", "bad", "Inconsistent", inconsistent, find.inconsistent()),
         Group(
             "unreadable",
             "bad",

@@ -262,7 +262,6 @@ def step_view(result: StepResult, step: Step | None, album: Mapping[Place, Shown
         "tests": [_test(test) for test in result.tests],
         "hidden": [_hidden(item) for item in result.hidden],
         "images": images,
-        "inconsistent": [clean(claim) for claim in result.inconsistent],
         "build_log": clean(result.build_log, _LOG),
         "together": {"passed": result.cumulative.passed, "message": clean(result.cumulative.message)},
         "hints": hint_views(step.hints) if step is not None else [],

@@ -157,13 +157,10 @@ def print_table(console: Console, results: Results, *, visible_only: bool = Fals
 
 
 def print_isolation(console: Console, results: Results) -> None:
-    """What kept the student's code apart, and whether it claimed more than the judge saw."""
+    """What kept the student's code apart."""
     console.print(
         f"Isolation: {escape(results.isolation.name)}. {escape(results.isolation.description)}", highlight=False
     )
-    for result in results.steps:
-        for line in result.inconsistent:
-            console.print(f"[red]inconsistent[/red]  {result.id}: {escape(line)}")
 
 
 def print_files(console: Console, path: Path, page: Path | None) -> None:

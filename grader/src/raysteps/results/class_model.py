@@ -1,7 +1,7 @@
 """What is known of a class that was graded: these classes are the form raysteps/class/v1 of class.json."""
 
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from msgspec import Meta
 
@@ -58,6 +58,8 @@ class EarlierResult:
 class GradedSubmission:
     """How one submission stands."""
 
+    FORMER_KEYS: ClassVar = ("inconsistent",)
+
     name: Text
     entry: Text
     students: list[Student]
@@ -66,7 +68,6 @@ class GradedSubmission:
     max: Amount | None  # without the bonus
     run: int | None  # that gave this result
     steps: dict[str, StepPoints]
-    inconsistent: dict[str, list[str]]  # by step: claims of the program that the judge did not see
     mistakes: dict[str, list[Text]] = field(default_factory=dict, metadata=OPTIONAL)  # by step: their titles
     seconds: Amount | None = field(default=None, metadata=OPTIONAL)  # that grading it took
     final: Amount | None  # what lateness leaves of the points
@@ -147,6 +148,8 @@ class ClassStatistics:
 class ClassResults:
     """A class after its last run; lists without a word name submissions."""
 
+    FORMER_KEYS: ClassVar = ("inconsistent",)
+
     schema: Literal["raysteps/class/v1"]
     run: ClassRun  # the last one
     runs: Annotated[list[ClassRun], Meta(min_length=1)]
@@ -159,7 +162,6 @@ class ClassResults:
     not_graded: list[str]  # yet, because the run was interrupted or a shard is missing
     faults: list[str]
     unreadable: list[str]
-    inconsistent: list[str]
     changed: list[PointsChange]
     outdated: list[str]  # with an earlier result, because the last run was interrupted before it came to them
     mistakes: list[MistakeCount]  # the most common first

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from msgspec import Meta
 
@@ -81,17 +81,11 @@ class ImageResult:
 class CaseGroup:
     """One kind of hidden cases of a function, such as `origin inside`; all must be right."""
 
+    FORMER_KEYS: ClassVar = ("undecided", "wasteful")
+
     name: str
     cases: Count
     right: Count
-    # Not right, but perhaps it would be: never asked, or the answer is too large to be read.
-    undecided: Count = field(default=0, metadata=OPTIONAL)
-    wasteful: Count = field(default=0, metadata=OPTIONAL)  # not right only because it spares no work
-
-    @property
-    def decided(self) -> int:
-        """Cases in which the judge saw what the function does."""
-        return self.cases - self.undecided
 
 
 @dataclass
@@ -146,6 +140,8 @@ class Integration:
 class StepResult:
     """What became of one step."""
 
+    FORMER_KEYS: ClassVar = ("inconsistent",)
+
     id: Annotated[str, Meta(pattern=r"^[0-9]{2}-[a-z0-9-]+$")]
     status: Status
     points: Amount
@@ -154,7 +150,6 @@ class StepResult:
     tests: list[TestResult] = field(default_factory=list)
     images: list[ImageResult] = field(default_factory=list)
     hidden: list[HiddenResult] = field(default_factory=list)
-    inconsistent: list[str] = field(default_factory=list)  # claims of the program that the judge did not see
     diagnoses: list[Diagnosis] = field(default_factory=list)  # the likeliest first
     build_log: str = ""  # all that the compiler said
     cumulative: Integration = field(default_factory=lambda: Integration(False))
@@ -194,6 +189,8 @@ class Total:
 class Results:
     """All steps of one submission."""
 
+    FORMER_KEYS: ClassVar = ("inconsistent",)
+
     schema: Literal["raysteps/results/v1"]
     submission: Text
     kit: str  # fingerprint of the kit that graded
@@ -201,7 +198,6 @@ class Results:
     seed: int | None  # of the hidden cases; None where they are withheld
     isolation: Isolation
     timing: Timing
-    inconsistent: bool  # some step claims more than the judge saw
     total: Total
     steps: list[StepResult]
 
@@ -231,7 +227,6 @@ class Results:
             seed=seed,
             isolation=isolation or Isolation(),
             timing=timing or Timing(),
-            inconsistent=any(step.inconsistent for step in steps),
             total=Total(PointSum.of(steps).points, regular.max, PointSum.of([step for step in steps if step.bonus])),
             steps=steps,
         )

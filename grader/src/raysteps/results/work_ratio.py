@@ -37,7 +37,7 @@ def _pictures_are(names: Sequence[str]) -> str:
 
 
 def _wrong(images: Sequence[ImageResult]) -> str:
-    """What is not right; a right picture may also have cost too much, or the judge did not believe its counters."""
+    """What is not right; a right picture may also have cost too much."""
     wrong = [image for image in images if not image.passed]
     shown = [image.wrong_share is not None and image.wrong_share <= image.max_wrong for image in wrong]
     costly = [image.name for image, right in zip(wrong, shown, strict=True) if right]
@@ -69,8 +69,6 @@ def work_ratio_of(result: StepResult, expected: Sequence[str] = ()) -> WorkRatio
     max_share."""
     if result.status in _NO_PICTURES:
         return NoWorkRatio(_NO_PICTURES[result.status])
-    if result.inconsistent:
-        return NoWorkRatio("inconsistent: the program claims what the judge did not see")
     problem = _wrong(result.images)
     if problem:
         return NoWorkRatio(problem)

@@ -16,7 +16,7 @@ from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
 from raysteps.toolchain.fingerprint import fingerprint
-from raysteps.toolchain.kit_artifacts import BoxLinker, BuiltKit, ProgressCallback
+from raysteps.toolchain.kit_artifacts import BoxLinker, BuiltKit, ProgressCallback, Tests
 from raysteps.toolchain.link import (
     Description,
     dynamic_list,
@@ -30,9 +30,7 @@ from raysteps.toolchain.link import (
     version_script,
 )
 
-# The names and tags of the visible tests, as the reference ran them: a students' kit cannot ask it again.
-
-Tests = dict[str, dict[str, list[str]]]  # by step and name: the tags
+# The names of the visible tests, as the reference ran them: a students' kit cannot ask it again.
 
 
 def given_tests(project: Project) -> Path:
@@ -110,13 +108,12 @@ class Assembly:
         self._write_rest("libraries", [*self._others, self._core])
         self._write_rest("raytrace", raytrace)
         self._write_rest("worker", worker)
-        tests: Tests = {}
+        tests: dict[str, list[str]] = {}
         for at, step in enumerate(self._course, start=1):
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._write_rest(f"test-{step.number}", objects)
             self._link_reference(f"test-{step.number}", objects)
-            cases = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
-            tests[step.id] = {name: sorted(tags) for name, tags in cases.items()}
+            tests[step.id] = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
             if not self._add_remote(self._course[:at]):
                 self._add_plain(raytrace, worker, objects, self._course[:at])
         return tests
@@ -242,9 +239,8 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
 def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
     description = read_description(folder / "kit.json")
     table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
-    tests = {step: {name: frozenset(tags) for name, tags in cases.items()} for step, cases in table["tests"].items()}
     mark = f"{folder.name} {description.compiler_version}"
-    return BuiltKit(project, folder, mark, steps, description, tests, table["interpreter"])
+    return BuiltKit(project, folder, mark, steps, description, table["tests"], table["interpreter"])
 
 
 def _forget_old(kits: Path) -> None:

@@ -15,7 +15,7 @@ from raysteps.toolchain.link import Description, library_name, link
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
-Tags = Mapping[str, Mapping[str, frozenset[str]]]
+Tests = Mapping[str, Sequence[str]]  # by step: the names of its visible tests
 
 
 # Links programs that ask steps in another process, and the boxes that these are in. Nothing of a student's is in the
@@ -109,14 +109,14 @@ class BoxLinker:
 
 @dataclass(frozen=True)
 class BuiltKit:
-    """Lives in build/kit/FINGERPRINT. `tests` holds each step's visible test cases with their tags."""
+    """Lives in build/kit/FINGERPRINT. `tests` holds the names of each step's visible test cases."""
 
     project: Project
     folder: Path
     fingerprint: str
     steps: list[Step]
     description: Description
-    tests: Tags
+    tests: Tests
     interpreter: str | None  # the dynamic loader of this system; none where steps are no libraries
 
     @property

@@ -77,6 +77,6 @@ BUILD_BVH = Function(
         Group("far from the centre of the world", _far_away),
         Group("two surfaces", lambda d: built(small_scene(d, 1, 1))),
         Group("a single surface", lambda d: built(small_scene(d, 1, 0) if d.chance(0.5) else small_scene(d, 0, 1))),
-        Group("no surfaces", lambda d: built(()), telling=False),
+        Group("no surfaces", lambda d: built(())),
     ),
 )

@@ -169,11 +169,11 @@ PRIMARY_RAY = Function(
     Answer(read_ray, words_of_ray, _ray_problem),
     (
         Group("any pixel", lambda d: _any_pixel(d, any_camera(d))),
-        Group("few pixels", _few_pixels, telling=False),
+        Group("few pixels", _few_pixels),
         Group("corners of the picture", _corner),
         Group("wide and tall pictures", lambda d: _any_pixel(d, long_camera(d))),
-        Group("the middle pixel", _middle, telling=False),
-        Group("one pixel wide or high", _one_pixel_wide, telling=False),
+        Group("the middle pixel", _middle),
+        Group("one pixel wide or high", _one_pixel_wide),
     ),
 )
 
@@ -199,7 +199,7 @@ _POINT_AT = Function(
         Group("behind the origin", lambda d: _along(Ray(d.point(10), d.direction()), d.real(-20, -0.5))),
         Group("from the centre of the world", lambda d: _along(Ray(_AT_ORIGIN, d.direction()), d.real(0.5, 20))),
         Group("far away", lambda d: _along(Ray(d.point(10), d.direction()), d.real(1e3, 1e5))),
-        Group("distance 0", lambda d: _along(Ray(d.point(10), d.direction()), 0.0), telling=False),
+        Group("distance 0", lambda d: _along(Ray(d.point(10), d.direction()), 0.0)),
     ),
 )
 

@@ -106,18 +106,18 @@ SPHERE_INTERSECT = Function(
     "Sphere::intersect",
     HIT,
     (
-        Group("hit or missed from outside", _any_sphere, telling=False),
+        Group("hit or missed from outside", _any_sphere),
         Group("simple numbers", _simple_sphere, exact=True),
         Group("origin inside", _inside_sphere),
         Group("origin in the centre", _from_center),
         Group("far away", _far_sphere),
         Group("tiny and huge", _tiny_or_huge),
         Group("along an axis, with zeros of either sign", _signed_zeros, exact=True),
-        Group("nearly tangent", _nearly_tangent, telling=False),
-        Group("origin close to the sphere", _close_origin, telling=False),
-        Group("origin on the sphere", _on_sphere, telling=False, exact=True),
-        Group("behind the origin", _sphere_behind, telling=False),
-        Group("passed by", _beside_sphere, telling=False),
+        Group("nearly tangent", _nearly_tangent),
+        Group("origin close to the sphere", _close_origin),
+        Group("origin on the sphere", _on_sphere, exact=True),
+        Group("behind the origin", _sphere_behind),
+        Group("passed by", _beside_sphere),
     ),
 )
 
@@ -165,8 +165,8 @@ _CLOSEST_HIT = Function(
         Group("one hit among misses", lambda d: _list(d, _distances(d, 1), d.whole(2, 6))),
         Group("very near and very far", _near_and_far),
         Group("many surfaces", _many),
-        Group("all missed", lambda d: _list(d, [], d.whole(1, 5)), telling=False),
-        Group("no surfaces", lambda d: _list(d, [], 0), telling=False),
+        Group("all missed", lambda d: _list(d, [], d.whole(1, 5))),
+        Group("no surfaces", lambda d: _list(d, [], 0)),
     ),
 )
 

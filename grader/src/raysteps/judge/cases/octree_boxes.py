@@ -108,7 +108,7 @@ BOUNDS_OF = Function(
         Group("one triangle", _one_triangle),
         Group("one flat triangle", _flat_triangle, exact=True),
         Group("on one side of the centre of the world", _on_one_side),
-        Group("no surfaces", lambda d: _bounds(()), telling=False),
+        Group("no surfaces", lambda d: _bounds(())),
     ),
 )
 
@@ -299,16 +299,16 @@ CLIP = Function(
     "Box::clip",
     _PART,
     (
-        Group("through or past the box", _through_or_past, telling=False),
+        Group("through or past the box", _through_or_past),
         Group("origin inside", _from_inside),
-        Group("along an axis", along_axis, telling=False, exact=True),
+        Group("along an axis", along_axis, exact=True),
         Group("along a face or an edge", along_face, exact=True),
         Group("flat boxes", flat, exact=True),
         Group("origin on a face", from_face, exact=True),
         Group("almost along an axis", _almost_along_axis),
         Group("tiny and huge boxes", _tiny_or_huge),
-        Group("close to an edge or a corner", _close_to_corner, telling=False),
-        Group("behind the origin", _box_behind, telling=False),
-        Group("past the box", _past, telling=False),
+        Group("close to an edge or a corner", _close_to_corner),
+        Group("behind the origin", _box_behind),
+        Group("past the box", _past),
     ),
 )

@@ -51,6 +51,6 @@ BUILD_OCTREE = Function(
         Group("far from the centre of the world", _far_away),
         Group("on the walls between the boxes", _on_walls),
         Group("a single surface", lambda d: built(small_scene(d, 1, 0) if d.chance(0.5) else small_scene(d, 0, 1))),
-        Group("no surfaces", lambda d: built(()), telling=False),
+        Group("no surfaces", lambda d: built(())),
     ),
 )

@@ -122,9 +122,9 @@ DIFFUSE = Function(
     (
         Group("light in front", lambda d: _diffuse(d, 0.1, 0.99)),
         Group("simple numbers", _simple_diffuse),
-        Group("extreme colours", _extreme_colors, telling=False),
-        Group("around a right angle", _around_right_angle, telling=False, exact=True),
-        Group("light behind", lambda d: _diffuse(d, -0.99, -0.1), telling=False),
+        Group("extreme colours", _extreme_colors),
+        Group("around a right angle", _around_right_angle, exact=True),
+        Group("light behind", lambda d: _diffuse(d, -0.99, -0.1)),
     ),
 )
 
@@ -211,13 +211,13 @@ SPECULAR = Function(
         Group("near the highlight", _highlight),
         Group("simple numbers", _simple_specular),
         Group("shine 1", lambda d: _highlight(d, shine=1.0)),
-        Group("high shine", lambda d: _highlight(d, shine=d.real(20, 40)), telling=False),
+        Group("high shine", lambda d: _highlight(d, shine=d.real(20, 40))),
         Group("exactly in the highlight", _at_highlight),
         Group("shine 0", lambda d: _highlight(d, shine=0.0)),
-        Group("very high shine", _very_high_shine, telling=False),
-        Group("light on the horizon", _light_on_horizon, telling=False, exact=True),
-        Group("far from the highlight", _no_highlight, telling=False),
-        Group("light behind", _light_behind, telling=False),
+        Group("very high shine", _very_high_shine),
+        Group("light on the horizon", _light_on_horizon, exact=True),
+        Group("far from the highlight", _no_highlight),
+        Group("light behind", _light_behind),
     ),
 )
 
@@ -295,8 +295,8 @@ SHADE = Function(
         Group("brighter than 1", _bright),
         Group("very near lights", _near_lights),
         Group("very far lights", lambda d: _lights(d, _hit(d), 2, near=1e3, far=1e5)),
-        Group("lights around the horizon", _lights_around_horizon, telling=False),
-        Group("no light", lambda d: _lights(d, _hit(d), 0), telling=False),
+        Group("lights around the horizon", _lights_around_horizon),
+        Group("no light", lambda d: _lights(d, _hit(d), 0)),
     ),
 )
 

@@ -126,9 +126,9 @@ TRACE = Function(
         Group("the deepest ray", _deepest),
         Group("faint mirrors and whole ones", _faint),
         Group("many mirrors", _corridor),
-        Group("no depth at all", lambda d: _trace(d, _scripted(d, 1, 0.3, 0.9), 1, 0), telling=False),
-        Group("a bounced ray that misses", lambda d: _trace(d, (), d.whole(2, 4), 5), telling=False),
-        Group("beyond the limit", _too_deep, telling=False),
+        Group("no depth at all", lambda d: _trace(d, _scripted(d, 1, 0.3, 0.9), 1, 0)),
+        Group("a bounced ray that misses", lambda d: _trace(d, (), d.whole(2, 4), 5)),
+        Group("beyond the limit", _too_deep),
     ),
 )
 

@@ -153,7 +153,7 @@ REFRACT = Function(
     "refract",
     Answer(_read_refracted, _refracted_words, _refracted_problem),
     (
-        Group("any direction", _any_refract, telling=False),
+        Group("any direction", _any_refract),
         Group("straight on", _straight),
         Group("into glass", lambda d: _refract(d, into(d))),
         Group("out of glass", lambda d: _refract(d, index_of_glass(d))),
@@ -161,8 +161,8 @@ REFRACT = Function(
         Group("strong glass", lambda d: _refract(d, d.real(0.25, 0.4) if d.chance(0.5) else d.real(2.5, 4))),
         Group("head-on", _head_on),
         Group("almost along the surface", _grazing),
-        Group("close to the critical angle", _close_to_critical, telling=False),
-        Group("total internal reflection", lambda d: _refract(d, index_of_glass(d), total=True), telling=False),
+        Group("close to the critical angle", _close_to_critical),
+        Group("total internal reflection", lambda d: _refract(d, index_of_glass(d), total=True)),
     ),
 )
 
@@ -243,7 +243,7 @@ TRANSMITTED_LIGHT = Function(
             lambda d: _light(d, hit_on_glass(d, index_of_glass(d), outside=False, total=True)),
         ),
         Group("hardly and wholly clear", _faint),
-        Group("not of glass", _not_glass, telling=False),
+        Group("not of glass", _not_glass),
     ),
 )
 
@@ -264,8 +264,8 @@ _TRANSMITTED_RAY = Function(
             "total internal reflection",
             lambda d: {"hit": hit_on_glass(d, index_of_glass(d), outside=False, total=True)},
         ),
-        Group("index 1", lambda d: _unbent(d, 1.0), telling=False),
-        Group("index 0 counts as 1", lambda d: _unbent(d, 0.0), telling=False),
+        Group("index 1", lambda d: _unbent(d, 1.0)),
+        Group("index 0 counts as 1", lambda d: _unbent(d, 0.0)),
     ),
 )
 

@@ -100,7 +100,7 @@ FUNCTIONS = (
             Group("very dark", lambda d: _color((d.real(0, 0.01), d.real(0, 0.01), d.real(0, 0.01)))),
             Group("infinite", lambda d: _color(_one_of(d, _INFINITE))),
             Group("the ends of float", lambda d: _color(_one_of(d, _ENDS)), exact=True),
-            Group("negative or NaN", lambda d: _color(_one_of(d, _NO_COLOR)), telling=False, exact=True),
+            Group("negative or NaN", lambda d: _color(_one_of(d, _NO_COLOR)), exact=True),
         ),
     ),
     Function(
@@ -110,10 +110,10 @@ FUNCTIONS = (
             Group("any level", lambda d: _byte(_channel(d))),
             Group("simple numbers", _simple_byte),
             Group("rounded up", _rounded_up),
-            Group("close to the next level", _beside_step, telling=False),
-            Group("the ends of float", lambda d: _byte(_ENDS[d.whole(0, 3)]), telling=False, exact=True),
-            Group("1 and brighter", _bright_byte, telling=False),
-            Group("negative or NaN", _odd_byte, telling=False, exact=True),
+            Group("close to the next level", _beside_step),
+            Group("the ends of float", lambda d: _byte(_ENDS[d.whole(0, 3)]), exact=True),
+            Group("1 and brighter", _bright_byte),
+            Group("negative or NaN", _odd_byte, exact=True),
         ),
     ),
 )
