@@ -26,6 +26,7 @@ from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.plan import read_plan
+from raysteps.judge.spared_work import take_back, unspared
 from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.settings import Settings
@@ -37,8 +38,11 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import StepLimits, limits_of, submission_seconds
 
 
-def _judge_scene(gallery: ImageGrader, program: Program, scene: HiddenScene, folder: Path) -> HiddenResult:
-    """A scene made for this seed. The file's name says nothing about what it is for."""
+def _judge_scene(
+    gallery: ImageGrader, program: Program, scene: HiddenScene, folder: Path, not_spared: str
+) -> HiddenResult:
+    """A scene made for this seed. The file's name says nothing about what it is for. `not_spared`: why few tests earn
+    nothing."""
     path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
     write_bytes(path, scene.nff.encode())
     reference = reference_picture(gallery.kit, path, scene.args)
@@ -51,7 +55,7 @@ def _judge_scene(gallery: ImageGrader, program: Program, scene: HiddenScene, fol
     verdict = compare(rendered.pixels, reference, scene.max_wrong)
     problem = verdict.message
     if verdict.passed and scene.max_share is not None:
-        problem = too_many_tests(rendered.share_tested, scene.max_share)
+        problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
     result.wrong_share = round(verdict.wrong_share, 6)
     result.message, result.share = problem, 0.0 if problem else 1.0
     result.outcome = "wrong" if problem else "ok"
@@ -112,8 +116,10 @@ class HiddenStepGrader(StepGrader):
                 result.hidden = run_hidden_tests(
                     step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, seconds, examples
                 )
+                not_spared = unspared(result.images, result.hidden)
+                take_back(result.images, result.hidden)
                 for scene in hidden_scenes(kit.project, step, plan, seed):
-                    result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder))
+                    result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder, not_spared))
             result.messages += sum_up(result)
             if not is_right(result):
                 self._explain(programs)

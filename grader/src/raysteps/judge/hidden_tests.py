@@ -11,6 +11,7 @@ from raysteps.judge.counterexamples import LONGEST, Examples
 from raysteps.judge.functions import Case, functions_of, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.random_source import RandomSource
+from raysteps.judge.spared_work import spares_nothing
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
 from raysteps.results.model import CaseGroup, HiddenResult, Termination
 
@@ -92,6 +93,7 @@ def _result(
     ordinary = groups[0].right >= ORDINARY_SHARE * groups[0].cases
     share = (len(groups) - len(wrong)) / len(groups) if ordinary else 0.0
     result = HiddenResult(plan.name, "function", round(share, 6), plan.weight, groups=groups)
+    result.spares_nothing = spares_nothing(functions_of(step.number)[plan.name], judged)
     found = _first_wrong(judged, wrong)
     if found is not None:
         result.message = shorten(_message(plan.name, groups, wrong, found, share), LONGEST)

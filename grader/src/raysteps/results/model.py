@@ -102,6 +102,7 @@ class HiddenResult:
     given: str = ""  # the input of the first wrong case, in words and numbers
     expected: str = ""
     actual: str = ""
+    spares_nothing: bool = field(default=False, metadata=OPTIONAL)  # a tree or a search: every ray tests most objects
     case: str = ""  # file with that input, for `replay`; relative to the folder of results.json
     seconds: Amount = 0.0
     outcome: Termination = "ok"
