@@ -259,6 +259,14 @@ void enter_leaves(Bvh& bvh, Scene& entries) {
             enter_leaf(std::span(bvh.surfaces).subspan(node.first, node.count), times, entries);
         }
     }
+    // What is in no leaf a search can come to only by going through the list.
+    for (auto begin = entered.begin(); begin != entered.end();) {
+        begin = std::find(begin, entered.end(), false);
+        const auto end = std::find(begin, entered.end(), true);
+        const auto first = static_cast<std::size_t>(begin - entered.begin());
+        enter_leaf(std::span(bvh.surfaces).subspan(first, static_cast<std::size_t>(end - begin)), times, entries);
+        begin = end;
+    }
 }
 
 void begin_search(float until) {

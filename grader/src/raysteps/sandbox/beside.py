@@ -112,7 +112,7 @@ def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, floa
     try:
         timed_out = not readable(handle, seconds)
         if timed_out:
-            process.kill()
+            signal.pidfd_send_signal(handle, signal.SIGKILL)  # process.kill() may wait for it, and take its times away
         _, status, used = os.wait4(process.pid, 0)
     finally:
         os.close(handle)
