@@ -32,7 +32,11 @@ void Wire::end(int code, const char* why) {
 }
 
 Wire::Wire(Pipes pipes, Service service, Farewell farewell)
-    : pipes_(pipes), service_(service), farewell_(farewell), outgoing_(sizeof(BatchSize), '\0'), incoming_(k_usual_batch) {
+    : pipes_(pipes),
+      service_(service),
+      farewell_(farewell),
+      outgoing_(sizeof(BatchSize), '\0'),
+      incoming_(k_usual_batch) {
     t_has_fibers = true;
     std::signal(SIGPIPE, SIG_IGN);  // who is gone is heard of by what write returns
 }

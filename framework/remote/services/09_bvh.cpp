@@ -7,9 +7,7 @@ namespace {
 
 void build(Reader& in, Wire& wire) { serve_bvh(&raysteps::build_bvh, in, wire); }
 
-std::optional<HitRecord> closest_hit(const Search<Bvh>& search) {
-    return closest_hit_in_bvh(search.tree, search.ray);
-}
+std::optional<HitRecord> closest_hit(const Search<Bvh>& search) { return closest_hit_in_bvh(search.tree, search.ray); }
 
 bool occluded(const Search<Bvh>& search) { return occluded_in_bvh(search.tree, search.ray, search.until); }
 
