@@ -109,7 +109,7 @@ def _outcome(case: Element) -> TestOutcome:
 
 def parse_report(report: bytes) -> list[TestOutcome] | None:
     """The test cases of a complete report; None when the report is missing, cut short or not in order: it may be
-    anything, since the student's code runs in the process that writes it."""
+    anything where the student's code runs in the process that writes it, as for a course's own step."""
     if len(report) > _MAX_BYTES or report.count(b"<") > _MAX_TAGS:
         return None
     try:
