@@ -10,7 +10,7 @@ from raysteps.course.project import Project
 pytestmark = pytest.mark.portable
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
-_LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "worker", "testing")
+_LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "worker", "remote", "testing")
 _ALLOWED = {
     "core": {"core"},
     "io": {"core", "io"},
@@ -20,6 +20,7 @@ _ALLOWED = {
     "wide": {"core", "steps", "render", "wide"},
     "apps": {"core", "io", "steps", "render", "inspect", "view", "apps"},
     "worker": {"core", "io", "steps", "worker"},
+    "remote": {"core", "steps", "render", "remote"},
     "testing": {"core", "testing"},
 }
 
