@@ -12,7 +12,7 @@ add_library(raysteps-box OBJECT remote/box/main.cpp)
 # What a step may ask for in its box. An InwardSphere would answer half of step 02.
 file(GLOB sources CONFIGURE_DEPENDS "core/*.cpp")
 list(FILTER sources EXCLUDE REGEX "_test\\.cpp$|inward_sphere\\.cpp$|counting_intersect\\.cpp$")
-add_library(raysteps-box-core STATIC ${sources} remote/box/hit.cpp)
+add_library(raysteps-box-core STATIC ${sources} render/any_hit_here.cpp remote/box/hit.cpp)
 
 set(remote_targets raysteps-wire raysteps-home raysteps-box raysteps-box-core)
 foreach(number 02 06)

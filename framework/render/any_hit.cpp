@@ -3,7 +3,7 @@
 namespace raysteps {
 
 bool any_hit(const SurfaceList& surfaces, const Ray& ray, float distance) {
-    return test_until_hit(surfaces, ray, distance);
+    return any_hit_here(surfaces, ray, distance);
 }
 
 }  // namespace raysteps

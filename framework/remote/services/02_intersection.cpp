@@ -8,6 +8,6 @@ namespace raysteps::remote {
 [[maybe_unused]] static const bool offered = offer_function<&Triangle::intersect>(FunctionId::triangle_intersect) &&
                                              offer_function<&Sphere::intersect>(FunctionId::sphere_intersect) &&
                                              offer_function<&raysteps::closest_hit>(FunctionId::closest_hit) &&
-                                             offer_function<&test_until_hit>(FunctionId::any_hit);
+                                             offer_function<&any_hit_here>(FunctionId::any_hit);
 
 }  // namespace raysteps::remote

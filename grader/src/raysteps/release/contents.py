@@ -171,7 +171,7 @@ _DOCS = {  # what a student looks up
 # The framework's own tests need a reference; the judge's worker, the boxes, the wide trees and the rays of the SPD
 # answer what steps ask.
 _NOT_FOR_STUDENTS = re.compile(
-    r"framework/(wide/.*|io/fuzz/.*|worker/.*|remote/.*|apps/spd_report\..*|render/(any_hit|spd)\..*|.*_test\.cpp|absent/.*)"
+    r"framework/(wide/.*|io/fuzz/.*|worker/.*|remote/.*|apps/spd_report\..*|render/(any_hit(_here)?\.cpp|spd\..*)|.*_test\.cpp|absent/.*)"
 )
 _OF_A_STEP = re.compile(r"steps/[^/]+/(README\.md|step\.toml|[^/]+(\.hpp|_test\.cpp|\.png|\.svg))")
 _OVERLAY, _WORKFLOW = "grader/src/raysteps/release/overlay", "course/github-workflow.yml"
