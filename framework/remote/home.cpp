@@ -1,11 +1,14 @@
 // The wire of a program that has stand-ins for steps. Who starts it opens the wire and names its two ends in
 // RAYSTEPS_BOX: `in,out`, numbers of open files.
-#if defined(__linux__)
+#ifdef __linux__
 #include <sched.h>
 #endif
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
+#include <system_error>
 
 #include "core/threads.hpp"
 #include "remote/functions.hpp"
@@ -17,9 +20,14 @@ namespace {
 void farewell(int /*code*/, const char* why) { std::fprintf(stderr, "wire: %s\n", why); }
 
 std::unique_ptr<Session> open_session() {
-    const char* text = std::getenv("RAYSTEPS_BOX");
+    const char* words = std::getenv("RAYSTEPS_BOX");
+    if (words == nullptr) {
+        return nullptr;
+    }
     Wire::Pipes pipes{};
-    if (text == nullptr || std::sscanf(text, "%d,%d", &pipes.in, &pipes.out) != 2) {
+    const char* end = words + std::strlen(words);
+    const std::from_chars_result in = std::from_chars(words, end, pipes.in);
+    if (in.ec != std::errc() || in.ptr == end || std::from_chars(in.ptr + 1, end, pipes.out).ec != std::errc()) {
         return nullptr;
     }
     return std::make_unique<Session>(Session::End::home, pipes, farewell);
@@ -28,7 +36,7 @@ std::unique_ptr<Session> open_session() {
 /// The two ends take turns: on one processor each finds the other's words in its cache, and nobody has to wake another
 /// processor, which takes ten times as long as a message.
 void share_a_processor() {
-#if defined(__linux__)
+#ifdef __linux__
     const int processor = sched_getcpu();
     if (processor >= 0 && ask<bool, int>(FunctionId::run_on_processor, processor)) {
         run_on_processor(processor);

@@ -70,6 +70,7 @@ std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<s
 
 template <typename T>
 bool same_bytes(const T& a, const T& b) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): a zero of the other sign may clip otherwise
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
@@ -135,7 +136,7 @@ void count(const Node& node, Occurrences& times) {
 }
 
 void enter_run(std::span<const Surface*> run, Scene& entries) {
-    auto leaf = std::make_shared<Leaf>();
+    const auto leaf = std::make_shared<Leaf>();
     for (const Surface* surface : run) {
         const PlaceInGroup place = *Groups::all().place_of(surface);
         leaf->group = place.group;
@@ -226,7 +227,7 @@ std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
         const auto first = leaf_->indices.begin() + static_cast<std::ptrdiff_t>(place_);
         const std::size_t count = std::min(k_most_surfaces, leaf_->indices.size() - place_);
         const std::vector<std::uint32_t> rest(first, first + static_cast<std::ptrdiff_t>(count));
-        known.hits = ask<std::vector<std::optional<HitRecord>>, GroupId, std::vector<std::uint32_t>, Ray, float>(
+        known.hits = ask<std::vector<std::optional<HitRecord>>, GroupId, const std::vector<std::uint32_t>&, Ray, float>(
             FunctionId::lent_surface_hits, leaf_->group, rest, ray, known.until);
         known.leaf = leaf_.get();
         known.leaf_ray = ray;

@@ -1,6 +1,6 @@
 #include "remote/session.hpp"
 
-#if defined(__linux__)
+#ifdef __linux__
 #include <sched.h>
 #endif
 #include <string>
@@ -40,7 +40,7 @@ Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell) : end_(end
 }
 
 bool run_on_processor(int processor) {
-#if defined(__linux__)
+#ifdef __linux__
     cpu_set_t one;
     CPU_ZERO(&one);
     if (processor < 0 || processor >= CPU_SETSIZE) {
@@ -71,10 +71,10 @@ Message Session::wait_for_answer() {
         case Kind::threw:
             throw RemoteException(std::string(message.bytes));
         case Kind::threw_unknown:
-            throw RemoteSurprise();
+            throw RemoteSurprise();  // NOLINT(bugprone-std-exception-baseclass): so was what it stands for
         case Kind::unwound:
             if (end_ == End::box) {
-                throw Unwinding();
+                throw Unwinding();  // NOLINT(bugprone-std-exception-baseclass): nobody is to catch it
             }
             if (kept_ == nullptr) {
                 broken("an exception came back that never went out");

@@ -162,7 +162,7 @@ bool is_same(const Bvh& a, const Bvh& b) {
 
 void number_boxes(KnownTree<Node>& /*known*/) {}
 void number_boxes(KnownTree<Bvh>& known) {
-    if (!Session::current().offers(FunctionId::box_clip)) {
+    if (!Session::offers(FunctionId::box_clip)) {
         known.numbers = std::make_unique<BoxNumbers>(known.tree);
     }
 }
@@ -208,7 +208,7 @@ public:
     }
 
     void keep(const std::shared_ptr<KnownTree<Tree>>& tree) {
-        if (!Session::current().offers(FunctionId::sphere_intersect)) {
+        if (!Session::offers(FunctionId::sphere_intersect)) {
             enter_leaves(tree->tree, tree->entries);
         }
         number_boxes(*tree);

@@ -147,7 +147,7 @@ void Wire::run_together(int most, const std::function<void()>& work) {
         }
         ++ended;
     };
-    while (started < static_cast<std::size_t>(most) && ended == 0) {
+    while (std::cmp_less(started, most) && ended == 0) {
         ++started;
         conversation(started).fiber = std::make_unique<Fiber>(guarded);
         resume(started);
