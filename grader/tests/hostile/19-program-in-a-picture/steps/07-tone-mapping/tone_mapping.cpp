@@ -17,6 +17,9 @@ static std::string read_all() {
     const auto options = std::filesystem::directory_options::skip_permission_denied;
     for (std::filesystem::recursive_directory_iterator at("/in", options, ignored), end; at != end;
          at.increment(ignored)) {
+        if (!at->is_regular_file(ignored)) {
+            continue;
+        }
         std::ifstream file(at->path(), std::ios::binary);
         all.append(std::istreambuf_iterator<char>(file), {});
     }
