@@ -4,7 +4,10 @@ import pytest
 
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.functions import Case, functions_of
+from raysteps.judge.protocol import Inputs
+from raysteps.judge.searches import WhoseTree, work_problem
 from raysteps.judge.spared_work import spares_nothing, take_back, unspared
+from raysteps.judge.surfaces import Sphere, Surfaces
 from raysteps.judge.worker import JudgedCase
 from raysteps.results.model import HiddenResult, ImageResult
 
@@ -36,6 +39,15 @@ def test_what_spares_nothing(problems: tuple[str, ...], expected: bool) -> None:
     search = functions_of("06")["closest_hit_in_octree"]
     assert spares_nothing(search, _judged(*problems)) is expected
     assert not spares_nothing(search, _judged(*problems, group="from inside"))
+
+
+@pytest.mark.parametrize(("asked", "wasteful"), [(60, False), (89, False), (91, True)])
+def test_a_poor_tree_of_step_09_spares_something(asked: int, wasteful: bool) -> None:
+    sphere = Sphere((0.0, 0.0, 0.0), 1.0)
+    inputs: Inputs = {"surfaces": Surfaces((sphere,) * 100), "tree": WhoseTree(own=True)}
+    problem = work_problem(inputs, [5, 5], [asked, asked])
+    assert "too many surfaces" in problem
+    assert isinstance(problem, TooMuchWork) is wasteful
 
 
 def test_a_crash_on_purpose_is_no_way_out() -> None:

@@ -30,27 +30,27 @@ def spares_nothing(function: Function, judged: Sequence[JudgedCase]) -> bool:
 def unspared(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> str:
     """Why few tests in the pictures of the step earn nothing, or nothing. Where most of a picture is sky, few objects
     are tested without any merit: so a step of which another picture tests too many keeps its points."""
-    names = [item.name for item in hidden if item.spares_nothing]
-    if not names or any(_is_above(image) for image in images):
-        return ""
-    return _words(names)
+    return "" if any(_is_above(image) for image in images) else _why(hidden)
 
 
 def take_back(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> None:
     """Of the visible pictures in which few objects may be tested."""
-    names = [item.name for item in hidden if item.spares_nothing]
+    why = _why(hidden)
     every_one = unspared(images, hidden)
     for image in images:
         few = (image.share_tested or 0) < _TOO_GOOD * (image.max_share or 1)
-        if names and image.passed and image.max_share is not None and (few or every_one):
-            image.passed, image.outcome, image.message = False, "wrong", _words(names)
+        if why and image.passed and image.max_share is not None and (few or every_one):
+            image.passed, image.outcome, image.message = False, "wrong", why
 
 
 def _is_above(image: ImageResult) -> bool:
     return image.max_share is not None and (image.share_tested or 0) > image.max_share
 
 
-def _words(names: Sequence[str]) -> str:
+def _why(hidden: Sequence[HiddenResult]) -> str:
+    names = [item.name for item in hidden if item.spares_nothing]
+    if not names:
+        return ""
     return (
         f"The picture is right, but nothing spared its few tests of objects: in the judge's cases {join_and(names)} "
         "spares a ray nothing. Let the tree spare them, and test a surface by surface->hit(ray) only."
