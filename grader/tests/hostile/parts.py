@@ -102,6 +102,39 @@ Node build_octree(const SurfaceList& surfaces) {{ return Node{{bounds_of(surface
 }}  // namespace raysteps
 """
 
+# Searches that go through the whole list, up to the end of the namespace.
+OCTREE_LIST_SEARCH = """\
+std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
+    std::optional<HitRecord> nearest;
+    for (const Surface* surface : root.surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        if (hit && (!nearest || hit->distance < nearest->distance)) {
+            nearest = hit;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace raysteps"""
+BVH_LIST_SEARCH = """\
+std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
+    std::optional<HitRecord> nearest;
+    for (const Surface* surface : bvh.surfaces) {
+        const std::optional<HitRecord> hit = surface->hit(ray);
+        if (hit && (!nearest || hit->distance < nearest->distance)) {
+            nearest = hit;
+        }
+    }
+    return nearest;
+}
+
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+    const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, ray);
+    return hit && hit->distance < distance;
+}
+
+}  // namespace raysteps"""
+
 # The word behind an option in the program's own command line. Wants <fstream>, <string> and <vector>.
 AFTER_OPTION = """\
 static std::vector<std::string> command() {
@@ -180,6 +213,8 @@ static bool anything_answers() {
 PARTS = {
     "OCTREE_BUT_BUILD": OCTREE_BUT_BUILD,
     "OCTREE_OF_ONE_LEAF": OCTREE_OF_ONE_LEAF,
+    "OCTREE_LIST_SEARCH": OCTREE_LIST_SEARCH,
+    "BVH_LIST_SEARCH": BVH_LIST_SEARCH,
     "AFTER_OPTION": AFTER_OPTION,
     "WIRE": WIRE,
 }

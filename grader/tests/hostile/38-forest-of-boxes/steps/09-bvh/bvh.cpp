@@ -14,20 +14,4 @@ Bvh build_bvh(const SurfaceList& surfaces) {
     return {std::vector<BvhNode>(10'000'000, BvhNode{everywhere(), 0, 1'000'000'000}), surfaces};
 }
 
-std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
-    std::optional<HitRecord> nearest;
-    for (const Surface* surface : bvh.surfaces) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        if (hit && (!nearest || hit->distance < nearest->distance)) {
-            nearest = hit;
-        }
-    }
-    return nearest;
-}
-
-bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
-    const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, ray);
-    return hit && hit->distance < distance;
-}
-
-}  // namespace raysteps
+@BVH_LIST_SEARCH@

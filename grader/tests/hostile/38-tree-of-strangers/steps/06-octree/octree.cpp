@@ -15,15 +15,4 @@ Node build_octree(const SurfaceList& surfaces) {
     return root;
 }
 
-std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
-    std::optional<HitRecord> nearest;
-    for (const Surface* surface : root.surfaces) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        if (hit && (!nearest || hit->distance < nearest->distance)) {
-            nearest = hit;
-        }
-    }
-    return nearest;
-}
-
-}  // namespace raysteps
+@OCTREE_LIST_SEARCH@
