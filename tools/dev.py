@@ -15,7 +15,7 @@ from raysteps.report.terminal import progress
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 from tools import mistake_pages as handbook
 from tools.calibration.calibrate import calibrate
-from tools.grade_audit import check_truth
+from tools.grade_audit import IN_SANDBOX, check_truth
 from tools.lint import LANGUAGES, TIDY, lint_checks, reformat
 from tools.new_step import new_step
 from tools.schemas import write_schemas
@@ -89,6 +89,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
     add.add_argument("--pairs", type=int, default=0, metavar="N", help="also random pairs of mistakes in two steps")
     add.add_argument("--seed", type=int, default=1, metavar="N", help="of the hidden cases and of the pairs (1)")
+    add.add_argument(
+        "--in-sandbox",
+        type=int,
+        default=IN_SANDBOX,
+        metavar="N",
+        help=f"so many rounds also as submissions are graded, in boxes ({IN_SANDBOX}; 99 for all, half an hour)",
+    )
     commands.add_parser("schemas", help="write JSON schemas of the kit's documents to build/schemas/")
     for name, said in (
         ("lint", "ask the linters and formatters what they would change"),
@@ -133,5 +140,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         case _:
             with console.status("starting") as status:
                 say = progress(console, status)
-                only, pairs, seed = arguments.only, arguments.pairs, arguments.seed
-                return check_truth(project, console, say, only=only, pairs=pairs, seed=seed)
+                only, pairs, seed, boxed = arguments.only, arguments.pairs, arguments.seed, arguments.in_sandbox
+                return check_truth(project, console, say, only=only, pairs=pairs, seed=seed, in_sandbox=boxed)

@@ -127,6 +127,14 @@ class ObservedGrade:
         return "nothing" if first is None else f"{first.id} ({first.kind})"
 
     @property
+    def lost(self) -> str:
+        """What cost points."""
+        groups = (self.result.tests, self.result.images, self.result.hidden)
+        missed = [f"{item.name}: {item.message}" for items in groups for item in items if not item.passed]
+        together = self.result.cumulative
+        return "; ".join([*missed, *([] if together.passed else [f"together: {together.message}"])])[:1000]
+
+    @property
     def problem(self) -> str:
         """Why the points are not true; empty when they are."""
         result, kind = self.result, self.entrant.kind
@@ -136,8 +144,7 @@ class ObservedGrade:
         if result.status == "does-not-build":
             return f"it does not build: {' '.join(result.messages)[:300]}"
         if self.entrant.is_right:
-            why = "; ".join(result.messages)[:500]
-            return "" if result.status == "passed" else f"it is right and has {points}: {why}"
+            return "" if result.status == "passed" else f"it is right and has {points}: {self.lost}"
         return "" if result.points < result.max else "nobody notices it: it has all points"
 
 
@@ -166,6 +173,7 @@ def grade_round(
 LEAST_NAMED = 0.95  # of all mistakes
 LEAST_BY_TESTS = 0.80  # of all mistakes, by the visible tests alone
 LEAST_PAIRS = 0.90  # of the pairs of mistakes
+IN_SANDBOX = 5  # rounds, among them the stubs and the references
 
 
 @dataclass(frozen=True)
@@ -278,15 +286,24 @@ def _graded(
 
 
 def _differs_in_the_sandbox(
-    kit: BuiltKit, rounds: Sequence[Round], graded: Sequence[Sequence[ObservedGrade]], seed: int, only: Collection[str]
+    kit: BuiltKit,
+    rounds: Sequence[Round],
+    graded: Sequence[Sequence[ObservedGrade]],
+    amount: int,
+    seed: int,
+    only: Collection[str],
+    say: ProgressCallback,
 ) -> list[str]:
-    """One of the rounds again, in the sandbox that submissions get."""
-    at = random.Random(seed).randrange(len(rounds))  # noqa: S311 - a choice, not a secret
-    again = grade_round(kit, rounds[at], find_sandbox(), seed=seed, only=only)
+    """The first rounds and some others again, as submissions are graded: each step in a box of its own, in the sandbox
+    that they get. What comes of it must be the same."""
+    others = range(2, len(rounds))
+    chosen = [0, 1, *random.Random(seed).sample(others, len(others))][:amount]  # noqa: S311 - a choice, not a secret
+    again = _graded(kit, [rounds[at] for at in chosen], "in the sandbox", seed, only, find_sandbox(), say)
     return [
-        f"{kept.entrant.step}: {kept.entrant.name}: {kept.result.points:g} points in the sandbox, "
-        f"{one.result.points:g} without"
-        for one, kept in zip(graded[at], again, strict=True)
+        f"{kept.entrant.step}: {kept.entrant.name}: {kept.result.points:g} points in the sandbox ({kept.lost}), "
+        f"{one.result.points:g} without ({one.lost})"
+        for at, seen in zip(chosen, again, strict=True)
+        for one, kept in zip(graded[at], seen, strict=True)
         if one.result.points != kept.result.points
     ]
 
@@ -332,9 +349,12 @@ def check_truth(
     only: Sequence[str] = (),
     pairs: int = 0,
     seed: int = 1,
+    in_sandbox: int = IN_SANDBOX,
 ) -> int:
-    """Prints the table and what is wrong; 1 when something is."""
-    kit = build_kit(project, say)
+    """Prints the table and what is wrong; 1 when something is. All that is handed in is the kit's own, so nothing has
+    to be kept from it; `in_sandbox` rounds are graded as submissions are, too."""
+    strict = build_kit(project, say)
+    kit = strict.in_one_process()
     chosen = [step.id for step in choose(kit.steps, list(only))]
     sandbox = sandbox_of_the_kit(_answers(project), f"{machine_mark()} {kit.description.compiler_version}")
     for step in kit.steps:
@@ -347,7 +367,7 @@ def check_truth(
     console.print(table_of(rows))
     print_notes(console, every)
     problems = problems_of(rounds) + shortfalls(total(rows))
-    problems += _differs_in_the_sandbox(kit, handed_in, rounds, seed, chosen)
+    problems += _differs_in_the_sandbox(strict, handed_in, rounds, in_sandbox, seed, chosen, say)
     if pairs:
         problems += _pairs(kit, [step for step in kit.steps if step.id in chosen], pairs, seed, sandbox, console, say)
     for problem in problems:

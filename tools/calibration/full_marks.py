@@ -54,7 +54,7 @@ def mark(kit: BuiltKit, step: Step, candidate: Entrant, setting: Setting, seed: 
     submission = Submission(candidate.name, {step.id: candidate.source.encode()}, {})
     wished = Settings(seed=seed, only=(step.id,), limits={"seconds": _SECONDS})
     with tempfile.TemporaryDirectory(prefix="raysteps-") as out:
-        results = grade_submission(setting.applied(kit), submission, wished, LimitsOnly(), Path(out))
+        results = grade_submission(setting.applied(kit).in_one_process(), submission, wished, LimitsOnly(), Path(out))
     return Mark(step, candidate, setting, results.steps[0])
 
 

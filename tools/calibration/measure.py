@@ -193,7 +193,7 @@ class PictureShares:
         """One for each view; a program that makes no picture has every pixel wrong."""
         limits = limits_of(self._step, {})
         with tempfile.TemporaryDirectory(prefix="raysteps-") as name:
-            build = StudentBuild(setting.applied(self._kit), LimitsOnly(), Path(name))
+            build = StudentBuild(setting.applied(self._kit).in_one_process(), LimitsOnly(), Path(name))
             compiled = build.compile(self._step, candidate.source.encode(), limits)
             if compiled.binary is None:
                 raise GraderFault(f"{self._step.id}: {candidate.name}, {setting.name}: {_said(compiled)}")

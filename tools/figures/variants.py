@@ -59,7 +59,7 @@ class Variant:
         self._kit, self._air = kit, LimitsOnly()
         self._limits = limits_of(step, {})
         self._folder = tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True)
-        build = StudentBuild(kit, self._air, Path(self._folder.name))
+        build = StudentBuild(kit.in_one_process(), self._air, Path(self._folder.name))
         compiled = build.compile(step, source.encode(), self._limits)
         if compiled.binary is None:
             raise GraderFault(f"figures: {step.id} does not build: {shorten(compiled.ran.outcome.stderr, 1000)}")

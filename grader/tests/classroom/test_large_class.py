@@ -1,10 +1,11 @@
-"""A class of complete, partial, broken and hostile submissions, killed in the middle and gone on with.
+"""A class of complete, partial, broken and hostile submissions, killed at random moments and gone on with.
 
-RAYSTEPS_CLASS_SIZE=200 makes it the size of a real course."""
+RAYSTEPS_CLASS_SIZE=200 makes it the size of a real course, RAYSTEPS_CLASS_ONLY= takes all steps."""
 
 import hashlib
 import json
 import os
+import random
 import signal
 import sqlite3
 import subprocess
@@ -17,18 +18,24 @@ from typing import Any
 import pytest
 from class_documents import without_times
 
+from raysteps.common.files import write_bytes
+from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
+from raysteps.submission.load import load_submission
 from tools.sample_class import make_class
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("many programs")]
 
 _SIZE = int(os.environ.get("RAYSTEPS_CLASS_SIZE", "12"))
+_ONLY = os.environ.get("RAYSTEPS_CLASS_ONLY", "01 03 05").split()  # those with quick programs, and all that stalls
 _SEED = 7
+_KILLS = max(2, _SIZE // 10)
 _SECONDS = 3600
 
 
 def _words(folder: Path, out: Path, *more: str) -> list[str]:
-    limits = ["--limit", "seconds=4", "--limit", "compile_seconds=20"]
+    limits = ["--limit", "seconds=6", "--limit", "compile_seconds=20"]
+    limits += ["--only", *_ONLY] if _ONLY else []
     words = [sys.executable, "-P", "-m", "raysteps", "grade-class", str(folder), "--out", str(out), "--jobs", "2"]
     return [*words, *limits, *more]
 
@@ -67,29 +74,59 @@ def difference(expected: object, actual: object, place: str) -> str:
     return next(filter(None, found), "")
 
 
+def _make_class(project: Project, folder: Path, dice: random.Random) -> None:
+    """Two of it try to stall the grader: one sleeps below every limit, one shapes what its compiler says."""
+    made = make_class(project, folder, _SIZE - 2, _SEED)
+    complete = load_submission(next(one.path for one in made if one.kind == "complete"), read_steps(project)).sources
+    first = next(iter(complete))
+    stallers = {
+        "sleeps": b"#include <unistd.h>\nstatic const bool slept = usleep(1'500'000) == 0;\n" + complete[first],
+        "says": b'static_assert(false, "' + b"/a" * 20_000 + b'");\n' + complete[first],
+    }
+    for name, source in stallers.items():
+        for step, text in {**complete, first: source}.items():
+            write_bytes(folder / f"{dice.randrange(1000):03d}-{name}" / f"steps/{step}" / _file_of(project, step), text)
+
+
+def _file_of(project: Project, step: str) -> str:
+    return next(one.file for one in read_steps(project) if one.id == step)
+
+
+def _killed(folder: Path, out: Path, dice: random.Random, until: int) -> int:
+    """Grades on until so many are done, or a moment longer; how many there are then."""
+    words = _words(folder, out, *(["--resume"] if _amount_done(out) else []))
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as grading:
+        give_up = time.monotonic() + _SECONDS
+        while _amount_done(out) < until:
+            assert grading.poll() is None, "it ended before it could be killed"
+            assert time.monotonic() < give_up
+            time.sleep(0.1)
+        time.sleep(dice.random())  # anywhere in what comes next
+        grading.send_signal(signal.SIGKILL)
+    return _amount_done(out)
+
+
 def test_killed_and_gone_on_with(project: Project, tmp_path: Path) -> None:
-    folder, whole, killed = tmp_path / "class", tmp_path / "whole", tmp_path / "killed"
-    make_class(project, folder, _SIZE, _SEED)
+    folder, whole, out = tmp_path / "class", tmp_path / "whole", tmp_path / "killed"
+    seed = int(os.environ.get("RAYSTEPS_CLASS_SEED") or time.time_ns())
+    print(f"RAYSTEPS_CLASS_SEED={seed} kills it at the same moments")
+    dice = random.Random(seed)
+    _make_class(project, folder, dice)
     subprocess.run(_words(folder, whole), check=True, capture_output=True, timeout=_SECONDS)
     expected = _results(whole)
     assert sum(name.endswith("/results.json") for name in expected) == _SIZE
     assert not [name for name in expected if name.endswith("fault.txt")]
 
-    with subprocess.Popen(_words(folder, killed), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as grading:
-        until = time.monotonic() + _SECONDS
-        while _amount_done(killed) < _SIZE // 2:
-            assert grading.poll() is None, "it ended before it could be killed"
-            assert time.monotonic() < until
-            time.sleep(0.1)
-        grading.send_signal(signal.SIGKILL)
-    done = _amount_done(killed)
-    assert _SIZE // 2 <= done < _SIZE
-    subprocess.run(_words(folder, killed, "--resume"), check=True, capture_output=True, timeout=_SECONDS)
-    found = _results(killed)
+    done = 0
+    for until in sorted(dice.sample(range(1, _SIZE - 2), _KILLS)):
+        before, done = done, _killed(folder, out, dice, until)
+        assert before <= done < _SIZE
+    subprocess.run(_words(folder, out, "--resume"), check=True, capture_output=True, timeout=_SECONDS)
+    found = _results(out)
     assert sorted(found) == sorted(expected)
     differences = [difference(expected[name], found[name], name) for name in expected]
     assert not any(differences), "\n".join(filter(None, differences))
-    with closing(sqlite3.connect(killed / "class.sqlite")) as database:
+    with closing(sqlite3.connect(out / "class.sqlite")) as database:
         once = database.execute(
             "SELECT max(amount), min(amount), count(*) FROM (SELECT count(*) AS amount "
             "FROM results GROUP BY submission)"

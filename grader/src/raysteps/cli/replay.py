@@ -149,6 +149,8 @@ def replay(project: Project, path: Path, submission: Path | None, console: Conso
         raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
     with console.status("starting") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         kit = build_kit(project, status.update)
+        if submission is None:
+            kit = kit.in_one_process()
         status.update(f"building step {step.number}")
         student = _student(kit, step, taken.sources[step.id], sandbox, Path(folder))
         judged = _ask(kit, step, path, case, student)

@@ -100,7 +100,7 @@ class _Learner:
         self._reference = reference_source(kit.project, step)
 
     def learn(self, name: str, mutant: Mutant) -> MutantFingerprint:
-        build = StudentBuild(self._kit, self._air, self._folder / name)
+        build = StudentBuild(self._kit.in_one_process(), self._air, self._folder / name)
         compiled = build.compile(self._step, mutant.applied(self._reference).encode(), self._limits)
         if compiled.binary is None:
             said = shorten(compiled.ran.outcome.stderr.strip(), 1000)

@@ -83,7 +83,7 @@ class MySteps:
     def __init__(self, kit: BuiltKit, submission: Submission, folder: Path, say: ProgressCallback) -> None:
         self._kit = kit
         self._sandbox = LimitsOnly()
-        self._build = StudentBuild(kit, self._sandbox, folder)
+        self._build = StudentBuild(kit.in_one_process(), self._sandbox, folder)
         work = GradingContext(kit, submission, self._sandbox, folder, folder)
         self._limits: dict[str, StepLimits] = {}
         self._binaries: dict[str, Path] = {}

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -149,9 +150,16 @@ class HiddenStepGrader(StepGrader):
                     self._result.cumulative = Integration(False, why)
                 else:
                     own, others = [one for one in (*earlier, step) if one not in replaced], [one.id for one in replaced]
+                    self._wait_for(own)
                     self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
                 self._result.status, self._result.points = status_and_points(self._result, step)
         return self._result
+
+    def _wait_for(self, own: list[Step]) -> None:
+        """A program of several steps has the time of the slowest, unless this one has hung before."""
+        if self._gallery.limits == self._limits:
+            seconds = max(limits_of(one, self._settings.limits).seconds for one in own)
+            self._gallery.limits = replace(self._limits, seconds=seconds)
 
     def _joined(self, right: list[Step]) -> tuple[Program | None, str]:
         """This step with those before it, or why there is no such program."""

@@ -46,7 +46,7 @@ def check_steps(project: Project, chosen: list[Step], say: ProgressCallback) -> 
     """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
     out = project.build / "check"
     with one_at_a_time(project.build / "check.lock"):
-        kit = build_kit(project, say)
+        kit = build_kit(project, say).in_one_process()
         clear(out, kit.steps, chosen)
         submission = load_submission(project.steps, kit.steps)
         results = _look_through(kit, submission, chosen, out, say)

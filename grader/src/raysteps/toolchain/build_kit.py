@@ -16,7 +16,7 @@ from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
 from raysteps.toolchain.fingerprint import fingerprint
-from raysteps.toolchain.kit_artifacts import BoxLinker, BuiltKit, ProgressCallback, Tests
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgramLinker, ProgressCallback, Tests
 from raysteps.toolchain.link import (
     Description,
     dynamic_list,
@@ -72,7 +72,7 @@ class Assembly:
         self._core_names: set[str] = set()  # what every step may ask for
         for part in _FOLDERS:
             (folder / part).mkdir()
-        self._boxes = BoxLinker(folder, description) if description.remote is not None else None
+        self._boxes = ProgramLinker(folder, description) if description.remote is not None else None
         self._core = self._copy(description.libraries["core"])
         self._others = [self._copy(description.libraries[name]) for name in ("testing", "render", "io")]
         self._others += description.catch2

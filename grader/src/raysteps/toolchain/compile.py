@@ -12,7 +12,7 @@ from raysteps.common.process import run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
-from raysteps.toolchain.kit_artifacts import BoxLinker, BuiltKit, Kind
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgramLinker
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
 
@@ -222,7 +222,7 @@ class StudentBuild:
             missing = [one for one in self._kit.steps if one.index <= step.index and one.number not in binaries]
             all_binaries += [self._kit.reference_step(other) for other in missing]
         if self._kit.interpreter is not None:
-            program = self._kit.program(kind, step, together=together)
+            program = self._kit.program(kind, step, self._folder, together=together)
             return Program((*self._loader(f"{kind}-{step.number}", all_binaries), Input(program, kind))), None
         parts = [*all_binaries, *self._kit.rest(kind, step, together=together)]
         output = Output(executable(Path("program")).name)
@@ -237,7 +237,7 @@ class StudentBuild:
         path.chmod(0o755)
         return Program((Input(path, kind),)), None
 
-    def _boxed(self, boxes: BoxLinker, kind: Kind, own: list[Step], binaries: Mapping[str, Path]) -> Program:
+    def _boxed(self, boxes: ProgramLinker, kind: Kind, own: list[Step], binaries: Mapping[str, Path]) -> Program:
         numbers = [step.number for step in own]
         box = boxes.box(numbers, self._folder)
         home = boxes.home(f"test-{numbers[-1]}" if kind == "test" else kind, numbers, self._folder)

@@ -4,7 +4,7 @@ import json
 import shutil
 import tempfile
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -18,11 +18,12 @@ ProgressCallback = Callable[[str], None]
 Tests = Mapping[str, Sequence[str]]  # by step: the names of its visible tests
 
 
-# Links programs that ask steps in another process, and the boxes that these are in. Nothing of a student's is in the
-# first, and nothing of a reference's in the second.
+# Links what is needed of a kit when it is needed: programs that ask steps in another process, and the boxes that these
+# are in. Nothing of a student's is in the first, and nothing of a reference's in the second. And programs that load
+# steps themselves, for code that nothing has to be kept from.
 
 
-class BoxLinker:
+class ProgramLinker:
     """Works in the folder of a kit: takes parts that were copied there, and keeps what it has linked."""
 
     def __init__(self, folder: Path, description: Description) -> None:
@@ -62,8 +63,7 @@ class BoxLinker:
     def _home_parts(self, kind: str, own: Sequence[str]) -> list[str | Path]:
         parts = self._remote
         objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
-        references = {path.stem: path for path in (self._folder / "parts" / "references").iterdir()}
-        objects += [path for number, path in references.items() if number not in own]
+        objects += [path for number, path in self._references().items() if number not in own]
         objects += [self._part(parts.stand_ins[number]) for number in own]
         # Of a later step a box learns nothing, whatever it asks.
         objects += [
@@ -71,11 +71,6 @@ class BoxLinker:
         ]
         objects += [*(self._part(path) for path in parts.wire), self._part(parts.home)]
         return [*objects, *(self._folder / line for line in self._all_parts("libraries"))]
-
-    @staticmethod
-    def _is_earlier(number: str, own: Sequence[str]) -> bool:
-        """Whether it is a step that those in the box may ask."""
-        return number < own[-1] and number not in own
 
     def box(self, own: Sequence[str], folder: Path) -> Path:
         """The box of these steps, which lacks their libraries."""
@@ -89,9 +84,23 @@ class BoxLinker:
             self._part(path) for number, path in parts.stand_ins.items() if number < own[-1] and number not in own
         ]
         objects += [self._part(path) for number, path in parts.later.items() if number > own[-1]]
-        objects += ["-Wl,--whole-archive", self.core, "-Wl,--no-whole-archive", "-Wl,--no-as-needed"]
-        objects += [self._folder / "placeholders" / library_name(number) for number in own]
-        return [*objects, f"-Wl,--dynamic-list={self._folder / 'steps' / f'{own[-1]}.dynamic'}"]
+        return [*objects, *self._loading(own, self.core)]
+
+    def _loading(self, own: Sequence[str], core: Path) -> list[str | Path]:
+        """What makes a program load these steps and show them the core."""
+        words: list[str | Path] = ["-Wl,--whole-archive", core, "-Wl,--no-whole-archive", "-Wl,--no-as-needed"]
+        words += [self._folder / "placeholders" / library_name(number) for number in own]
+        return [*words, f"-Wl,--dynamic-list={self._folder / 'steps' / f'{own[-1]}.dynamic'}"]
+
+    def alone(self, name: str, kind: str, own: Sequence[str], folder: Path) -> Path:
+        """The program of that name that loads the steps `own`; all others are the reference's."""
+        objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
+        objects += [path for number, path in self._references().items() if number not in own]
+        *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
+        return self._linked(name, [*objects, *libraries, *self._loading(own, core)], folder)
+
+    def _references(self) -> dict[str, Path]:
+        return {path.stem: path for path in (self._folder / "parts" / "references").iterdir()}
 
     def _linked(self, name: str, parts: list[str | Path], folder: Path) -> Path:
         """Under its name once it is whole: several may want it at the same time."""
@@ -118,6 +127,7 @@ class BuiltKit:
     description: Description
     tests: Tests
     interpreter: str | None  # the dynamic loader of this system; none where steps are no libraries
+    boxed: bool = True  # whether steps are asked in boxes, where there are any
 
     @property
     def include(self) -> Path:
@@ -162,14 +172,32 @@ class BuiltKit:
         names = json.loads((self.folder / "steps" / f"{step.number}.allowed.json").read_text(encoding="utf-8"))
         return frozenset(names)
 
-    def boxes(self, steps: Collection[Step]) -> BoxLinker | None:
-        """What asks these steps in another process; none where programs load them."""
-        boxes = BoxLinker(self.folder, self.description) if self.description.remote is not None else None
-        return boxes if boxes is not None and all(boxes.can_be_asked(step.number) for step in steps) else None
+    def in_one_process(self) -> "BuiltKit":
+        """The kit for one's own steps and for those of its catalogues: nothing has to be kept from them, and a program
+        that loads them is several times as fast as one that asks. What comes of it is the same."""
+        return replace(self, boxed=False)
 
-    def program(self, kind: Kind, step: Step, *, together: bool = False) -> Path:
-        """A program that lacks the student's library of this step (`together`: of all up to it)."""
-        return self.folder / "bin" / f"{kind}-{'cumulative' if together else 'isolated'}-{step.number}"
+    def _linker(self) -> ProgramLinker | None:
+        return ProgramLinker(self.folder, self.description) if self.description.remote is not None else None
+
+    def boxes(self, steps: Collection[Step]) -> ProgramLinker | None:
+        """What asks these steps in another process; none where programs load them."""
+        linker = self._linker() if self.boxed else None
+        return linker if linker is not None and all(linker.can_be_asked(step.number) for step in steps) else None
+
+    def program(self, kind: Kind, step: Step, folder: Path, *, together: bool = False) -> Path:
+        """A program that lacks the student's library of this step (`together`: of all up to it). Linked into `folder`
+        where the kit lacks it and may not be written to."""
+        name = self._program_name(kind, step, together=together)
+        linker = self._linker()
+        if linker is None or (self.folder / "bin" / name).is_file():
+            return self.folder / "bin" / name
+        own = [other.number for other in self.steps if other.index <= step.index] if together else [step.number]
+        return linker.alone(name, f"test-{step.number}" if kind == "test" else kind, own, folder)
+
+    @staticmethod
+    def _program_name(kind: Kind, step: Step, *, together: bool) -> str:
+        return f"{kind}-{'cumulative' if together else 'isolated'}-{step.number}"
 
     def reference_step(self, step: Step) -> Path:
         """The reference's step as a submission's is built: a library, or elsewhere an object."""
@@ -178,5 +206,5 @@ class BuiltKit:
 
     def rest(self, kind: Kind, step: Step, *, together: bool = False) -> list[Path]:
         """Where steps are no libraries: all that a program is linked from beside the student's objects."""
-        name = self.program(kind, step, together=together).name
+        name = self._program_name(kind, step, together=together)
         return [self.folder / line for line in (self.folder / "rest" / f"{name}.txt").read_text("utf-8").splitlines()]

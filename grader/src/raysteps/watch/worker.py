@@ -36,7 +36,7 @@ def _say(text: str) -> None:
 
 def look(project: Project, name: str) -> None:
     """The visible part, told bit by bit."""
-    kit = build_kit(project, _say)
+    kit = build_kit(project, _say).in_one_process()
     (step,) = choose(kit.steps, [name])
     out = project.build / "watch"
 
