@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Literal
 
 from rich.console import Console
 from rich.table import Table
@@ -26,10 +25,11 @@ from tools.bench.tables import terminal_table
 
 _SECONDS = 3600
 _CLASS_SIZE = 8
+_PLAIN = "plain"
 _PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "framework", "scenes", "solutions", "steps")
 
 
-def _measure(way: Literal["plain", "class"], number: int, submissions: int, work: Callable[[], None]) -> Cost:
+def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
     start, used = time.monotonic(), children_seconds()
     work()
     seconds, processor = time.monotonic() - start, children_seconds() - used
@@ -70,21 +70,21 @@ def _class_of(project: Project, folder: Path, size: int) -> Path:
     return folder
 
 
-def _class_way(project: Project, submissions: Path, out: Path) -> None:
+def _class_way(project: Project, submissions: Path, out: Path, *only: str) -> None:
     jobs = str(os.cpu_count() or 1)
     words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade-class", submissions, "--out", out]
-    _must([*words, "--jobs", jobs], project.root)
+    _must([*words, "--jobs", jobs, *(["--only", *only] if only else [])], project.root)
 
 
 def _table(costs: list[Cost]) -> Table:
     headings = ("way", "runs", "seconds", "CPU seconds", "CPU against plain")
-    table = terminal_table("one complete submission, all nine steps", headings)
-    plain = _mean([cost.cpu_seconds for cost in costs if cost.way == "plain"])
-    for way in ("plain", "class"):
+    table = terminal_table("one complete submission", headings)
+    plain = _mean([cost.cpu_seconds for cost in costs if cost.way == _PLAIN])
+    for way in dict.fromkeys(cost.way for cost in costs):
         rows = [cost for cost in costs if cost.way == way]
         processor = _mean([cost.cpu_seconds for cost in rows])
         seconds = _mean([cost.seconds for cost in rows])
-        label = f"{way}, {rows[0].submissions} at a time" if way == "class" else way
+        label = way if way == _PLAIN else f"{way}, class of {rows[0].submissions}"
         table.add_row(label, str(len(rows)), f"{seconds:.2f}", f"{processor:.2f}", f"1/{plain / processor:.1f}")
     return table
 
@@ -94,7 +94,8 @@ def _mean(values: list[float]) -> float:
 
 
 def grading(project: Project, rounds: int, console: Console) -> int:
-    """Measures both ways in turns, prints one table and writes build/bench/grading.json."""
+    """Measures the plain way, a class, and a class of each step alone, in turns; prints one table and writes
+    build/bench/grading.json."""
     refuse_on_windows("bench grading")
     steps = read_steps(project)
     with console.status("building the kit, which both runs of a class share"):
@@ -105,9 +106,13 @@ def grading(project: Project, rounds: int, console: Console) -> int:
         for number in range(rounds):
             with console.status(f"round {number + 1} of {rounds}"):
                 plain = partial(plain_way, project, steps, project.samples / "complete")
-                costs.append(_measure("plain", number, 1, plain))
-                together = partial(_class_way, project, submissions, Path(name) / f"out-{number}")
-                costs.append(_measure("class", number, _CLASS_SIZE, together))
+                costs.append(_measure(_PLAIN, number, 1, plain))
+                out = Path(name) / f"out-{number}"
+                together = partial(_class_way, project, submissions, out)
+                costs.append(_measure("all steps", number, _CLASS_SIZE, together))
+                for step in steps:
+                    alone = partial(_class_way, project, submissions, out / step.number, step.number)
+                    costs.append(_measure(f"step {step.number}", number, _CLASS_SIZE, alone))
     console.print(_table(costs))
     keep(project, GradingNumbers(costs=costs), console)
     return 0

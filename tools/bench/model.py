@@ -291,7 +291,7 @@ class BoxesNumbers:
 class Cost:
     """Of one submission, on average over one run."""
 
-    way: Literal["plain", "class"]
+    way: str  # the plain way; in a class: all steps, or one of them
     run: Count
     submissions: Count
     seconds: Amount

@@ -67,7 +67,7 @@ class _Honest:
 
 @pytest.fixture
 def honest(kit: BuiltKit, make_submission: MakeSubmission, solved: Sources, tmp_path: Path) -> _Honest:
-    return _Honest(kit, make_submission, solved, tmp_path / "out")
+    return _Honest(kit.in_one_process(), make_submission, solved, tmp_path / "out")
 
 
 def test_a_transmitted_ray_on_the_wrong_side(honest: _Honest, steps: list[Step]) -> None:
