@@ -158,6 +158,8 @@ int run_program(const char* command, const std::function<void()>& work) {
         std::fprintf(stderr, "raysteps %s: %s\nAll options: ./raysteps %s --help\n", command, error.what(), command);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "raysteps %s: %s\n", command, error.what());
+    } catch (...) {  // a student's function may throw anything
+        std::fprintf(stderr, "raysteps %s: something was thrown that is no std::exception\n", command);
     }
     return k_exit_usage;
 }

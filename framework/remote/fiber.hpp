@@ -7,7 +7,7 @@
 
 namespace raysteps::remote {
 
-/// Resumed by the thread that made it only. What it still waits for when it is destroyed never comes: its stack is
+/// Resumed by one thread only. What it still waits for when it is destroyed never comes: its stack is
 /// given back as it is.
 class Fiber {
 public:

@@ -150,7 +150,7 @@ std::shared_ptr<OwnGroup> Groups::write(Writer& out, const SurfaceList& surfaces
     if (description.empty()) {
         description = description_of(surfaces);
     }
-    auto group = std::make_shared<OwnGroup>(OwnGroup{++last_, surfaces, std::move(description), together, 0});
+    auto group = std::make_shared<OwnGroup>(OwnGroup{++last_, surfaces, std::move(description), together, 0, {}});
     own_[group->id] = group;
     std::erase_if(own_,
                   [&](const auto& one) { return one.first <= oldest_kept(last_) && one.second.use_count() == 1; });
@@ -173,6 +173,9 @@ std::shared_ptr<CopiedGroup> Groups::read(Reader& in) {
 }
 
 std::shared_ptr<CopiedGroup> Groups::make_copies(GroupId id, std::string_view description) {
+    if (!copied_.empty() && id <= copied_.rbegin()->first && Session::current().end() == Session::End::home) {
+        throw BadMessage("surfaces were described in another order than that of their numbers");
+    }
     auto group = std::shared_ptr<CopiedGroup>(new CopiedGroup{id, {}}, [this](CopiedGroup* last) {
         for (const Surface* surface : last->scene.surfaces()) {
             places_.erase(surface);
@@ -192,13 +195,23 @@ std::shared_ptr<CopiedGroup> Groups::make_copies(GroupId id, std::string_view de
     return group;
 }
 
-const Surface& Groups::lent(PlaceInGroup place) const {
-    const auto found = own_.find(place.group);
-    if (found == own_.end() || found->second->lent == 0 || place.index >= found->second->surfaces.size()) {
+OwnGroup& Groups::lent_group(GroupId id) const {
+    const auto found = own_.find(id);
+    if (found == own_.end() || found->second->lent == 0) {
         throw BadMessage("a surface was asked that no open question has lent");
     }
-    return *found->second->surfaces[place.index];
+    return *found->second;
 }
+
+const Surface& Groups::lent(PlaceInGroup place) const {
+    const OwnGroup& group = lent_group(place.group);
+    if (place.index >= group.surfaces.size()) {
+        throw BadMessage("a surface was asked that is not there");
+    }
+    return *group.surfaces[place.index];
+}
+
+Use Groups::use(GroupId group) const { return Use(lent_group(group).uses); }
 
 const PlaceInGroup* Groups::place_of(const Surface* surface) const {
     const auto found = places_.find(surface);

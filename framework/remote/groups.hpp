@@ -10,6 +10,7 @@
 
 #include "core/scene.hpp"
 #include "remote/message.hpp"
+#include "remote/use.hpp"
 
 namespace raysteps::remote {
 
@@ -22,6 +23,7 @@ struct OwnGroup {
     std::string description;
     std::uint64_t described_in = 0;  ///< `together` when it was last described
     int lent = 0;                    ///< open questions that may lead to one of these surfaces
+    Uses uses;
 };
 
 /// Its copies at the other end, in the same order.
@@ -53,10 +55,14 @@ public:
     /// A surface of an own group that an open question has lent. Throws BadMessage for any other.
     [[nodiscard]] const Surface& lent(PlaceInGroup place) const;
 
+    /// While one of its surfaces is asked. Throws as `lent` does.
+    [[nodiscard]] Use use(GroupId group) const;
+
     /// Null for a surface that is no copy.
     [[nodiscard]] const PlaceInGroup* place_of(const Surface* surface) const;
 
 private:
+    [[nodiscard]] OwnGroup& lent_group(GroupId id) const;
     std::shared_ptr<CopiedGroup> make_copies(GroupId id, std::string_view description);
 
     std::map<GroupId, std::shared_ptr<OwnGroup>> own_;
@@ -73,8 +79,8 @@ public:
     Loan(Loan&& other) noexcept : group_(std::move(other.group_)) {}
     Loan& operator=(Loan&&) = delete;
     ~Loan() {
-        if (group_ != nullptr) {
-            --group_->lent;
+        if (group_ != nullptr && --group_->lent == 0) {
+            group_->uses.require_none();
         }
     }
 

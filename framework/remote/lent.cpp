@@ -1,6 +1,7 @@
 #include "remote/lent.hpp"
 
 #include <unordered_map>
+#include <utility>
 
 #include "remote/functions.hpp"
 
@@ -8,8 +9,9 @@ namespace raysteps::remote {
 namespace {
 
 struct Lent {
-    const SceneQuery* query;
-    Tracer* tracer;
+    const SceneQuery* query = nullptr;
+    Tracer* tracer = nullptr;
+    Uses uses;
 };
 
 std::unordered_map<LentId, Lent>& lent_queries() {
@@ -17,7 +19,7 @@ std::unordered_map<LentId, Lent>& lent_queries() {
     return open;
 }
 
-const Lent& lent(LentId id) {
+Lent& lent(LentId id) {
     const auto found = lent_queries().find(id);
     if (found == lent_queries().end()) {
         throw BadMessage("a scene was asked that no open question has lent");
@@ -86,16 +88,28 @@ std::optional<LentId> id_of_other_end(const SceneQuery& query) {
 }
 
 /// What the other end may ask of what it was lent.
-std::optional<HitRecord> closest_hit_of(LentId id, const Ray& ray) { return lent(id).query->closest_hit(ray); }
-bool occluded_of(LentId id, const Ray& ray, float distance) { return lent(id).query->occluded(ray, distance); }
+std::optional<HitRecord> closest_hit_of(LentId id, const Ray& ray) {
+    const Use use(lent(id).uses);
+    return lent(id).query->closest_hit(ray);
+}
+bool occluded_of(LentId id, const Ray& ray, float distance) {
+    const Use use(lent(id).uses);
+    return lent(id).query->occluded(ray, distance);
+}
 Color direct_lighting_of(LentId id, const HitRecord& hit, int depth) {
+    const Use use(lent(id).uses);
     return lent_tracer(id).direct_lighting(hit, depth);
 }
-Color trace_of(LentId id, const Ray& ray, int depth) { return lent_tracer(id).trace(ray, depth); }
+Color trace_of(LentId id, const Ray& ray, int depth) {
+    const Use use(lent(id).uses);
+    return lent_tracer(id).trace(ray, depth);
+}
 std::optional<HitRecord> hit_of(GroupId group, std::uint32_t index, const Ray& ray) {
+    const Use use = Groups::all().use(group);
     return Groups::all().lent({group, index}).hit(ray);
 }
 bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
+    const Use use = Groups::all().use(group);
     return Groups::all().lent({group, index}).overlaps(box);
 }
 
@@ -134,10 +148,14 @@ std::vector<PlaceInGroup> places_of(const SurfaceList& surfaces) {
 QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer) {
     static LentId last = 0;
     id_ = ++last;
-    lent_queries()[id_] = {&query, tracer};
+    lent_queries()[id_] = {.query = &query, .tracer = tracer, .uses = {}};
 }
 
-QueryLoan::~QueryLoan() { lent_queries().erase(id_); }
+QueryLoan::~QueryLoan() {
+    const auto own = lent_queries().find(id_);
+    own->second.uses.require_none();
+    lent_queries().erase(own);
+}
 
 std::unique_ptr<QueryLoan> write_query(Writer& out, const SceneQuery& query) {
     const std::optional<LentId> known = id_of_other_end(query);
@@ -161,11 +179,11 @@ ReceivedQuery read_query(Reader& in) {
     const bool own = in.get<bool>();
     const auto id = in.get<LentId>();
     if (own) {
-        return {nullptr, lent(id).query};
+        return {nullptr, lent(id).query, Use(lent(id).uses)};
     }
     auto stand_in = std::make_unique<FarQuery>(id);
     const SceneQuery* query = stand_in.get();
-    return {std::move(stand_in), query};
+    return {std::move(stand_in), query, std::nullopt};
 }
 
 ReceivedTracer read_tracer(Reader& in) {
@@ -174,11 +192,11 @@ ReceivedTracer read_tracer(Reader& in) {
     const auto max_ray_depth = in.get<int>();
     const auto background = read<Color>(in);
     if (own) {
-        return {nullptr, &lent_tracer(id)};
+        return {nullptr, &lent_tracer(id), Use(lent(id).uses)};
     }
     auto stand_in = std::make_unique<FarTracer>(id, max_ray_depth, background);
     Tracer* tracer = stand_in.get();
-    return {std::move(stand_in), tracer};
+    return {std::move(stand_in), tracer, std::nullopt};
 }
 
 Loan write_surfaces(Writer& out, const SurfaceList& surfaces) {
@@ -197,12 +215,16 @@ Loan write_surfaces(Writer& out, const SurfaceList& surfaces) {
 
 ReceivedSurfaces read_surfaces(Reader& in) {
     if (!in.get<bool>()) {
-        return {Groups::all().read(in), {}};
+        return {Groups::all().read(in), {}, {}};
     }
     ReceivedSurfaces received;
+    GroupId last = 0;
     received.own.resize(in.count(sizeof(PlaceInGroup)));
     for (const Surface*& surface : received.own) {
         const auto group = in.get<GroupId>();
+        if (std::exchange(last, group) != group) {
+            received.uses.push_back(Groups::all().use(group));
+        }
         surface = &Groups::all().lent({group, in.get<std::uint32_t>()});
     }
     return received;

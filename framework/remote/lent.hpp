@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/tracer.hpp"
 #include "remote/groups.hpp"
@@ -35,10 +36,12 @@ private:
 struct ReceivedQuery {
     std::unique_ptr<SceneQuery> stand_in;
     const SceneQuery* query = nullptr;
+    std::optional<Use> use;  ///< of an own one
 };
 struct ReceivedTracer {
     std::unique_ptr<Tracer> stand_in;
     Tracer* tracer = nullptr;
+    std::optional<Use> use;
 };
 [[nodiscard]] ReceivedQuery read_query(Reader& in);
 [[nodiscard]] ReceivedTracer read_tracer(Reader& in);
@@ -47,6 +50,7 @@ struct ReceivedTracer {
 struct ReceivedSurfaces {
     std::shared_ptr<CopiedGroup> copies;
     SurfaceList own;
+    std::vector<Use> uses;
 };
 [[nodiscard]] Loan write_surfaces(Writer& out, const SurfaceList& surfaces);
 [[nodiscard]] ReceivedSurfaces read_surfaces(Reader& in);

@@ -18,6 +18,7 @@ constexpr std::size_t k_most_surfaces = 4096;  // likewise
 struct OpenTree {
     const Bvh* bvh = nullptr;
     int loans = 0;
+    Uses uses;
 };
 
 std::map<TreeId, OpenTree>& lent_trees() {
@@ -48,6 +49,7 @@ void serve_boxes(Reader& in, Wire& wire) {
     if (found == lent_trees().end()) {
         throw BadMessage("a tree was asked that no open question has lent");
     }
+    const Use use(found->second.uses);
     const Ray ray = read<Ray>(in);
     send_answer(wire, [&](Writer& out) { write_boxes(out, *found->second.bvh, ray); });
 }
@@ -55,6 +57,10 @@ void serve_boxes(Reader& in, Wire& wire) {
 /// Up to the first that ends the search.
 std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<std::uint32_t>& indices, const Ray& ray,
                                               float until) {
+    if (indices.size() > k_most_surfaces) {
+        throw BadMessage("more surfaces were asked than a leaf's");
+    }
+    const Use use = Groups::all().use(group);
     std::vector<std::optional<HitRecord>> hits;
     for (const std::uint32_t index : indices) {
         hits.push_back(Groups::all().lent({group, index}).hit(ray));
@@ -88,10 +94,37 @@ struct State {
     };
     std::vector<Answer> of_box;
 
-    const Leaf* leaf = nullptr;
+    /// Of surfaces in leaves, by their place in the group; what has another mark than `leaf_round` is of old.
+    struct Hit {
+        std::uint32_t round = 0;
+        std::uint32_t answer = 0;
+    };
+    GroupId group = 0;
     Ray leaf_ray;
-    std::size_t first = 0;  ///< the place in the leaf that the first of `hits` is of
-    std::vector<std::optional<HitRecord>> hits;
+    std::uint32_t leaf_round = 1;
+    std::vector<Hit> of_surface;
+    std::vector<std::optional<HitRecord>> answers;
+
+    /// Makes place for answers of these surfaces to this ray.
+    void look_at(const Leaf& leaf, const Ray& ray) {
+        if (group != leaf.group || !same_bytes(leaf_ray, ray)) {
+            forget_hits();
+            group = leaf.group;
+            leaf_ray = ray;
+        }
+        for (const std::uint32_t index : leaf.indices) {
+            of_surface.resize(std::max(of_surface.size(), std::size_t{index} + 1));
+        }
+    }
+    [[nodiscard]] bool knows(std::uint32_t index) const { return of_surface[index].round == leaf_round; }
+    void learn(std::uint32_t index, std::optional<HitRecord> hit) {
+        of_surface[index] = {leaf_round, static_cast<std::uint32_t>(answers.size())};
+        answers.push_back(std::move(hit));
+    }
+    void forget_hits() {
+        ++leaf_round;
+        answers.clear();
+    }
 };
 
 State& state() {
@@ -180,6 +213,7 @@ TreeLoan::TreeLoan(TreeId id, const Bvh& bvh) : id_(id) {
 TreeLoan::~TreeLoan() {
     const auto lent = lent_trees().find(id_);
     if (--lent->second.loans == 0) {
+        lent->second.uses.require_none();
         lent_trees().erase(lent);
     }
 }
@@ -221,19 +255,24 @@ LeafEntry::LeafEntry(const Surface& copy, std::shared_ptr<const Leaf> leaf, std:
 
 std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
     State& known = state();
-    const bool is_known = known.leaf == leaf_.get() && place_ >= known.first &&
-                          place_ - known.first < known.hits.size() && same_bytes(known.leaf_ray, ray);
-    if (!is_known) {
-        const auto first = leaf_->indices.begin() + static_cast<std::ptrdiff_t>(place_);
-        const std::size_t count = std::min(k_most_surfaces, leaf_->indices.size() - place_);
-        const std::vector<std::uint32_t> rest(first, first + static_cast<std::ptrdiff_t>(count));
-        known.hits = ask<std::vector<std::optional<HitRecord>>, GroupId, const std::vector<std::uint32_t>&, Ray, float>(
+    known.look_at(*leaf_, ray);
+    const std::uint32_t index = leaf_->indices[place_];
+    if (!known.knows(index)) {
+        std::vector<std::uint32_t> rest;
+        for (std::size_t place = place_; place < leaf_->indices.size() && rest.size() < k_most_surfaces; ++place) {
+            if (known.knows(leaf_->indices[place])) {
+                break;
+            }
+            rest.push_back(leaf_->indices[place]);
+        }
+        using Hits = std::vector<std::optional<HitRecord>>;
+        Hits hits = ask<Hits, GroupId, const std::vector<std::uint32_t>&, Ray, float>(
             FunctionId::lent_surface_hits, leaf_->group, rest, ray, known.until);
-        known.leaf = leaf_.get();
-        known.leaf_ray = ray;
-        known.first = place_;
+        for (std::size_t place = 0; place < std::min(hits.size(), rest.size()); ++place) {
+            known.learn(rest[place], std::move(hits[place]));
+        }
     }
-    return known.hits.at(place_ - known.first);
+    return known.answers.at(known.of_surface[index].answer);
 }
 
 void enter_leaves(Node& root, Scene& entries) {
@@ -273,8 +312,14 @@ void enter_leaves(Bvh& bvh, Scene& entries) {
 void begin_search(float until) {
     State& known = state();
     known.until = until;
-    known.leaf = nullptr;
+    known.forget_hits();
     known.numbers = nullptr;
+}
+
+OpenSearch::~OpenSearch() {
+    if (open_) {
+        begin_search(0.0F);
+    }
 }
 
 void begin_search(float until, TreeId id, const BoxNumbers& numbers, const Ray& ray, Reader& in) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/bvh.hpp"
@@ -78,8 +79,8 @@ class LeafEntry final : public Surface {
 public:
     LeafEntry(const Surface& copy, std::shared_ptr<const Leaf> leaf, std::size_t place);
 
-    /// Asked of the other end with those after it; a search that asks for these next finds their answers here. All
-    /// that came are counted there as tested.
+    /// Asked of the other end with those after it that are not known yet; a search that asks for these next finds their
+    /// answers here. All that came are counted there as tested.
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
     [[nodiscard]] Box bounds() const override { return copy_.bounds(); }
     [[nodiscard]] bool overlaps(const Box& box) const override { return copy_.overlaps(box); }
@@ -99,6 +100,18 @@ void enter_leaves(Bvh& bvh, Scene& entries);
 /// A search begins in the current conversation. For a tree with boxes of the other end's, their answers follow.
 void begin_search(float until);
 void begin_search(float until, TreeId id, const BoxNumbers& numbers, const Ray& ray, Reader& in);
+
+/// Ends the search of the current conversation: nothing that was known for it is used any more.
+class OpenSearch {
+public:
+    OpenSearch() = default;
+    OpenSearch(OpenSearch&& other) noexcept : open_(std::exchange(other.open_, false)) {}
+    OpenSearch& operator=(OpenSearch&&) = delete;
+    ~OpenSearch();
+
+private:
+    bool open_ = true;
+};
 
 /// What step 06's box.clip(ray) gives: as it came along, or asked for.
 [[nodiscard]] std::optional<Interval> ask_clip(const Box& box, const Ray& ray);

@@ -35,7 +35,7 @@ bool offer(FunctionId id, Session::Service service) {
 
 bool stand_in(FunctionId id) { return stand_ins().at(static_cast<std::size_t>(id)) = true; }
 
-Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell) : end_(end), wire_(pipes, answer, farewell) {
+Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell) : end_(end), wire_(end, pipes, answer, farewell) {
     g_session = this;
 }
 
@@ -76,12 +76,18 @@ Message Session::wait_for_answer() {
             if (end_ == End::box) {
                 throw Unwinding();  // NOLINT(bugprone-std-exception-baseclass): nobody is to catch it
             }
-            if (kept_ == nullptr) {
+            if (kept_[wire_.current()] == nullptr) {
                 broken("an exception came back that never went out");
             }
-            std::rethrow_exception(std::exchange(kept_, nullptr));
+            std::rethrow_exception(std::exchange(kept_[wire_.current()], nullptr));
         default:
             return message;
+    }
+}
+
+void Session::keep_exception() {
+    if (end_ == End::home) {
+        kept_[wire_.current()] = std::current_exception();
     }
 }
 
@@ -106,10 +112,10 @@ void Session::answer(Wire& wire, std::string_view question) {
     } catch (const std::exception& error) {
         kind = Kind::threw;
         words = std::string(error.what()).substr(0, k_longest_words);
-        session.kept_ = std::current_exception();
+        session.keep_exception();
     } catch (...) {
         kind = Kind::threw_unknown;
-        session.kept_ = std::current_exception();
+        session.keep_exception();
     }
     wire.send(keeps ? Kind::unwound : kind, [&](std::string& out) { out += keeps ? std::string_view() : words; });
 }

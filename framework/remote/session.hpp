@@ -2,9 +2,9 @@
 // One end of the wire as the stand-ins see it: asks functions of the other end, and offers its own.
 #include <array>
 #include <exception>
-#include <map>
 #include <stdexcept>
 #include <string_view>
+#include <unordered_map>
 
 #include "remote/function_ids.hpp"
 #include "remote/message.hpp"
@@ -27,10 +27,7 @@ public:
     /// Reads the arguments, calls the function, and sends the result.
     using Service = void (*)(Reader& arguments, Wire& wire);
 
-    enum class End {
-        home,  ///< of the program: knows the references, keeps its own exceptions
-        box,   ///< of the student's code
-    };
+    using End = Wire::End;
 
     /// A process has one session at most.
     Session(End end, Wire::Pipes pipes, Wire::Farewell farewell);
@@ -54,10 +51,12 @@ public:
 private:
     [[nodiscard]] Message wait_for_answer();
     static void answer(Wire& wire, std::string_view question);
+    void keep_exception();
 
     End end_;
     Wire wire_;
-    std::exception_ptr kept_;  ///< what went out of a question that the other end asked, until it comes back
+    /// At home, by conversation: what went out of a question that the box asked, until it comes back.
+    std::unordered_map<std::size_t, std::exception_ptr> kept_;
 };
 
 /// Whether this process keeps to that processor from now on.

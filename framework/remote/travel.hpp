@@ -16,7 +16,7 @@
 
 namespace raysteps::remote {
 
-/// write(out, value) and read(in) for a type that can be a result; what stands for a parameter is in arguments.hpp.
+/// write(out, value) and read(in) for a type that can be a result; what stands for a parameter is in functions.hpp.
 template <typename T>
 struct Travel;
 
@@ -125,7 +125,8 @@ struct Travel<std::vector<T>> {
         }
     }
     static std::vector<T> read(Reader& in) {
-        std::vector<T> values(in.count(1));
+        constexpr bool k_may_be_empty = requires(T value) { value.has_value(); };
+        std::vector<T> values(in.count(k_may_be_empty ? 1 : sizeof(std::uint32_t)));
         for (T& value : values) {
             value = remote::read<T>(in);
         }

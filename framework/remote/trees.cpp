@@ -96,15 +96,24 @@ void write_parts(Writer& out, const Node& node, const IndexOf& index_of, int dep
     }
 }
 
-void read_parts(Reader& in, const SurfaceList& group, Node& node, int depth = 1) {
-    if (depth > k_deepest) {
-        throw BadMessage("a tree has too many levels");
-    }
+/// What a tree may be.
+struct Bounds {
+    int levels = k_deepest;
+    std::size_t children = ~std::size_t{0};  ///< of a box
+};
+/// Of a tree that a box wants the reference to search, as it would search its own.
+constexpr Bounds k_searched_at_home{.levels = 64, .children = 8};
+
+void read_parts(Reader& in, const SurfaceList& group, Node& node, Bounds bounds) {
     node.box = read<Box>(in);
     node.surfaces = read_entries(in, group);
-    node.children.resize(in.count(sizeof(Box)));
+    const std::size_t children = in.count(sizeof(Box));
+    if (children > bounds.children || (children > 0 && bounds.levels <= 1)) {
+        throw BadMessage("a tree has too many levels or children");
+    }
+    node.children.resize(children);
     for (Node& child : node.children) {
-        read_parts(in, group, child, depth + 1);
+        read_parts(in, group, child, {.levels = bounds.levels - 1, .children = bounds.children});
     }
 }
 
@@ -118,7 +127,7 @@ void write_parts(Writer& out, const Bvh& bvh, const IndexOf& index_of) {
     write_entries(out, bvh.surfaces, index_of);
 }
 
-void read_parts(Reader& in, const SurfaceList& group, Bvh& bvh) {
+void read_parts(Reader& in, const SurfaceList& group, Bvh& bvh, Bounds /*bounds*/) {
     bvh.nodes.resize(in.count(sizeof(Box)));
     for (BvhNode& node : bvh.nodes) {
         node.box = read<Box>(in);
@@ -208,6 +217,9 @@ public:
     }
 
     void keep(const std::shared_ptr<KnownTree<Tree>>& tree) {
+        if (!kept_.empty() && tree->id <= kept_.rbegin()->first && Session::current().end() == Session::End::home) {
+            throw BadMessage("trees came in another order than that of their numbers");
+        }
         if (!Session::offers(FunctionId::sphere_intersect)) {
             enter_leaves(tree->tree, tree->entries);
         }
@@ -263,7 +275,7 @@ Tree ask_tree(FunctionId id, const SurfaceList& surfaces) {
     const auto read_result = [&](Reader& in, const auto& open) {
         const std::shared_ptr<OwnGroup>& group = std::get<1>(open).group();
         Tree tree;
-        read_parts(in, group->surfaces, tree);
+        read_parts(in, group->surfaces, tree, Bounds{});
         Trees<Tree>::all().remember(number, tree, group);
         return tree;
     };
@@ -319,7 +331,8 @@ std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
     auto known = std::make_shared<KnownTree<Tree>>();
     known->id = id;
     known->group = Groups::all().read(in);
-    read_parts(in, known->group->scene.surfaces(), known->tree);
+    const bool is_home = Session::current().end() == Session::End::home;
+    read_parts(in, known->group->scene.surfaces(), known->tree, is_home ? k_searched_at_home : Bounds{});
     trees.keep(known);
     return known;
 }
@@ -341,7 +354,7 @@ ReceivedSearch<Tree> read_search(Reader& in) {
     const Ray ray = read<Ray>(in);
     const Search<Tree> search{known->tree, ray, in.get<float>()};
     begin(*known, search, in);
-    return {std::move(known), search};
+    return {std::move(known), search, OpenSearch()};
 }
 
 template LentTree write_search(Writer&, const Search<Node>&);

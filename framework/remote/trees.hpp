@@ -36,6 +36,7 @@ template <typename Tree>
 struct ReceivedSearch {
     std::shared_ptr<const KnownTree<Tree>> known;
     Search<Tree> search;
+    OpenSearch open;
 };
 template <typename Tree>
 [[nodiscard]] ReceivedSearch<Tree> read_search(Reader& in);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "remote/message.hpp"
@@ -31,8 +32,9 @@ void Wire::end(int code, const char* why) {
     std::_Exit(code);
 }
 
-Wire::Wire(Pipes pipes, Service service, Farewell farewell)
-    : pipes_(pipes),
+Wire::Wire(End end, Pipes pipes, Service service, Farewell farewell)
+    : end_(end),
+      pipes_(pipes),
       service_(service),
       farewell_(farewell),
       outgoing_(sizeof(BatchSize), '\0'),
@@ -86,8 +88,13 @@ Message Wire::receive() {
             if (talk.received) {
                 Message message = std::move(*talk.received);
                 talk.received.reset();
+                talk.waiting = false;
+                if (!talk.serves) {
+                    thread_stats() += std::exchange(by_visitors_, {});
+                }
                 return message;
             }
+            talk.waiting = true;
             fiber = talk.fiber.get();
             if (fiber == nullptr && (talk.visitor || ready_.empty())) {
                 exchange();
@@ -148,9 +155,15 @@ void Wire::run_together(int most, const std::function<void()>& work) {
         ++ended;
     };
     while (std::cmp_less(started, most) && ended == 0) {
-        ++started;
-        conversation(started).fiber = std::make_unique<Fiber>(guarded);
-        resume(started);
+        try {
+            conversation(started + 1).fiber = std::make_unique<Fiber>(guarded);
+        } catch (const std::system_error&) {
+            if (started == 0) {
+                throw;
+            }
+            break;  // there is room for fewer
+        }
+        resume(++started);
     }
     while (ended < started) {
         if (!resume_one()) {
@@ -158,7 +171,7 @@ void Wire::run_together(int most, const std::function<void()>& work) {
         }
     }
     for (std::size_t number = 1; number <= started; ++number) {
-        conversation(number).fiber.reset();
+        conversations_[number].reset();
     }
     together_ = 0;
     if (failed) {
@@ -186,6 +199,10 @@ void Wire::resume(std::size_t number) {
     talk.fiber->resume();
     std::swap(thread_stats(), talk.stats);
     running_ = before;
+    if (end_ == End::home && talk.serves) {  // whoever goes on next is charged with it
+        Stats& charged = together_ == 0 ? thread_stats() : by_visitors_;
+        charged += std::exchange(talk.stats, {});
+    }
 }
 
 // Both ends send a batch only when they have read the other's: so neither ever waits for a full pipe while the other
@@ -238,7 +255,8 @@ void Wire::deliver(std::string_view batch) {
         const std::size_t number = reader.get<std::uint16_t>();
         const Kind kind = reader.get<Kind>();
         Conversation& talk = conversation(number);
-        if (kind > Kind::unwound || talk.received) {
+        const bool begins = kind == Kind::question && talk.fiber == nullptr && may_begin(number);
+        if (kind > Kind::unwound || talk.received || (end_ == End::home && !talk.waiting && !begins)) {
             throw BadMessage("a message came that nobody can have sent");
         }
         talk.received = Message{kind, reader.text(), kept};
@@ -250,10 +268,14 @@ void Wire::deliver(std::string_view batch) {
                 throw BadMessage("an answer came that nobody asked for");
             }
             talk.fiber = std::make_unique<Fiber>([this] { serve(); });
+            talk.serves = true;
         }
         ready_.push_back(number);
     }
 }
+
+/// A box begins conversations for threads of the student's only; those of the program's own it could take for others.
+bool Wire::may_begin(std::size_t number) const { return end_ == End::box || number >= k_first_visitor; }
 
 void Wire::write_all(std::string_view bytes) {
     while (!bytes.empty()) {

@@ -37,6 +37,11 @@ struct Message {
 
 class Wire {
 public:
+    enum class End {
+        home,  ///< of the program: knows the references, keeps its own exceptions, believes nothing
+        box,   ///< of the student's code
+    };
+
     /// The file descriptors that are read and written.
     struct Pipes {
         int in;
@@ -55,7 +60,7 @@ public:
 
     static constexpr std::size_t k_max_conversations = 1024;
 
-    Wire(Pipes pipes, Service service, Farewell farewell);
+    Wire(End end, Pipes pipes, Service service, Farewell farewell);
 
     /// A message of the current conversation: write(bytes) appends what it says. It is sent with all others when
     /// somebody waits.
@@ -98,6 +103,8 @@ private:
         Stats stats;                      ///< the fiber's, while it does not run
         int depth = 0;                    ///< questions that are being answered
         bool visitor = false;             ///< of a thread that a student has started
+        bool waiting = false;             ///< for a message
+        bool serves = false;              ///< the other end began it
     };
 
     [[nodiscard]] std::size_t begin_message(Kind kind);
@@ -107,11 +114,13 @@ private:
     void exchange();
     std::string_view read_batch();
     void deliver(std::string_view batch);
+    [[nodiscard]] bool may_begin(std::size_t number) const;
     void resume(std::size_t number);
     bool resume_one();
     Conversation& conversation(std::size_t number);
     void write_all(std::string_view bytes);
 
+    End end_;
     Pipes pipes_;
     Service service_;
     Farewell farewell_;
@@ -120,6 +129,7 @@ private:
     std::deque<std::size_t> ready_;  ///< fibers that something came for, in that order
     std::uint64_t together_ = 0;
     std::uint64_t last_together_ = 0;
+    Stats by_visitors_;                                ///< tests of conversations that a box began
     std::size_t running_ = 0;                          ///< the conversation of the thread that fibers run on
     std::map<std::thread::id, std::size_t> visitors_;  ///< conversations of other threads
     std::string outgoing_;

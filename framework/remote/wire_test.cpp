@@ -34,10 +34,23 @@ void sum_up(Wire& wire, std::string_view question) {
     send_number(wire, Kind::answer, number == 0 ? 0 : number + ask(wire, number - 1));
 }
 
-struct Hung {};
+struct Hung {
+    int code;
+};
 
 /// Ends a thread, and not the whole program.
-[[noreturn]] void hang_up(int /*code*/, const char* /*why*/) { throw Hung(); }
+[[noreturn]] void hang_up(int code, const char* /*why*/) { throw Hung{code}; }
+
+/// How the program ends that works on this wire.
+template <typename Work>
+int ending_of(const Work& work) {
+    try {
+        work();
+    } catch (const Hung& hung) {
+        return hung.code;
+    }
+    return 0;
+}
 
 /// Another thread serves questions until the wire of the test is gone.
 class Pair {
@@ -46,7 +59,7 @@ public:
         REQUIRE(pipe(there_.data()) == 0);
         REQUIRE(pipe(back_.data()) == 0);
         other_ = std::thread([in = there_[0], out = back_[1]] {
-            Wire wire({in, out}, sum_up, hang_up);
+            Wire wire(Wire::End::box, {in, out}, sum_up, hang_up);
             try {
                 wire.serve();
             } catch (const Hung&) {
@@ -75,7 +88,7 @@ private:
 
 TEST_CASE("a question leads to questions back and to one answer", "[remote]") {
     const Pair pair;
-    Wire wire(pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
     CHECK(ask(wire, 0) == 0);
     CHECK(ask(wire, 10) == 55);
     CHECK(ask(wire, 50) == 1275);
@@ -83,7 +96,7 @@ TEST_CASE("a question leads to questions back and to one answer", "[remote]") {
 
 TEST_CASE("many conversations at once do not mix their answers", "[remote]") {
     const Pair pair;
-    Wire wire(pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
     std::array<int, 200> answers{};
     int next = 0;
     wire.run_together(16, [&] {
@@ -99,7 +112,7 @@ TEST_CASE("many conversations at once do not mix their answers", "[remote]") {
 
 TEST_CASE("an exception leaves the conversations, and each has counters of its own", "[remote]") {
     const Pair pair;
-    Wire wire(pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
     std::vector<std::uint64_t> counted;
     const auto count = [&] {
         thread_stats().surface_tests = 0;
@@ -117,8 +130,87 @@ TEST_CASE("an exception leaves the conversations, and each has counters of its o
 
 TEST_CASE("questions without an end, and an end that is gone, end the program", "[remote]") {
     const Pair pair;
-    Wire wire(pair.pipes(), sum_up, hang_up);
-    CHECK_THROWS_AS(ask(wire, 100000), Hung);
+    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
+    CHECK(ending_of([&] { ask(wire, 100000); }) == Wire::k_closed);  // the other end has had enough first
+}
+
+namespace {
+
+struct Sent {
+    std::uint16_t conversation;
+    Kind kind;
+};
+
+/// A batch as a box could write it, with a number in each message.
+std::string batch_of(const std::vector<Sent>& messages) {
+    std::string inside;
+    Writer out(inside);
+    for (const Sent& sent : messages) {
+        out.put(sent.conversation);
+        out.put(sent.kind);
+        out.put(static_cast<std::uint32_t>(sizeof(int)));
+        out.put(0);
+    }
+    std::string batch;
+    Writer(batch).put(std::string_view(inside));
+    return batch;
+}
+
+/// How a program ends that asks one question and gets these messages.
+int ending_with(const std::vector<Sent>& messages) {
+    std::array<int, 2> in{};
+    std::array<int, 2> out{};
+    REQUIRE(pipe(in.data()) == 0);
+    REQUIRE(pipe(out.data()) == 0);
+    const std::string batch = batch_of(messages);
+    REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
+    close(in[1]);
+    Wire wire(Wire::End::home, {in[0], out[1]}, sum_up, hang_up);
+    const int code = ending_of([&] { static_cast<void>(ask(wire, 1)); });
+    for (const int file : {in[0], out[0], out[1]}) {
+        close(file);
+    }
+    return code;
+}
+
+}  // namespace
+
+TEST_CASE("a program takes from a box only what it can be waiting for", "[remote]") {
+    CHECK(ending_with({{0, Kind::answer}}) == 0);
+    CHECK(ending_with({}) == Wire::k_closed);
+    CHECK(ending_with({{0, Kind::answer}, {0, Kind::answer}}) == Wire::k_broken);
+    for (const std::uint16_t conversation : std::vector<std::uint16_t>{1, 7, 128, 511, 1024, 65535}) {  // nobody has begun these
+        CAPTURE(conversation);
+        CHECK(ending_with({{conversation, Kind::question}}) == Wire::k_broken);
+        CHECK(ending_with({{conversation, Kind::answer}}) == Wire::k_broken);
+    }
+    CHECK(ending_with({{600, Kind::answer}}) == Wire::k_broken);
+    CHECK(ending_with({{600, Kind::question}, {600, Kind::question}}) == Wire::k_broken);
+    CHECK(ending_with({{600, Kind::question}, {0, Kind::answer}}) == 0);  // as a thread of the student's
+    CHECK(ending_with({{0, static_cast<Kind>(9)}}) == Wire::k_broken);
+}
+
+TEST_CASE("what a box's own conversations count is somebody's", "[remote]") {
+    const auto tested = [](Wire& wire, std::string_view /*question*/) {
+        ++thread_stats().surface_tests;
+        send_number(wire, Kind::answer, 0);
+    };
+    std::array<int, 2> in{};
+    std::array<int, 2> out{};
+    REQUIRE(pipe(in.data()) == 0);
+    REQUIRE(pipe(out.data()) == 0);
+    const std::string batch = batch_of({{600, Kind::question}, {601, Kind::question}, {0, Kind::answer}});
+    REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
+    Wire wire(Wire::End::home, {in[0], out[1]}, tested, hang_up);
+    const std::uint64_t before = thread_stats().surface_tests;
+    static_cast<void>(ask(wire, 1));
+    send_number(wire, Kind::question, 1);
+    close(in[1]);
+    CHECK(ending_of([&] { static_cast<void>(wire.wait_for_answer()); }) == Wire::k_closed);
+    CHECK(thread_stats().surface_tests == before + 2);
+    for (const int file : {in[0], out[0], out[1]}) {
+        close(file);
+    }
 }
 
 TEST_CASE("a message that ends too early or announces too much is refused", "[remote]") {

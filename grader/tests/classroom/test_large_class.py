@@ -84,8 +84,9 @@ def _make_class(project: Project, folder: Path, dice: random.Random) -> None:
         "says": b'static_assert(false, "' + b"/a" * 20_000 + b'");\n' + complete[first],
     }
     for name, source in stallers.items():
+        place = folder / f"{dice.choice('abcdefghijklmnopqrstuvwxyz')}-{name}"  # anywhere in the order
         for step, text in {**complete, first: source}.items():
-            write_bytes(folder / f"{dice.randrange(1000):03d}-{name}" / f"steps/{step}" / _file_of(project, step), text)
+            write_bytes(place / "steps" / step / _file_of(project, step), text)
 
 
 def _file_of(project: Project, step: str) -> str:

@@ -197,13 +197,38 @@ static void send_to_all(const std::string& messages) {
     }
 }
 
-// Whether an answer comes soon. Takes it off the wire.
-static bool anything_answers() {
+// A batch that comes soon, without its size. Takes it off the wire.
+static std::string next_batch() {
     for (const int pipe : pipes()) {
         pollfd waiting{pipe, POLLIN, 0};
-        char head[7] = {};
-        if (poll(&waiting, 1, 50) == 1 && read(pipe, head, sizeof head) == sizeof head && head[6] == 1) {
-            return true;
+        std::uint32_t size = 0;
+        if (poll(&waiting, 1, 200) != 1 || read(pipe, &size, sizeof size) != sizeof size) {
+            continue;
+        }
+        std::string batch(size, '\\0');
+        for (std::size_t have = 0; have < batch.size();) {
+            const ssize_t got = read(pipe, batch.data() + have, batch.size() - have);
+            if (got <= 0) {
+                return {};
+            }
+            have += static_cast<std::size_t>(got);
+        }
+        return batch;
+    }
+    return {};
+}
+
+// Whether an answer is in one of the next batches: in the first stands what the program asks by itself.
+static bool anything_answers() {
+    for (int i = 0; i < 3; ++i) {
+        const std::string batch = next_batch();
+        for (std::size_t at = 0; at + 7 <= batch.size();) {
+            if (batch[at + 2] == 1) {
+                return true;
+            }
+            std::uint32_t size = 0;
+            std::memcpy(&size, batch.data() + at + 3, sizeof size);
+            at += 7 + size;
         }
     }
     return false;

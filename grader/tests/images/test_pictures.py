@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from raysteps.images.compare import (
+    TOLERANCE,
     PictureError,
     Pixels,
     compare,
     difference,
+    gaps,
     is_flat,
     pixels_differ,
     read_ppm,
@@ -96,7 +98,7 @@ def test_difference_is_brightened_and_written(tmp_path: Path) -> None:
 def test_a_grossly_wrong_picture_is_shown_coarsely() -> None:
     """What it carries: a pixel of four, five bits of each channel."""
     data = np.random.default_rng(5).integers(0, 256, (61, 80, 3), dtype=np.uint8)
-    coarse = shown(data, 0.51)
+    coarse = shown(data, 255 - data, 0.51)
     assert coarse.shape == data.shape
     assert (coarse[0::2][:30] == coarse[1::2]).all()
     assert (coarse[:, 0::2] == coarse[:, 1::2]).all()
@@ -106,6 +108,14 @@ def test_a_grossly_wrong_picture_is_shown_coarsely() -> None:
 
 
 def test_other_pictures_are_shown_as_they_are() -> None:
-    data = np.random.default_rng(5).integers(0, 256, (6, 8, 3), dtype=np.uint8)
+    """But for what counts as right: there the last bits could carry something out, and nobody sees them."""
+    dice = np.random.default_rng(5)
+    reference = dice.integers(10, 240, (60, 80, 3), dtype=np.uint8)
+    mine = reference + dice.integers(0, 3, reference.shape, dtype=np.uint8)
+    mine[:20] = 255 - reference[:20]
     for wrong_share in (0.0, 0.02, 0.5):
-        assert (shown(data, wrong_share) == data).all()
+        picture = shown(mine, reference, wrong_share)
+        assert (picture[20:] == reference[20:]).all()
+        wrong = gaps(mine, reference) > TOLERANCE
+        assert wrong[:20].mean() > 0.9
+        assert (picture[wrong] == mine[wrong]).all()

@@ -67,12 +67,34 @@ def test_the_same_picture_and_the_same_counts(
         assert rendered.work == reference_work(kit, scene, args), step.id
 
 
+@pytest.mark.parametrize(("at", "name"), [(5, "kept-lists"), (8, "leaves-backwards")])
+def test_what_an_honest_search_does_between_two_tests_is_its_own(
+    kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path, *, at: int, name: str
+) -> None:
+    """Lists that are kept for the thread, and leaves in any order: as in one program, counts too."""
+    step = kit.steps[at]
+    source = (project.solutions / step.id / "alternatives" / f"{name}.cpp").read_text("utf-8")
+    boxed = _program(kit, step, {**solved, step.id: source}, tmp_path / "boxed", together=False)
+    build = StudentBuild(kit.in_one_process(), LimitsOnly(), tmp_path / "one")
+    limits = limits_of(step, {})
+    compiled = build.compile(step, source.encode(), limits)
+    assert compiled.binary is not None
+    alone, _ = build.program("raytrace", step, {step.number: compiled.binary}, limits)
+    assert alone is not None
+    assert alone.home is None
+    seen = [_last_case(step, project, kit, program)[2] for program in (boxed, alone)]
+    assert seen[0].pixels is not None, seen[0].ran.outcome.stderr
+    assert seen[1].pixels is not None
+    assert (seen[0].pixels == seen[1].pixels).all()
+    assert seen[0].work == seen[1].work
+
+
 def test_a_box_that_ends_is_what_became_of_the_step(
     kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path
 ) -> None:
     step = kit.steps[0]
     begins = "Ray primary_ray("
-    endings = {"std::abort();": -6, "std::exit(0);": 0, "for (volatile int i = 0;;) { i = 1; }": -9}
+    endings = {"std::abort();": -6, "std::exit(0);": 0, "for (volatile int i = 0;;) { i = 1; }": -9, "throw 1;": 2}
     for number, (statement, code) in enumerate(endings.items()):
         source = "#include <cstdlib>\n" + solved[step.id]
         at = source.index("{", source.index(begins)) + 1

@@ -86,7 +86,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
     result.outcome = "ok" if result.passed else "wrong"
     if rendered.pixels.shape == reference.shape:
         # In a students' kit there is nothing that a picture could carry out.
-        mine = shown(rendered.pixels, result.wrong_share) if gallery.kit.has_reference else rendered.pixels
+        mine = shown(rendered.pixels, reference, result.wrong_share) if gallery.kit.has_reference else rendered.pixels
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(mine, gallery.out / result.mine)
         result.difference = (folder / f"{case.name}-difference.png").as_posix()

@@ -102,11 +102,13 @@ _GROSS = 0.5  # of the pixels
 _LEVELS = 32  # of a channel
 
 
-def shown(mine: Pixels, wrong_share: float) -> Pixels:
-    """The picture that a report shows of a student's. One that is grossly wrong keeps a pixel of four and 32 levels of
-    each channel: enough to see what it is, and too little to carry data out of a sandbox."""
+def shown(mine: Pixels, reference: Pixels, wrong_share: float) -> Pixels:
+    """The picture that a report shows of a student's: what is right looks as in the reference's. One that is grossly
+    wrong keeps a pixel of four and 32 levels of each channel: enough to see what it is, and too little to carry data
+    out of a sandbox."""
     if wrong_share <= _GROSS:
-        return mine
+        wrong = gaps(mine, reference) > TOLERANCE
+        return np.where(wrong[..., np.newaxis], mine, reference)
     height, width, _ = mine.shape
     step = 256 // _LEVELS
     coarse: Pixels = mine[::2, ::2] // step * step + step // 2

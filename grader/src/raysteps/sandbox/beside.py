@@ -10,7 +10,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -25,6 +25,7 @@ from raysteps.sandbox.task import Input, Limits, Output, Task, TaskResult, Word,
 WIRE_VARIABLE = "RAYSTEPS_BOX"  # names the two ends of the wire to the program beside the box
 _MEGABYTE = 1 << 20
 _MEMORY_MB = 4096  # of the trusted program, which holds what the box sends
+_FILE_MB = 256  # of a file that it writes, such as its replies
 _ERRORS_KB = 64
 
 
@@ -55,6 +56,8 @@ class Wire:
     def close(self) -> None:
         self._close(*self._open)
 
+
+_SIGNALS = range(129, 128 + signal.NSIG)  # as bubblewrap tells them
 
 # How a program beside a box ends, as framework/remote/wire.hpp says it.
 _CLOSED = 70
@@ -101,9 +104,12 @@ def _text(file: IO[bytes], most_kb: int) -> str:
 def _limit(process: "subprocess.Popen[bytes]", limits: Limits) -> None:
     """It is the kit's own, but works on what the box sends."""
     if sys.platform == "linux":
+        file_mb = max(limits.file_mb, _FILE_MB)
         with suppress(ProcessLookupError):
-            resource.prlimit(process.pid, resource.RLIMIT_AS, (_MEMORY_MB * _MEGABYTE,) * 2)
-            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limits.file_mb * _MEGABYTE,) * 2)
+            for what, most_mb in ((resource.RLIMIT_AS, _MEMORY_MB), (resource.RLIMIT_FSIZE, file_mb)):
+                _, hard = resource.prlimit(process.pid, what)
+                most = most_mb * _MEGABYTE
+                resource.prlimit(process.pid, what, (most if hard == resource.RLIM_INFINITY else min(most, hard),) * 2)
 
 
 def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, float, bool]:
@@ -120,20 +126,27 @@ def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, floa
     return process.returncode, used.ru_utime + used.ru_stime, timed_out
 
 
-def _run_outside(task: Task, pipes: tuple[int, int]) -> _Ended:
+# The words that put a fence around the trusted program, which may write to the folder.
+Fence = Callable[[Path], list[str]]
+
+
+def _run_outside(task: Task, pipes: tuple[int, int], fence: Fence | None) -> _Ended:
     """With its ends of the wire, which it alone holds from then on."""
     assert task.beside is not None
     limits = task.limits
     start = time.monotonic()
     with ExitStack() as stack:
+        mine = stack.enter_context(ExitStack())
+        for file in pipes:
+            mine.callback(os.close, file)
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-")))
         stdin, stdout, stderr = (stack.enter_context(tempfile.TemporaryFile()) for _ in range(3))
         stdin.write(task.beside.stdin)
         stdin.seek(0)
         try:
             process = subprocess.Popen(
-                _words(task.beside.command, folder),
-                env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]}", "LC_ALL": "C"},
+                [*(fence(folder) if fence is not None else ()), *_words(task.beside.command, folder)],
+                env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]},{task.beside.at_once}", "LC_ALL": "C"},
                 stdin=stdin,
                 stdout=stdout,
                 stderr=stderr,
@@ -143,12 +156,12 @@ def _run_outside(task: Task, pipes: tuple[int, int]) -> _Ended:
             )
         except OSError as error:
             raise GraderFault(f"{task.beside.command[0]}: cannot be started: {error}") from error
-        finally:
-            for file in pipes:
-                os.close(file)
+        mine.close()
         stack.callback(process.kill)
         _limit(process, limits)
         code, cpu_seconds, timed_out = _wait(process, limits.wall_seconds)
+        if fence is not None and code in _SIGNALS:
+            code = 128 - code
         outputs = {
             word.name: data
             for word in task.beside.command
@@ -174,21 +187,25 @@ def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
     if outside.code == _CLOSED or outside.timed_out:
         return TaskResult(outcome, outside.outputs, cpu_seconds, inside.stopped)
     said = shorten(printable(outside.stderr).strip(), 500)
+    if outside.code < 0:  # what it works on is the step's answers
+        words = f"what asks the step's functions was ended by {signal.Signals(-outside.code).name} at their answers"
+        ended = replace(outcome, code=outside.code, timed_out=False, stderr=f"{words}: {said}")
+        return TaskResult(ended, outside.outputs, cpu_seconds, inside.stopped)
     raise GraderFault(f"the program beside the box ended with {outside.code}: {said}")
 
 
 class Asking:
     """The program beside a task, which runs in a thread of its own from the beginning."""
 
-    def __init__(self, task: Task, pool: ThreadPoolExecutor) -> None:
+    def __init__(self, task: Task, pool: ThreadPoolExecutor, fence: Fence | None) -> None:
         to_box, from_home = os.pipe()
         to_home, from_box = os.pipe()
         self.wire = Wire(to_box, from_box)
-        self._ended = pool.submit(self._run, task, (to_home, from_home))
+        self._ended = pool.submit(self._run, task, (to_home, from_home), fence)
 
-    def _run(self, task: Task, pipes: tuple[int, int]) -> _Ended:
+    def _run(self, task: Task, pipes: tuple[int, int], fence: Fence | None) -> _Ended:
         try:
-            return _run_outside(task, pipes)
+            return _run_outside(task, pipes, fence)
         finally:
             self.wire.finish()
 
@@ -198,13 +215,13 @@ class Asking:
 
 
 @contextmanager
-def asking(task: Task) -> Iterator[Asking | None]:
+def asking(task: Task, fence: Fence | None = None) -> Iterator[Asking | None]:
     """None for a task that runs alone."""
     if task.beside is None:
         yield None
         return
     with ThreadPoolExecutor(max_workers=1) as pool:
-        asked = Asking(task, pool)
+        asked = Asking(task, pool, fence)
         try:
             yield asked
         finally:

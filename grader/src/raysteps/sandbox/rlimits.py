@@ -10,12 +10,13 @@ from raysteps.sandbox.task import Limits
 _MEGABYTE = 1 << 20
 _OPEN_FILES = 256
 _PER_THREAD_MB = 80  # addresses that a thread reserves and need not use: its stack and its part of the heap
+_FIBERS_MB = 1200  # stacks of the questions that a box works on at the same time
 
 
 def address_space(limits: Limits) -> int:
     """Generous, because it counts what is reserved and not what is used: it stops a burst, the watching stops the
     rest."""
-    return (limits.memory_mb + limits.processes * _PER_THREAD_MB) * _MEGABYTE
+    return (limits.memory_mb + limits.processes * _PER_THREAD_MB + _FIBERS_MB) * _MEGABYTE
 
 
 def processes_word(most: int) -> str:

@@ -1,5 +1,6 @@
 """The kit as it grades: framework, references and tests, built once and only read from then on."""
 
+import errno
 import json
 import shutil
 import tempfile
@@ -111,7 +112,9 @@ class ProgramLinker:
             with tempfile.TemporaryDirectory(prefix=".new-", dir=self._folder / "bin") as new:
                 link(self._description, parts, Path(new) / name)
                 return (Path(new) / name).rename(program)
-        except PermissionError:
+        except OSError as error:
+            if error.errno not in (errno.EACCES, errno.EPERM, errno.EROFS):
+                raise
             link(self._description, parts, folder / name)
             return folder / name
 

@@ -1,17 +1,11 @@
 #include "steps/07-tone-mapping/tone_mapping.hpp"
 
 @WIRE@
-static bool g_answered = false;
-
+// Another function in each process: the first that is refused ends the program.
 static bool guess() {
-    for (unsigned id = 30; id < 64; ++id) {
-        for (unsigned number = 0; number < 4; ++number) {
-            std::string words(1, static_cast<char>(id));
-            words += bytes_of(number) + bytes_of(number) + std::string(64, '\0');
-            send_to_all(message(1, 0, words));
-            g_answered = g_answered || anything_answers();
-        }
-    }
-    return g_answered;
+    const unsigned id = 33 + static_cast<unsigned>(getpid()) % 8;
+    const std::string words = bytes_of(1U) + bytes_of(1U) + std::string(64, '\0');
+    send_to_all(message(0, 0, std::string(1, static_cast<char>(id)) + words));
+    return anything_answers();
 }
 @RIGHT_IF(guess())@
