@@ -117,9 +117,9 @@ struct State {
         }
     }
     [[nodiscard]] bool knows(std::uint32_t index) const { return of_surface[index].round == leaf_round; }
-    void learn(std::uint32_t index, std::optional<HitRecord> hit) {
+    void learn(std::uint32_t index, const std::optional<HitRecord>& hit) {
         of_surface[index] = {leaf_round, static_cast<std::uint32_t>(answers.size())};
-        answers.push_back(std::move(hit));
+        answers.push_back(hit);
     }
     void forget_hits() {
         ++leaf_round;
@@ -266,10 +266,10 @@ std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
             rest.push_back(leaf_->indices[place]);
         }
         using Hits = std::vector<std::optional<HitRecord>>;
-        Hits hits = ask<Hits, GroupId, const std::vector<std::uint32_t>&, Ray, float>(
+        const Hits hits = ask<Hits, GroupId, const std::vector<std::uint32_t>&, Ray, float>(
             FunctionId::lent_surface_hits, leaf_->group, rest, ray, known.until);
         for (std::size_t place = 0; place < std::min(hits.size(), rest.size()); ++place) {
-            known.learn(rest[place], std::move(hits[place]));
+            known.learn(rest[place], hits[place]);
         }
     }
     return known.answers.at(known.of_surface[index].answer);

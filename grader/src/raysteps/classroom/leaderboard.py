@@ -186,7 +186,7 @@ _CAPTION = (
     "work: tests per ray, as a multiple of the reference's. A surface test and a box test weigh alike; over the "
     "pictures it is the geometric mean. Equal work: less memory comes first."
 )
-_COUNTED = "The counters come from the kit's framework inside the student's program. No points hang on a rank."
+_COUNTED = "What is tested is counted outside of the student's code where steps have boxes. No points hang on a rank."
 
 
 def _table(board: Board, width: int, *, anonymous: bool) -> Table:

@@ -30,10 +30,11 @@ class StepLimits:
     compile_memory_mb: int = COMPILE_MEMORY_MB
     processes: int = PROCESSES
     file_mb: int = FILE_MB
+    hung: bool = False
 
     def after_a_timeout(self) -> "StepLimits":
-        """A step that hung once may hang in all that follows, and others are waiting."""
-        return replace(self, seconds=min(self.seconds, max(1.0, self.seconds / 4)))
+        """A step that hung once may hang in all that follows, and others are waiting; how often does not matter."""
+        return self if self.hung else replace(self, seconds=min(self.seconds, max(1.0, self.seconds / 4)), hung=True)
 
     def of_tools(self) -> Limits:
         """For the compiler, the assembler and the linker."""
