@@ -1,5 +1,5 @@
 // The wire of a program that has stand-ins for steps. Who starts it opens the wire and names its two ends in
-// RAYSTEPS_BOX: `in,out`, numbers of open files, and behind another comma how many pixels may wait for the box at once.
+// RAYSTEPS_BOX: `in,out`, numbers of open files.
 #ifdef __linux__
 #include <sched.h>
 #endif
@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <system_error>
 
 #include "core/threads.hpp"
@@ -20,26 +19,18 @@ namespace {
 
 void farewell(int /*code*/, const char* why) { std::fprintf(stderr, "wire: %s\n", why); }
 
-struct Opened {
-    Wire::Pipes pipes{};
-    int at_once = 0;
-};
-
-std::optional<Opened> what_was_opened() {
+std::unique_ptr<Session> open_session() {
     const char* words = std::getenv("RAYSTEPS_BOX");
     if (words == nullptr) {
-        return std::nullopt;
+        return nullptr;
     }
-    Opened opened;
+    Wire::Pipes pipes{};
     const char* end = words + std::strlen(words);
-    for (int* number : {&opened.pipes.in, &opened.pipes.out, &opened.at_once}) {
-        const std::from_chars_result read = std::from_chars(words, end, *number);
-        if (read.ec != std::errc()) {
-            return std::nullopt;
-        }
-        words = read.ptr == end ? end : read.ptr + 1;
+    const std::from_chars_result in = std::from_chars(words, end, pipes.in);
+    if (in.ec != std::errc() || in.ptr == end || std::from_chars(in.ptr + 1, end, pipes.out).ec != std::errc()) {
+        return nullptr;
     }
-    return opened;
+    return std::make_unique<Session>(Session::End::home, pipes, farewell);
 }
 
 /// The two ends take turns: on one processor each finds the other's words in its cache, and nobody has to wake another
@@ -57,19 +48,16 @@ void share_a_processor() {
 #endif
 }
 
-int g_at_once = 1;
-
 /// Before main begins, and before any other thread is there.
 const std::unique_ptr<Session> g_home = [] {
-    const std::optional<Opened> opened = what_was_opened();
-    if (!opened) {
-        return std::unique_ptr<Session>();
+    std::unique_ptr<Session> session = open_session();
+    if (session != nullptr) {
+        set_work_runner([](int, const std::function<void()>& work) {
+            constexpr int k_most = 128;
+            Session::current().wire().run_together(k_most, work);
+        });
+        share_a_processor();
     }
-    auto session = std::make_unique<Session>(Session::End::home, opened->pipes, farewell);
-    g_at_once = opened->at_once;
-    set_work_runner(
-        [](int, const std::function<void()>& work) { Session::current().wire().run_together(g_at_once, work); });
-    share_a_processor();
     return session;
 }();
 

@@ -189,15 +189,25 @@ bool Wire::resume_one() {
     return true;
 }
 
+void Wire::exchange_thread_with(Conversation& talk) {
+    std::swap(thread_stats(), talk.stats);
+    for (std::size_t i = 0; i < thread_memory_.size(); ++i) {
+        if (talk.memory.size() == i) {
+            talk.memory.push_back(thread_memory_[i].fresh);
+        }
+        std::swap_ranges(talk.memory[i].begin(), talk.memory[i].end(), thread_memory_[i].bytes.begin());
+    }
+}
+
 void Wire::resume(std::size_t number) {
     Conversation& talk = conversation(number);
     if (talk.fiber->ended()) {
         end(k_broken, "an answer came that nobody asked for");
     }
     const std::size_t before = std::exchange(running_, number);
-    std::swap(thread_stats(), talk.stats);
+    exchange_thread_with(talk);
     talk.fiber->resume();
-    std::swap(thread_stats(), talk.stats);
+    exchange_thread_with(talk);
     running_ = before;
     if (end_ == End::home && talk.serves) {  // whoever goes on next is charged with it
         Stats& charged = together_ == 0 ? thread_stats() : by_visitors_;

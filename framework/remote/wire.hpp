@@ -10,9 +10,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/stats.hpp"
@@ -87,6 +89,13 @@ public:
     /// do. What leaves one of them is thrown again.
     void run_together(int most, const std::function<void()>& work);
 
+    /// What a thread has for itself: each conversation on a fiber gets one of its own, which begins as `fresh`.
+    struct ThreadMemory {
+        std::span<char> bytes;  ///< of the thread that fibers run on
+        std::string fresh;
+    };
+    void keep_apart(std::vector<ThreadMemory> memory) { thread_memory_ = std::move(memory); }
+
     /// The number of the current conversation.
     [[nodiscard]] std::size_t current();
 
@@ -101,6 +110,7 @@ private:
         std::optional<Message> received;  ///< one at most, for the ends take turns
         std::unique_ptr<Fiber> fiber;     ///< none in that of a thread itself
         Stats stats;                      ///< the fiber's, while it does not run
+        std::vector<std::string> memory;  ///< likewise
         int depth = 0;                    ///< questions that are being answered
         bool visitor = false;             ///< of a thread that a student has started
         bool waiting = false;             ///< for a message
@@ -116,6 +126,7 @@ private:
     void deliver(std::string_view batch);
     [[nodiscard]] bool may_begin(std::size_t number) const;
     void resume(std::size_t number);
+    void exchange_thread_with(Conversation& talk);
     bool resume_one();
     Conversation& conversation(std::size_t number);
     void write_all(std::string_view bytes);
@@ -129,6 +140,7 @@ private:
     std::deque<std::size_t> ready_;  ///< fibers that something came for, in that order
     std::uint64_t together_ = 0;
     std::uint64_t last_together_ = 0;
+    std::vector<ThreadMemory> thread_memory_;
     Stats by_visitors_;                                ///< tests of conversations that a box began
     std::size_t running_ = 0;                          ///< the conversation of the thread that fibers run on
     std::map<std::thread::id, std::size_t> visitors_;  ///< conversations of other threads

@@ -1,9 +1,15 @@
 // The box: answers what a program asks of the student's functions, and holds nothing else. The wire is its stdin and
 // stdout.
 #include <fcntl.h>
+#include <link.h>
 #include <unistd.h>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "remote/functions.hpp"
 #include "remote/session.hpp"
@@ -25,6 +31,29 @@ Wire::Pipes take_pipes() {
 
 [[maybe_unused]] const bool offered = offer_function<&run_on_processor>(FunctionId::run_on_processor);
 
+/// What the libraries of steps keep with `thread_local`. In a program a thread draws one pixel after the other; here
+/// many are on their way at once, and none may find another's values.
+std::vector<Wire::ThreadMemory> memory_of_steps() {
+    std::vector<Wire::ThreadMemory> found;
+    const auto look = [](dl_phdr_info* library, std::size_t /*size*/, void* result) {
+        constexpr std::size_t k_most = std::size_t{64} << 10U;  // more would take longer than what it is for
+        for (const ElfW(Phdr) & part : std::span(library->dlpi_phdr, library->dlpi_phnum)) {
+            const bool is_step = std::strstr(library->dlpi_name, "libstep-") != nullptr;
+            if (part.p_type != PT_TLS || !is_step || library->dlpi_tls_data == nullptr || part.p_memsz > k_most) {
+                continue;
+            }
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): where the loader has put it
+            std::string fresh(reinterpret_cast<const char*>(library->dlpi_addr + part.p_vaddr), part.p_filesz);
+            fresh.resize(part.p_memsz);
+            const std::span<char> bytes(static_cast<char*>(library->dlpi_tls_data), part.p_memsz);
+            static_cast<std::vector<Wire::ThreadMemory>*>(result)->push_back({bytes, std::move(fresh)});
+        }
+        return 0;
+    };
+    dl_iterate_phdr(look, &found);
+    return found;
+}
+
 void farewell(int code, const char* why) {
     if (code == Wire::k_closed) {  // the program has asked all that it wanted to know
         std::fflush(nullptr);
@@ -40,5 +69,6 @@ void farewell(int code, const char* why) {
 int main() {
     using namespace raysteps::remote;
     Session session(Session::End::box, take_pipes(), farewell);
+    session.wire().keep_apart(memory_of_steps());
     session.wire().serve();
 }

@@ -27,6 +27,7 @@ _MEGABYTE = 1 << 20
 _MEMORY_MB = 4096  # of the trusted program, which holds what the box sends
 _FILE_MB = 256  # of a file that it writes, such as its replies
 _ERRORS_KB = 64
+_DYING_SECONDS = 5.0
 
 
 class Wire:
@@ -112,12 +113,22 @@ def _limit(process: "subprocess.Popen[bytes]", limits: Limits) -> None:
                 resource.prlimit(process.pid, what, (most if hard == resource.RLIM_INFINITY else min(most, hard),) * 2)
 
 
+def _end_inside(pid: int) -> None:
+    """What a fence is around, so that the fence waits for it, and nobody else has to."""
+    with suppress(OSError):
+        inside = [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_bytes().split()]
+        for one in inside or [pid]:
+            os.kill(one, signal.SIGKILL)
+
+
 def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, float, bool]:
     """The exit code, the processor seconds, and whether it had to be ended."""
     handle = os.pidfd_open(process.pid)
     try:
         timed_out = not readable(handle, seconds)
         if timed_out:
+            _end_inside(process.pid)
+        if timed_out and not readable(handle, _DYING_SECONDS):
             signal.pidfd_send_signal(handle, signal.SIGKILL)  # process.kill() may wait for it, and take its times away
         _, status, used = os.wait4(process.pid, 0)
     finally:
@@ -146,7 +157,7 @@ def _run_outside(task: Task, pipes: tuple[int, int], fence: Fence | None) -> _En
         try:
             process = subprocess.Popen(
                 [*(fence(folder) if fence is not None else ()), *_words(task.beside.command, folder)],
-                env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]},{task.beside.at_once}", "LC_ALL": "C"},
+                env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]}", "LC_ALL": "C"},
                 stdin=stdin,
                 stdout=stdout,
                 stderr=stderr,

@@ -78,7 +78,6 @@ class Beside:
 
     command: tuple[Word, ...]
     stdin: bytes = b""
-    at_once: int = 128  # so many questions may be open at the same time
 
 
 @dataclass(frozen=True)

@@ -133,33 +133,19 @@ class Compiled:
     unreadable: bool = False  # an object that no compiler makes of what a student writes
 
 
-_MANY = 128  # pixels that wait for a box at the same time, all on one thread
-# What a step asks for that keeps something for its thread: of such a step one question is open at a time.
-_NOT_SHARED = frozenset(
-    {"__tls_get_addr", "__emutls_get_address", "pthread_mutex_lock", "pthread_mutex_trylock", "pthread_rwlock_wrlock"}
-    | {"pthread_rwlock_rdlock"}
-)
-
-
-def _remark(library: Path) -> Path:
-    """Is there, beside the library of such a step."""
-    return library.with_suffix(".not-shared")
-
-
 @dataclass(frozen=True)
 class Program:
     """A student's step and the program that needs it: one process, or where `home` is given two, of which the first
-    holds the student's code and is asked `at_once` so many questions."""
+    holds the student's code."""
 
     words: tuple[Word, ...]
     home: Path | None = None
-    at_once: int = _MANY
 
     def task(self, args: tuple[Word, ...], limits: Limits, stdin: bytes = b"") -> Task:
         """The program run with these arguments."""
         if self.home is None:
             return Task((*self.words, *args), limits, stdin=stdin)
-        return Task(self.words, limits, beside=Beside((Input(self.home), *args), stdin, self.at_once))
+        return Task(self.words, limits, beside=Beside((Input(self.home), *args), stdin))
 
 
 class StudentBuild:
@@ -209,10 +195,7 @@ class StudentBuild:
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
-        library = self._write(f"libraries/{library_name(step.number)}", data)
-        if symbols.wanted & _NOT_SHARED:
-            write_bytes(_remark(library), b"")
-        return Compiled(library, compiled)
+        return Compiled(self._write(f"libraries/{library_name(step.number)}", data), compiled)
 
     def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:
         """Linker names of an object as C++ writes them."""
@@ -259,8 +242,7 @@ class StudentBuild:
         box = boxes.box(numbers, self._folder)
         home = boxes.home(f"test-{numbers[-1]}" if kind == "test" else kind, numbers, self._folder)
         loader = self._loader(box.name, [binaries[number] for number in numbers])
-        at_once = 1 if any(_remark(binary).exists() for binary in binaries.values()) else _MANY
-        return Program((*loader, Input(box, "box")), home, at_once)
+        return Program((*loader, Input(box, "box")), home)
 
     def _loader(self, name: str, libraries: list[Path]) -> tuple[Word, ...]:
         """Starts a program with these libraries."""
