@@ -179,7 +179,8 @@ TEST_CASE("a program takes from a box only what it can be waiting for", "[remote
     CHECK(ending_with({{0, Kind::answer}}) == 0);
     CHECK(ending_with({}) == Wire::k_closed);
     CHECK(ending_with({{0, Kind::answer}, {0, Kind::answer}}) == Wire::k_broken);
-    for (const std::uint16_t conversation : std::vector<std::uint16_t>{1, 7, 128, 511, 1024, 65535}) {  // nobody has begun these
+    for (const std::uint16_t conversation :
+         std::vector<std::uint16_t>{1, 7, 128, 511, 1024, 65535}) {  // nobody has begun these
         CAPTURE(conversation);
         CHECK(ending_with({{conversation, Kind::question}}) == Wire::k_broken);
         CHECK(ending_with({{conversation, Kind::answer}}) == Wire::k_broken);

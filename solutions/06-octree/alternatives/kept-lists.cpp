@@ -1,5 +1,6 @@
-// The lists of boxes that wait are kept from search to search, one for each thread, so that nothing is allocated. Clipping
-// is done in double precision, and the tree splits until four surfaces are left, four levels below the root at most.
+// The lists of boxes that wait are kept from search to search, one for each thread, so that nothing is allocated.
+// Clipping is done in double precision, and the tree splits until four surfaces are left, four levels below the root at
+// most.
 #include "steps/06-octree/octree.hpp"
 
 #include <algorithm>
