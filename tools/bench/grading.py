@@ -26,7 +26,8 @@ from tools.bench.tables import terminal_table
 _SECONDS = 3600
 _CLASS_SIZE = 8
 _PLAIN = "plain"
-_PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "framework", "scenes", "solutions", "steps")
+_VERSION = "grader/src/raysteps/__init__.py"
+_PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "framework", "scenes", "solutions", "steps", _VERSION)
 
 
 def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) -> Cost:
@@ -49,6 +50,7 @@ def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
         root = Path(name)
         for part in _PARTS:
             source = project.root / part
+            (root / part).parent.mkdir(parents=True, exist_ok=True)
             (shutil.copytree if source.is_dir() else shutil.copyfile)(source, root / part)
         for step in steps:
             shutil.copyfile(submission / "steps" / step.path, root / "steps" / step.path)
