@@ -95,6 +95,14 @@ def random_pairs(project: Project, steps: Sequence[Step], amount: int, seed: int
 # What a true grade says about a file, and what it said.
 
 
+def missed(result: StepResult) -> list[str]:
+    """What cost points, each with its reason."""
+    found = [f"test {test.name}: {test.message}" for test in result.tests if not test.passed]
+    found += [f"picture {image.name}: {image.message}" for image in result.images if not image.passed]
+    found += [f"{item.kind} {item.name}: {item.message}" for item in result.hidden if not item.passed]
+    return found if result.cumulative.passed else [*found, f"together: {result.cumulative.message}"]
+
+
 @dataclass(frozen=True)
 class ObservedGrade:
     """One file with its result."""
@@ -129,10 +137,7 @@ class ObservedGrade:
     @property
     def lost(self) -> str:
         """What cost points."""
-        groups = (self.result.tests, self.result.images, self.result.hidden)
-        missed = [f"{item.name}: {item.message}" for items in groups for item in items if not item.passed]
-        together = self.result.cumulative
-        return "; ".join([*missed, *([] if together.passed else [f"together: {together.message}"])])[:1000]
+        return "; ".join(missed(self.result))[:1000]
 
     @property
     def problem(self) -> str:

@@ -18,7 +18,7 @@ from raysteps.common.process import run
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.build_kit import build_kit
-from tools.bench.model import Cost, GradingNumbers
+from tools.bench.model import Cost, GradingNumbers, mean_costs
 from tools.bench.programs import children_seconds
 from tools.bench.records import keep
 from tools.bench.tables import terminal_table
@@ -81,18 +81,13 @@ def _class_way(project: Project, submissions: Path, out: Path, *only: str) -> No
 def _table(costs: list[Cost]) -> Table:
     headings = ("way", "runs", "seconds", "CPU seconds", "CPU against plain")
     table = terminal_table("one complete submission", headings)
-    plain = _mean([cost.cpu_seconds for cost in costs if cost.way == _PLAIN])
-    for way in dict.fromkeys(cost.way for cost in costs):
-        rows = [cost for cost in costs if cost.way == way]
-        processor = _mean([cost.cpu_seconds for cost in rows])
-        seconds = _mean([cost.seconds for cost in rows])
-        label = way if way == _PLAIN else f"{way}, class of {rows[0].submissions}"
-        table.add_row(label, str(len(rows)), f"{seconds:.2f}", f"{processor:.2f}", f"1/{plain / processor:.1f}")
+    means = mean_costs(costs)
+    plain = next(mean.cpu_seconds for mean in means if mean.way == _PLAIN)
+    for mean in means:
+        label = mean.way if mean.way == _PLAIN else f"{mean.way}, class of {mean.submissions}"
+        against = f"1/{plain / mean.cpu_seconds:.1f}"
+        table.add_row(label, str(mean.runs), f"{mean.seconds:.2f}", f"{mean.cpu_seconds:.2f}", against)
     return table
-
-
-def _mean(values: list[float]) -> float:
-    return sum(values) / len(values)
 
 
 def grading(project: Project, rounds: int, console: Console) -> int:

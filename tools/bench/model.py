@@ -298,6 +298,27 @@ class Cost:
     cpu_seconds: Amount
 
 
+@dataclass(frozen=True)
+class MeanCost:
+    """Of all runs of one way."""
+
+    way: str
+    runs: int
+    submissions: int
+    seconds: float
+    cpu_seconds: float
+
+
+def mean_costs(costs: Sequence[Cost]) -> list[MeanCost]:
+    """Of each way, in the order in which they were measured."""
+    found = []
+    for way in dict.fromkeys(cost.way for cost in costs):
+        runs = [cost for cost in costs if cost.way == way]
+        seconds, processor = sum(one.seconds for one in runs), sum(one.cpu_seconds for one in runs)
+        found.append(MeanCost(way, len(runs), runs[0].submissions, seconds / len(runs), processor / len(runs)))
+    return found
+
+
 @dataclass(frozen=True, kw_only=True)
 class GradingNumbers:
     """A submission in a class, against the plain way."""

@@ -15,6 +15,7 @@ from tools.bench.model import (
     ScaleNumbers,
     SceneRays,
     ThreadsNumbers,
+    mean_costs,
 )
 from tools.bench.render import COMPARED, PEER, against_povray, all_against_embree, faster, median_of
 from tools.bench.tables import counted, markdown, median, megabytes, milliseconds, ratio, spread
@@ -159,10 +160,8 @@ def boxes_tables(document: BoxesNumbers) -> str:
 
 def grading_tables(document: GradingNumbers) -> str:
     """One line for each way, with the mean of its runs."""
-    rows = []
-    for way in dict.fromkeys(cost.way for cost in document.costs):
-        runs = [cost for cost in document.costs if cost.way == way]
-        seconds = sum(cost.seconds for cost in runs) / len(runs)
-        processor = sum(cost.cpu_seconds for cost in runs) / len(runs)
-        rows.append((way, str(len(runs)), str(runs[0].submissions), f"{seconds:.2f}", f"{processor:.2f}"))
+    rows = [
+        (mean.way, str(mean.runs), str(mean.submissions), f"{mean.seconds:.2f}", f"{mean.cpu_seconds:.2f}")
+        for mean in mean_costs(document.costs)
+    ]
     return markdown(("way", "runs", "submissions at a time", "seconds each", "CPU seconds each"), rows)

@@ -20,6 +20,7 @@ from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.calibration.measure import Setting, counted, own_setting
+from tools.grade_audit import missed
 from tools.test_submissions import Entrant, right_ones
 
 _SECONDS = 60.0  # without optimisation, and beside other work, a program takes longer
@@ -40,12 +41,9 @@ class Mark:
 
     def lost(self) -> str:
         """What cost points, in a line each."""
-        missed = [f"test {test.name}: {test.message}" for test in self.result.tests if not test.passed]
-        missed += [f"picture {image.name}: {image.message}" for image in self.result.images if not image.passed]
-        missed += [f"{item.kind} {item.name}: {item.message}" for item in self.result.hidden if not item.passed]
         head = f"{self.step.id}, {self.candidate.name}, {self.setting.name}: {self.result.status}"
         return "\n  ".join(
-            [f"{head}, {self.result.points:g} of {self.result.max:g}", *(missed or self.result.messages)]
+            [f"{head}, {self.result.points:g} of {self.result.max:g}", *(missed(self.result) or self.result.messages)]
         )
 
 
@@ -93,7 +91,7 @@ def marks(
         found = list(pool.map(one, work))
     console.print(_table(found, time.monotonic() - start))
     short = [one for one in found if not one.is_full]
-    for missed in short:
-        console.print(missed.lost(), markup=False, highlight=False)
+    for less in short:
+        console.print(less.lost(), markup=False, highlight=False)
     print(f"{len(found) - len(short)} of {len(found)} have full marks", flush=True)
     return 1 if short else 0

@@ -56,6 +56,13 @@ def test_it_uses_time_that_is_counted(any_sandbox: Sandbox) -> None:
     assert ran.cpu_seconds >= 0.5
 
 
+def test_its_memory_is_bounded(any_sandbox: Sandbox) -> None:
+    """From its first moment on, with a fence around it or not: it holds what a box sends."""
+    ran = _ask(any_sandbox, "import resource; print(*resource.getrlimit(resource.RLIMIT_AS))")
+    soft, hard = map(int, ran.outcome.stdout.split())
+    assert 0 < soft <= hard <= 4096 << 20
+
+
 @pytest.mark.parametrize("name", ["bubblewrap", "bubblewrap as root"])
 def test_bubblewrap_fences_it_in(tmp_path: Path, name: str) -> None:
     """Should a box ever lead it astray: no network, no other process, no file but its own."""

@@ -67,7 +67,7 @@ def test_the_same_picture_and_the_same_counts(
         assert rendered.work == reference_work(kit, scene, args), step.id
 
 
-@pytest.mark.parametrize(("at", "name"), [(5, "kept-lists"), (8, "leaves-backwards")])
+@pytest.mark.parametrize(("at", "name"), [(5, "explicit-stack"), (8, "median-split")])
 def test_what_an_honest_search_does_between_two_tests_is_its_own(
     kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path, *, at: int, name: str
 ) -> None:

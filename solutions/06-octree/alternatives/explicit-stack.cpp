@@ -1,6 +1,7 @@
 // The search keeps a heap of boxes instead of calling itself: always the one that the ray enters first, until the next
-// one begins behind the closest hit. Clipping is done in double precision, and the tree splits until four surfaces are
-// left, four levels below the root at most. Whether there is any hit is asked with a plain stack, in no order.
+// one begins behind the closest hit. Whether there is any hit is asked with a plain stack, in no order. Both lists are
+// kept from search to search, one for each thread, so that nothing is allocated. Clipping is done in double precision,
+// and the tree splits until four surfaces are left, four levels below the root at most.
 #include "steps/06-octree/octree.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <limits>
-#include <queue>
+#include <vector>
 
 namespace raysteps {
 namespace {
@@ -138,14 +139,16 @@ Node build_octree(const SurfaceList& surfaces) {
 }
 
 std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
-    std::priority_queue<Waiting, std::vector<Waiting>, LaterFirst> boxes;
+    thread_local std::vector<Waiting> boxes;
+    boxes.clear();
     if (const std::optional<Interval> part = root.box.hit(ray)) {
-        boxes.push({part->enter, &root});
+        boxes.push_back({part->enter, &root});
     }
     std::optional<HitRecord> closest;
     while (!boxes.empty()) {
-        const Waiting next = boxes.top();
-        boxes.pop();
+        std::pop_heap(boxes.begin(), boxes.end(), LaterFirst());
+        const Waiting next = boxes.back();
+        boxes.pop_back();
         if (closest && closest->distance < next.enter - 1e-4F * (1.0F + next.enter)) {
             break;
         }
@@ -157,7 +160,8 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
         }
         for (const Node& child : next.node->children) {
             if (const std::optional<Interval> part = child.box.hit(ray)) {
-                boxes.push({part->enter, &child});
+                boxes.push_back({part->enter, &child});
+                std::push_heap(boxes.begin(), boxes.end(), LaterFirst());
             }
         }
     }
@@ -165,7 +169,8 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
 }
 
 bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
-    std::vector<const Node*> boxes{&root};
+    thread_local std::vector<const Node*> boxes;
+    boxes.assign(1, &root);
     while (!boxes.empty()) {
         const Node& next = *boxes.back();
         boxes.pop_back();

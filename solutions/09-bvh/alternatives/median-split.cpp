@@ -1,5 +1,5 @@
 // Cuts the list in halves of equal size, along the axis in which the middles are spread most. The searches call
-// themselves, and distances of boxes are compared without any slack.
+// themselves, go through a leaf from its last surface to the first, and compare distances of boxes without any slack.
 #include "steps/09-bvh/bvh.hpp"
 
 #include <algorithm>
@@ -57,8 +57,8 @@ void search(const Bvh& bvh, std::size_t at, float enter, const Ray& ray, Best& b
         return;
     }
     const BvhNode& node = bvh.nodes[at];
-    for (std::size_t i = node.first; i < std::size_t{node.first} + node.count; ++i) {
-        const Surface& surface = *bvh.surfaces[i];
+    for (std::size_t left = node.count; left-- > 0;) {
+        const Surface& surface = *bvh.surfaces[node.first + left];
         const std::optional<HitRecord> hit = surface.hit(ray);
         if (hit && (!best.hit || hit->distance < best.hit->distance ||
                     (hit->distance == best.hit->distance && surface.order() < best.order))) {
@@ -90,8 +90,8 @@ bool any_below(const Bvh& bvh, std::size_t at, const Ray& ray, float distance) {
     if (!part || !(part->enter < distance)) {
         return false;
     }
-    for (std::size_t i = node.first; i < std::size_t{node.first} + node.count; ++i) {
-        const std::optional<HitRecord> hit = bvh.surfaces[i]->hit(ray);
+    for (std::size_t left = node.count; left-- > 0;) {
+        const std::optional<HitRecord> hit = bvh.surfaces[node.first + left]->hit(ray);
         if (hit && hit->distance < distance) {
             return true;
         }

@@ -4,9 +4,9 @@ latter: a student's code answers questions, and never says how it did."""
 import os
 import resource
 import select
+import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -58,8 +58,6 @@ class Wire:
         self._close(*self._open)
 
 
-_SIGNALS = range(129, 128 + signal.NSIG)  # as bubblewrap tells them
-
 # How a program beside a box ends, as framework/remote/wire.hpp says it.
 _CLOSED = 70
 _WHY_BROKEN = {
@@ -88,6 +86,14 @@ def readable(fd: int, seconds: float) -> bool:
     return bool(poll.poll(max(0.0, seconds) * 1000))
 
 
+_SIGNALS = range(129, 128 + signal.NSIG)
+
+
+def unwrapped(code: int) -> int:
+    """bubblewrap turns the signal that ended a command into an exit code above 128; this turns it back."""
+    return 128 - code if code in _SIGNALS else code
+
+
 def _words(command: tuple[Word, ...], folder: Path) -> list[str]:
     def path_of(word: Word) -> str:
         if isinstance(word, Input):
@@ -102,15 +108,16 @@ def _text(file: IO[bytes], most_kb: int) -> str:
     return file.read(most_kb * 1024).decode("utf-8", "replace")
 
 
-def _limit(process: "subprocess.Popen[bytes]", limits: Limits) -> None:
-    """It is the kit's own, but works on what the box sends."""
-    if sys.platform == "linux":
-        file_mb = max(limits.file_mb, _FILE_MB)
-        with suppress(ProcessLookupError):
-            for what, most_mb in ((resource.RLIMIT_AS, _MEMORY_MB), (resource.RLIMIT_FSIZE, file_mb)):
-                _, hard = resource.prlimit(process.pid, what)
-                most = most_mb * _MEGABYTE
-                resource.prlimit(process.pid, what, (most if hard == resource.RLIM_INFINITY else min(most, hard),) * 2)
+def _limits(limits: Limits) -> list[str]:
+    """It is the kit's own, but works on what the box sends. Words that go before it, so that they hold for whatever a
+    fence starts."""
+    words = [str(shutil.which("prlimit"))]
+    bounds = (("as", resource.RLIMIT_AS, _MEMORY_MB), ("fsize", resource.RLIMIT_FSIZE, max(limits.file_mb, _FILE_MB)))
+    for name, what, most_mb in bounds:
+        _, hard = resource.getrlimit(what)
+        most = most_mb * _MEGABYTE
+        words.append(f"--{name}={most if hard == resource.RLIM_INFINITY else min(most, hard)}")
+    return words
 
 
 def _end_inside(pid: int) -> None:
@@ -156,7 +163,7 @@ def _run_outside(task: Task, pipes: tuple[int, int], fence: Fence | None) -> _En
         stdin.seek(0)
         try:
             process = subprocess.Popen(
-                [*(fence(folder) if fence is not None else ()), *_words(task.beside.command, folder)],
+                [*_limits(limits), *(fence(folder) if fence is not None else ()), *_words(task.beside.command, folder)],
                 env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]}", "LC_ALL": "C"},
                 stdin=stdin,
                 stdout=stdout,
@@ -169,10 +176,8 @@ def _run_outside(task: Task, pipes: tuple[int, int], fence: Fence | None) -> _En
             raise GraderFault(f"{task.beside.command[0]}: cannot be started: {error}") from error
         mine.close()
         stack.callback(process.kill)
-        _limit(process, limits)
         code, cpu_seconds, timed_out = _wait(process, limits.wall_seconds)
-        if fence is not None and code in _SIGNALS:
-            code = 128 - code
+        code = code if fence is None else unwrapped(code)
         outputs = {
             word.name: data
             for word in task.beside.command

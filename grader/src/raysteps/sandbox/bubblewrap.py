@@ -13,7 +13,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.beside import asking, readable
+from raysteps.sandbox.beside import asking, readable, unwrapped
 from raysteps.sandbox.cgroups import Group, find_parents, new_group
 from raysteps.sandbox.lockdown import syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, reap, usage_of
@@ -79,7 +79,6 @@ class StartupPipes:
 # A bubblewrap that runs: what its processes use, how they end, and what that means for the task.
 
 _DYING_SECONDS = 5.0
-_SIGNALS = range(129, 128 + signal.NSIG)
 
 
 class Running:
@@ -112,12 +111,8 @@ class Running:
 
 
 def outcome(seen: MonitorReport, code: int | None) -> Outcome:
-    """bubblewrap turns the signal that ended a command into an exit code above 128; this turns it back. No code: the
-    command was killed."""
-    if seen.stopped or code is None:
-        code = -signal.SIGKILL
-    elif code in _SIGNALS:
-        code = 128 - code
+    """No code: the command was killed."""
+    code = -signal.SIGKILL if seen.stopped or code is None else unwrapped(code)
     return Outcome(
         code=code,
         timed_out=seen.stopped == "wall",

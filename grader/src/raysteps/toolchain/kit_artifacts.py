@@ -63,8 +63,7 @@ class ProgramLinker:
 
     def _home_parts(self, kind: str, own: Sequence[str]) -> list[str | Path]:
         parts = self._remote
-        objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
-        objects += [path for number, path in self._references().items() if number not in own]
+        objects = self._without(own, kind)
         objects += [self._part(parts.stand_ins[number]) for number in own]
         # Of a later step a box learns nothing, whatever it asks.
         objects += [
@@ -95,13 +94,15 @@ class ProgramLinker:
 
     def alone(self, name: str, kind: str, own: Sequence[str], folder: Path) -> Path:
         """The program of that name that loads the steps `own`; all others are the reference's."""
-        objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
-        objects += [path for number, path in self._references().items() if number not in own]
+        objects = self._without(own, kind)
         *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
         return self._linked(name, [*objects, *libraries, *self._loading(own, core)], folder)
 
-    def _references(self) -> dict[str, Path]:
-        return {path.stem: path for path in (self._folder / "parts" / "references").iterdir()}
+    def _without(self, own: Sequence[str], kind: str) -> list[str | Path]:
+        """The program's objects and all references but these steps'."""
+        objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
+        references = (self._folder / "parts" / "references").iterdir()
+        return objects + [path for path in references if path.stem not in own]
 
     def _linked(self, name: str, parts: list[str | Path], folder: Path) -> Path:
         """Under its name once it is whole: several may want it at the same time."""
