@@ -49,8 +49,8 @@ class Direct:
     isolation: Isolation = LimitsOnly.isolation
 
     def run(self, task: Task) -> TaskResult:
-        seconds = task.limits.wall_seconds
-        limits = replace(task.limits, wall_seconds=_PATIENCE * seconds, cpu_seconds=seconds)
+        given = task.limits
+        limits = replace(given, wall_seconds=max(given.wall_seconds, _PATIENCE * given.cpu_seconds))
         with ExitStack() as stack:
             asked = stack.enter_context(asking(replace(task, limits=limits)))
             wire = None if asked is None else asked.wire

@@ -28,7 +28,7 @@ from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.direct_grading import sandbox_of_the_kit
 from tools.selftest.stamps import machine_mark
-from tools.test_submissions import Entrant, alternatives, mutants, reference, stub
+from tools.test_submissions import Entrant, alternatives, half_done, mutants, reference, stub
 
 # Which files are handed in together. A mistake must cost its own step and no other, so every mistake is graded
 # between correct neighbours, and several mistakes at once.
@@ -68,7 +68,7 @@ def rounds_of(project: Project, steps: Sequence[Step]) -> list[Round]:
     right = tuple(reference(project, step) for step in steps)
     rounds = [Round(tuple(stub(project, step) for step in steps), every), Round(right, every)]
     columns = [
-        _turns(mutants(project, step), alternatives(project, step) or [own], at)
+        _turns([*mutants(project, step), *half_done(project, step)], alternatives(project, step) or [own], at)
         for at, (step, own) in enumerate(zip(steps, right, strict=True))
     ]
     for turn in zip(*columns, strict=True):
@@ -150,6 +150,10 @@ class ObservedGrade:
             return f"it does not build: {' '.join(result.messages)[:300]}"
         if self.entrant.is_right:
             return "" if result.status == "passed" else f"it is right and has {points}: {self.lost}"
+        band = self.entrant.band
+        if band is not None:
+            fair = band.low <= result.points <= band.high
+            return "" if fair else f"it has {points}, and {band.low:g} to {band.high:g} are fair: {band.why}"
         return "" if result.points < result.max else "nobody notices it: it has all points"
 
 
@@ -195,11 +199,14 @@ class Row:
     named: int
     alternatives: int
     full: int
+    half_done: int
+    fair: int
 
 
 def row_of(name: str, seen: Sequence[ObservedGrade]) -> Row:
     """Counts each file once, however often it was handed in."""
     wrong = {one.entrant.name: one for one in seen if one.entrant.kind == "mutant"}
+    half = {one.entrant.name: one for one in seen if one.entrant.kind == "half"}
     others = {one.entrant.name for one in seen if one.entrant.kind == "alternative"}
     less = {one.entrant.name for one in seen if one.entrant.kind == "alternative" and one.problem}
     return Row(
@@ -213,6 +220,8 @@ def row_of(name: str, seen: Sequence[ObservedGrade]) -> Row:
         sum(one.named for one in wrong.values()),
         len(others),
         len(others - less),
+        len(half),
+        sum(not one.problem for one in half.values()),
     )
 
 
@@ -226,11 +235,12 @@ def table_of(rows: Sequence[Row]) -> Table:
     """One row for each step, and their sum."""
     table = Table(title="Is a grade true?", title_justify="left")
     headings = ("step", "stub", "reference", "mistakes", "caught", "by tests", "by pictures", "named", "other ways")
-    for heading in (*headings, "full marks"):
+    for heading in (*headings, "full marks", "half-done", "fair"):
         table.add_column(heading, justify="left" if heading == "step" else "right")
     for row in [*rows, total(rows)]:
-        numbers = (row.mutants, row.caught, row.by_tests, row.by_pictures, row.named, row.alternatives, row.full)
-        table.add_row(escape(row.name), f"{row.stub:g}", f"{row.reference:g}", *map(str, numbers))
+        mistakes = (row.mutants, row.caught, row.by_tests, row.by_pictures, row.named)
+        others = (row.alternatives, row.full, row.half_done, row.fair)
+        table.add_row(escape(row.name), f"{row.stub:g}", f"{row.reference:g}", *map(str, (*mistakes, *others)))
     return table
 
 

@@ -3,27 +3,40 @@
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
+from msgspec import Meta
+
+from raysteps.common.documents import Text, parse_table, read_text
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
 from raysteps.course.manifest import Step
-from raysteps.course.mutants import Mutant, read_alternatives, read_mutants, reference_source
+from raysteps.course.mutants import Mutant, read_alternatives, read_mutants, reference_source, replaced_once
 from raysteps.course.project import Project
-from raysteps.course.stubs import stub_for, without_markers
+from raysteps.course.stubs import make_stub, stub_for, without_markers
 
-Kind = Literal["stub", "reference", "mutant", "alternative"]
+Kind = Literal["stub", "reference", "mutant", "alternative", "half"]
+
+
+@dataclass(frozen=True)
+class Band:
+    """What a fair instructor gives, in points of the step."""
+
+    low: float
+    high: float
+    why: str
 
 
 @dataclass(frozen=True)
 class Entrant:
-    """One file for one step. A mutant is wrong, a stub is nothing, the others are right."""
+    """One file for one step. A mutant is wrong, a stub is nothing, half-done work has a band, the others are right."""
 
     kind: Kind
     step: str
     name: str
     source: str
     mutant: Mutant | None = None
+    band: Band | None = None
 
     @property
     def is_right(self) -> bool:
@@ -60,6 +73,53 @@ def alternatives(project: Project, step: Step) -> list[Entrant]:
     return [Entrant("alternative", step.id, one.name, one.source) for one in known]
 
 
+# Half-done work: solutions/NN-name/fairness.toml.
+
+
+@dataclass(frozen=True)
+class _Edit:
+    """`find` occurs once in the file."""
+
+    find: Text
+    replace: str
+
+
+@dataclass(frozen=True)
+class _HalfDone:
+    """The reference with functions that are stubs still, or with edits."""
+
+    id: Text
+    low: Annotated[float, Meta(ge=0)]
+    high: Annotated[float, Meta(gt=0)]
+    why: Text
+    stubs: tuple[str, ...] = ()
+    edits: tuple[_Edit, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Fairness:
+    half: Annotated[tuple[_HalfDone, ...], Meta(min_length=1)]
+
+
+def _half_done(path: Path, step: Step, solution: str, entry: _HalfDone) -> Entrant:
+    keep = [name for name in step.functions if name not in entry.stubs]
+    if not entry.low < entry.high <= step.points or len(keep) + len(entry.stubs) != len(step.functions):
+        raise GraderFault(f"{path}: {entry.id}: its band or its stubs do not fit the step")
+    source = make_stub(solution, step, keep)
+    for edit in entry.edits:
+        source = replaced_once(source, edit.find, edit.replace, f"{path}: {entry.id}")
+    return Entrant("half", step.id, entry.id, source, band=Band(entry.low, entry.high, entry.why))
+
+
+def half_done(project: Project, step: Step) -> list[Entrant]:
+    """Each with its band; none for a step without the file."""
+    path = project.solutions / step.id / "fairness.toml"
+    if not path.is_file():
+        return []
+    table = parse_table(read_text(path), path, "half-done work with its points", _Fairness)
+    return [_half_done(path, step, read_text(project.solutions / step.path), entry) for entry in table.half]
+
+
 # The two sample submissions, made from the solutions so that they never drift.
 
 
@@ -69,9 +129,7 @@ def _solved(project: Project, step: Step) -> str:
 
 def _with_mistake(source: str, mistake: dict[str, Any]) -> str:
     find = str(mistake["find"])
-    if source.count(find) != 1:
-        raise GraderFault(f"grader/samples/partial.toml: '{find}' must occur exactly once in {mistake['step']}")
-    return source.replace(find, str(mistake["replace"]))
+    return replaced_once(source, find, str(mistake["replace"]), f"grader/samples/partial.toml: '{find}'")
 
 
 def sample_files(project: Project, steps: list[Step]) -> dict[Path, str]:

@@ -7,10 +7,10 @@ namespace raysteps {
 struct HitRecord {
     glm::vec3 position{0.0F};
     Fill fill;
-    glm::vec3 normal{0.0F, 0.0F, 1.0F};          ///< unit length, turned to the side the ray came from
-    glm::vec3 ray_direction{0.0F, 0.0F, -1.0F};  ///< direction of the ray that arrived
-    float distance = 0.0F;                       ///< along the ray, > 0
-    bool front_face = true;                      ///< false: the ray met the surface's back, as when it leaves glass
+    glm::vec3 normal{0.0F};         ///< unit length, turned to the side the ray came from
+    glm::vec3 ray_direction{0.0F};  ///< direction of the ray that arrived; no ray has the one of a fresh record
+    float distance = 0.0F;          ///< along the ray, > 0
+    bool front_face = true;         ///< false: the ray met the surface's back, as when it leaves glass
 };
 
 }  // namespace raysteps

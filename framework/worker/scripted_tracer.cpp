@@ -1,5 +1,6 @@
 #include "worker/scripted_tracer.hpp"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "steps/02-intersection/intersection.hpp"
@@ -21,6 +22,13 @@ std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {
     hit.position = ray.origin + scripted.distance * ray.direction;
     hit.fill.color = scripted.local;  // what is mirrored keeps its hue, whatever the colour of the mirror
     hit.fill.ks = scripted.ks;
+    // Nothing else about the surface matters to what it mirrors, so all of it changes from hit to hit.
+    const float varied = scripted.distance - std::floor(scripted.distance);
+    hit.fill.kd = varied;
+    hit.fill.shine = 1.0F + 40.0F * varied;
+    hit.fill.transmittance = varied < 0.4F ? 0.0F : varied;
+    hit.fill.index_of_refraction = 1.0F + varied;
+    hit.front_face = number % 2 == 0;
     hit.normal = glm::dot(scripted.normal, ray.direction) <= 0.0F ? scripted.normal : -scripted.normal;
     hit.ray_direction = ray.direction;
     hit.distance = scripted.distance;

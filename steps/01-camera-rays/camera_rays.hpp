@@ -15,7 +15,7 @@ namespace raysteps {
 /// Precondition: from != at, up not parallel to the view, width and height >= 1.
 [[nodiscard]] ViewFrame view_frame(const Camera& camera);
 
-/// The ray from the camera's position through the centre of pixel (x, y); unit direction.
+/// The ray from the camera's position through the centre of pixel (x, y); unit direction. `frame` is the camera's own.
 /// x counts from 0 at the left to width - 1, y from 0 at the top to height - 1.
 [[nodiscard]] Ray primary_ray(const Camera& camera, const ViewFrame& frame, int x, int y);
 

@@ -27,20 +27,6 @@ ViewFrame straight_frame(float half_width, float half_height) {
     return {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, -1.0F}, half_width, half_height};
 }
 
-/// Any frame, not that of a camera: axes turned by mirroring them at two planes.
-ViewFrame random_frame(Random& random) {
-    const glm::vec3 first = random.unit_vector();
-    const glm::vec3 second = random.unit_vector();
-    const auto turned = [&](const glm::vec3& axis) { return glm::reflect(glm::reflect(axis, first), second); };
-    ViewFrame frame;
-    frame.right = turned({1.0F, 0.0F, 0.0F});
-    frame.up = turned({0.0F, 1.0F, 0.0F});
-    frame.forward = turned({0.0F, 0.0F, -1.0F});
-    frame.half_width = random.uniform(0.3F, 2.0F);
-    frame.half_height = random.uniform(0.3F, 2.0F);
-    return frame;
-}
-
 Camera random_camera(Random& random) {
     Camera camera;
     camera.from = random.point(10.0F);
@@ -53,6 +39,29 @@ Camera random_camera(Random& random) {
     camera.width = 1 + static_cast<int>(random.uniform(0.0F, 200.0F));
     camera.height = 1 + static_cast<int>(random.uniform(0.0F, 200.0F));
     return camera;
+}
+
+struct View {
+    Camera camera;
+    ViewFrame frame;
+};
+
+/// A camera that is made from its frame, and not the other way round: axes turned by mirroring them at two planes.
+View random_view(Random& random) {
+    const glm::vec3 first = random.unit_vector();
+    const glm::vec3 second = random.unit_vector();
+    const auto turned = [&](const glm::vec3& axis) { return glm::reflect(glm::reflect(axis, first), second); };
+    View view{random_camera(random), {}};
+    view.frame.right = turned({1.0F, 0.0F, 0.0F});
+    view.frame.up = turned({0.0F, 1.0F, 0.0F});
+    view.frame.forward = turned({0.0F, 0.0F, -1.0F});
+    view.camera.at = view.camera.from + random.uniform(0.5F, 20.0F) * view.frame.forward;
+    view.camera.up = random.uniform(0.2F, 5.0F) * view.frame.up;
+    view.camera.angle = random.uniform(0.0F, 1.0F) < 0.5F ? 60.0F : 90.0F;
+    view.frame.half_height = view.camera.angle < 75.0F ? 0.577350F : 1.0F;
+    const auto width = static_cast<float>(view.camera.width);
+    view.frame.half_width = width / static_cast<float>(view.camera.height) * view.frame.half_height;
+    return view;
 }
 
 }  // namespace
@@ -180,8 +189,7 @@ TEST_CASE("primary_ray: a pixel's point in the window for any camera", "[01-came
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
-        const Camera camera = random_camera(random);
-        const ViewFrame frame = random_frame(random);
+        const auto [camera, frame] = random_view(random);
         const int x = static_cast<int>(random.uniform(0.0F, static_cast<float>(camera.width)));
         const int y = static_cast<int>(random.uniform(0.0F, static_cast<float>(camera.height)));
         CAPTURE(camera.from, camera.at, camera.width, camera.height, x, y);

@@ -62,6 +62,27 @@ TEST_CASE("Triangle: seen from behind the normal turns towards the ray", "[02-in
     CHECK_FALSE(hit->front_face);
 }
 
+TEST_CASE("Triangle: the record says which ray met what and on which side", "[02-intersection][Triangle::intersect]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 20; ++i) {
+        const Color color{random.uniform(0.0F, 1.0F), random.uniform(0.0F, 1.0F), random.uniform(0.0F, 1.0F)};
+        const Triangle triangle({-4.0F, -4.0F, 0.0F}, {8.0F, -4.0F, 0.0F}, {-4.0F, 8.0F, 0.0F}, colored(color));
+        const glm::vec3 target{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), 0.0F};
+        const bool from_front = i % 2 == 0;
+        const glm::vec3 to_eye = random.unit_vector_above({0.0F, 0.0F, from_front ? 1.0F : -1.0F}, 0.3F);
+        const Ray ray{target + 5.0F * to_eye, -to_eye};
+        CAPTURE(ray);
+        const std::optional<HitRecord> hit = triangle.intersect(ray);
+        REQUIRE(hit.has_value());
+        INFO("the record keeps the direction of the ray, and the triangle's own fill");
+        REQUIRE_THAT(hit->ray_direction, IsNear(ray.direction));
+        REQUIRE_THAT(hit->fill.color, IsNear(color));
+        INFO("the triangle's front faces +z");
+        REQUIRE(hit->front_face == from_front);
+    }
+}
+
 TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection][Triangle::intersect]") {
     const Triangle triangle = corner_triangle();
     SECTION("0.01 inside each edge is a hit") {
@@ -106,6 +127,9 @@ TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection
     }
     SECTION("an origin on the triangle: distance 0 does not count") {
         CHECK_FALSE(triangle.intersect({{0.25F, 0.25F, 0.0F}, -down}).has_value());
+    }
+    SECTION("0.001 before it: near, and a hit all the same") {
+        CHECK(triangle.intersect({{0.2F, 0.2F, 0.001F}, down}).has_value());
     }
     SECTION("a ray beside the plane never meets it") {
         CHECK_FALSE(triangle.intersect({{-1.0F, 0.25F, 0.5F}, along}).has_value());
@@ -183,6 +207,25 @@ TEST_CASE("Sphere: from inside the far wall is hit", "[02-intersection][Sphere::
     CHECK_FALSE(hit->front_face);
 }
 
+TEST_CASE("Sphere: the record says which ray met what and on which side", "[02-intersection][Sphere::intersect]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 20; ++i) {
+        const Color color{random.uniform(0.0F, 1.0F), random.uniform(0.0F, 1.0F), random.uniform(0.0F, 1.0F)};
+        const Sphere sphere(random.point(5.0F), 2.0F, colored(color));
+        const bool inside = i % 2 == 0;
+        const Ray ray = random.ray_towards(sphere.bounds().center(), inside ? 0.5F : 7.0F);
+        CAPTURE(ray);
+        const std::optional<HitRecord> hit = sphere.intersect(ray);
+        REQUIRE(hit.has_value());
+        INFO("the record keeps the direction of the ray, and the sphere's own fill");
+        REQUIRE_THAT(hit->ray_direction, IsNear(ray.direction));
+        REQUIRE_THAT(hit->fill.color, IsNear(color));
+        INFO("the sphere's outer side is its front");
+        REQUIRE(hit->front_face == !inside);
+    }
+}
+
 TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::intersect]") {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 1.0F, Fill{});
     const glm::vec3 down{0.0F, 0.0F, -1.0F};
@@ -191,6 +234,11 @@ TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::interse
     }
     SECTION("the line passes the centre at 1.01: a miss") {
         CHECK_FALSE(sphere.intersect({{1.01F, 0.0F, 5.0F}, down}).has_value());
+    }
+    SECTION("0.001 before it: near, and a hit all the same") {
+        const std::optional<HitRecord> hit = sphere.intersect({{0.0F, 0.0F, 1.001F}, down});
+        REQUIRE(hit.has_value());
+        CHECK(hit->distance == about(0.001));
     }
     SECTION("the whole sphere lies behind the origin: a miss") {
         CHECK_FALSE(sphere.intersect({{0.0F, 0.0F, 5.0F}, -down}).has_value());

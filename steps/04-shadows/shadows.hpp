@@ -10,7 +10,8 @@ namespace raysteps {
 inline constexpr float k_shadow_threshold = 1e-3F;
 
 /// The ray from the hit towards the light; unit direction. It starts off the surface by the threshold,
-/// on the side that hit.normal points to; anywhere up to 0.01 from the hit will do.
+/// on the side that hit.normal points to; anywhere from 0.0001 to 0.01 from the hit will do. Aim at the light from
+/// there or from the hit: the two directions are nearly the same.
 [[nodiscard]] Ray shadow_ray(const HitRecord& hit, const Light& light);
 
 /// Whether nothing stands between the hit and the light. What is behind the light does not block it;

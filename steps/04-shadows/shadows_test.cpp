@@ -34,20 +34,44 @@ Sphere ball(const glm::vec3& center, float radius) { return {center, radius, Fil
 
 }  // namespace
 
-TEST_CASE("shadow_ray starts just off the surface and aims at the light", "[04-shadows][shadow_ray]") {
+TEST_CASE("shadow_ray: aims at the light", "[04-shadows][shadow_ray]") {
     const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
     const Light light{{4.0F, 2.0F, 4.0F}, k_white};
     const Ray ray = shadow_ray(hit, light);
     CAPTURE(ray);
-    INFO("the origin is off the surface, on the side of the normal, by no more than 0.01");
-    CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
-    CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
     CHECK_THAT(ray.direction, IsUnitLength());
     INFO("from (1, 2, 0) to (4, 2, 4) is 5 times (0.6, 0, 0.8)");
     CHECK_THAT(ray.direction, IsNear({0.6F, 0.0F, 0.8F}, 5e-3F));
 }
 
-TEST_CASE("shadow_ray for any hit and light", "[04-shadows][shadow_ray]") {
+TEST_CASE("shadow_ray: starts just off the surface", "[04-shadows][shadow_ray]") {
+    const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
+    const Ray ray = shadow_ray(hit, {{4.0F, 2.0F, 4.0F}, k_white});
+    CAPTURE(ray);
+    INFO("the origin is off the surface, on the side of the normal, by no more than 0.01");
+    CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+    CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+}
+
+TEST_CASE("shadow_ray: goes from the hit to the light for any of them", "[04-shadows][shadow_ray]") {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 200; ++i) {
+        const HitRecord hit = hit_at(random.point(3.0F), random.unit_vector());
+        const float distance = random.uniform(2.0F, 30.0F);
+        const Light light{hit.position + distance * random.unit_vector_above(hit.normal, 0.2F), k_white};
+        CAPTURE(hit.position, hit.normal, light.position);
+        const Ray ray = shadow_ray(hit, light);
+        CAPTURE(ray);
+        REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+        REQUIRE_THAT(ray.direction, IsUnitLength());
+        INFO("the ray must pass through the light");
+        const glm::vec3 reached = ray.origin + glm::distance(ray.origin, light.position) * ray.direction;
+        REQUIRE(glm::distance(reached, light.position) <= 1.5F * k_farthest_off);
+    }
+}
+
+TEST_CASE("shadow_ray: any hit and any light", "[04-shadows][shadow_ray]") {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {

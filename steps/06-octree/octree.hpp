@@ -32,7 +32,8 @@ namespace raysteps {
 /// A box without surfaces need not be split: for small scenes, a tree may have 5000 boxes in 500 levels.
 [[nodiscard]] Node build_octree(const SurfaceList& surfaces);
 
-/// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Ask a box with
+/// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Of several surfaces at the very same
+/// distance it is the first in the scene, the one with the smallest surface->order(). Ask a box with
 /// box.hit(ray) and a surface with surface->hit(ray): they count.
 [[nodiscard]] std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray);
 

@@ -54,6 +54,18 @@ void look_for(const Node& node, const Surface* surface, const glm::vec3& point, 
     }
 }
 
+/// Of all lists around the point; the lists of boxes above count, too.
+std::size_t listed_around(const Node& node, const glm::vec3& point) {
+    if (!node.box.contains(point)) {
+        return 0;
+    }
+    std::size_t listed = node.surfaces.size();
+    for (const Node& child : node.children) {
+        listed += listed_around(child, point);
+    }
+    return listed;
+}
+
 }  // namespace
 
 TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
@@ -141,6 +153,43 @@ TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small t
     }
 }
 
+TEST_CASE("closest_hit_in_octree: of several hits at one distance the first in the scene counts",
+          "[06-octree][build_octree][closest_hit_in_octree]") {
+    // A floor with a tile in it. The ray comes in low, through boxes that hold the floor and not the tile.
+    Scene scene;
+    for (int i = 0; i < 64; ++i) {
+        scene.add(sphere_at({static_cast<float>(i % 8) - 4.0F, static_cast<float>(i / 8) - 4.0F, -1.0F}, 0.3F));
+    }
+    Fill fill;
+    fill.kd = 0.25F;  // to tell the tile from the floor
+    scene.add(std::make_unique<Triangle>(glm::vec3{2.0F, 2.0F, 0.0F}, glm::vec3{3.0F, 2.0F, 0.0F},
+                                         glm::vec3{2.0F, 3.0F, 0.0F}, fill));
+    scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, 0.0F}, glm::vec3{24.0F, -8.0F, 0.0F},
+                                         glm::vec3{-8.0F, 24.0F, 0.0F}, Fill{}));
+    const Node root = build_octree(scene.surfaces());
+    const glm::vec3 direction = glm::normalize(glm::vec3{1.0F, 1.0F, -0.02F});
+    const std::optional<HitRecord> hit =
+        closest_hit_in_octree(root, {glm::vec3{2.25F, 2.25F, 0.0F} - 12.0F * direction, direction});
+    REQUIRE(hit.has_value());
+    INFO("the ray meets the tile and the floor at the same distance; the tile comes first in the scene");
+    CHECK(hit->fill.kd == 0.25F);
+}
+
+TEST_CASE("build_octree: the boxes sort the surfaces out", "[06-octree][build_octree]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 1000, 0);
+    const Node root = build_octree(scene.surfaces());
+    double listed = 0.0;
+    const int points = 200;
+    for (int i = 0; i < points; ++i) {
+        listed += static_cast<double>(listed_around(root, random.point(5.0F)));
+    }
+    INFO("how many of the 1000 spheres are in the lists of the boxes around a point, on average");
+    CHECK(listed / points < 400.0);
+    CHECK(listed > 0.0);
+}
+
 TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
           "[06-octree][build_octree][closest_hit_in_octree]") {
     Random random;
@@ -150,16 +199,20 @@ TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
     const int rays = 500;
     int hits = 0;
     const std::uint64_t before = thread_stats().surface_tests;
+    const std::uint64_t boxes_before = thread_stats().box_tests;
     for (int i = 0; i < rays; ++i) {
         hits += closest_hit_in_octree(root, random.ray_towards(random.point(5.0F), 20.0F)).has_value() ? 1 : 0;
     }
     const double tested = static_cast<double>(thread_stats().surface_tests - before);
+    const double boxes_tested = static_cast<double>(thread_stats().box_tests - boxes_before);
     INFO("many of the rays hit something");
     CHECK(hits > rays / 4);
     INFO("share of the 1000 spheres that a ray is tested against; the paper's 64 boxes reach 10 to 40 %");
     CHECK(tested / rays / 1000.0 < 0.5);
     INFO("ask a surface with surface->hit(ray) and a box with box.hit(ray), so that the tests are counted");
     CHECK(tested > 0.0);
+    INFO("box tests of a ray: that of the outermost box, and those of the boxes in it");
+    CHECK(boxes_tested / rays > 1.5);
 }
 
 TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",

@@ -33,8 +33,8 @@ inline constexpr int k_max_bvh_levels = 64;
 [[nodiscard]] Bvh build_bvh(const SurfaceList& surfaces);
 
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests: of two hits at the same distance the
-/// surface with the smaller order() counts, and what begins behind the nearest hit is not searched. Ask a box with
-/// box.hit(ray) and a surface with surface->hit(ray): they count.
+/// surface with the smaller order() counts, the nearer child is searched first, and what begins behind the nearest hit
+/// is not searched. Ask a box with box.hit(ray) and a surface with surface->hit(ray): they count.
 [[nodiscard]] std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray);
 
 /// Whether any surface of the tree is hit nearer than `distance`. Ends with the first such hit.

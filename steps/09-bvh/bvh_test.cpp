@@ -87,6 +87,24 @@ void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray)
     testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_bvh(bvh, ray));
 }
 
+Scene spheres_in_one_place() {
+    Scene scene;
+    for (int i = 0; i < 2000; ++i) {
+        scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
+    }
+    return scene;
+}
+
+Scene row_of_triangles() {
+    Scene scene;
+    for (int i = 0; i < 30; ++i) {
+        const auto x = static_cast<float>(i);
+        scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
+                                             glm::vec3{x, 1.0F, 0.0F}, Fill{}));
+    }
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("build_bvh: every surface is in one leaf, and every box holds what is below it", "[09-bvh][build_bvh]") {
@@ -100,15 +118,26 @@ TEST_CASE("build_bvh: every surface is in one leaf, and every box holds what is 
     }
 }
 
-TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
-    SECTION("2000 spheres in the same place: dividing must come to an end") {
-        Scene scene;
-        for (int i = 0; i < 2000; ++i) {
-            scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
+TEST_CASE("build_bvh: the boxes sort the surfaces out", "[09-bvh][build_bvh]") {
+    Random random;
+    INFO(random);
+    const Scene scene = mixed_scene(random, 1000, 0);
+    const Bvh bvh = build_bvh(scene.surfaces());
+    double listed = 0.0;
+    const int points = 200;
+    for (int i = 0; i < points; ++i) {
+        const glm::vec3 point = random.point(5.0F);
+        for (const BvhNode& node : bvh.nodes) {
+            listed += node.is_leaf() && node.box.contains(point) ? node.count : 0.0;
         }
-        check_tree(scene);
-        check_same_hit(build_bvh(scene.surfaces()), scene.surfaces(), {{1.2F, 0.9F, 9.0F}, k_down});
     }
+    INFO("how many of the 1000 spheres are in leaves around a point, on average; a good tree has a few");
+    CHECK(listed / points < 100.0);
+    CHECK(listed > 0.0);
+}
+
+TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh]") {
+    SECTION("2000 spheres in the same place: dividing must come to an end") { check_tree(spheres_in_one_place()); }
     SECTION("spheres within spheres: one middle for all") {
         Scene scene;
         for (int i = 1; i <= 60; ++i) {
@@ -128,22 +157,24 @@ TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh][close
             CHECK(inspection.leaves_with(surface) == 1);
         }
     }
+    SECTION("triangles that all lie in one plane: a flat box") { check_tree(row_of_triangles()); }
+    SECTION("no surfaces: no nodes") { CHECK(build_bvh({}).nodes.empty()); }
+}
+
+TEST_CASE("closest_hit_in_bvh: in scenes that cannot be divided", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
+    SECTION("2000 spheres in the same place") {
+        const Scene scene = spheres_in_one_place();
+        check_same_hit(build_bvh(scene.surfaces()), scene.surfaces(), {{1.2F, 0.9F, 9.0F}, k_down});
+    }
     SECTION("triangles that all lie in one plane: a flat box") {
-        Scene scene;
-        for (int i = 0; i < 30; ++i) {
-            const auto x = static_cast<float>(i);
-            scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
-                                                 glm::vec3{x, 1.0F, 0.0F}, Fill{}));
-        }
-        check_tree(scene);
+        const Scene scene = row_of_triangles();
         const Bvh bvh = build_bvh(scene.surfaces());
         for (int i = 0; i < 30; ++i) {
             check_same_hit(bvh, scene.surfaces(), {{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down});
         }
     }
-    SECTION("no surfaces: no nodes, and no hit") {
+    SECTION("no surfaces: no hit") {
         const Bvh bvh = build_bvh({});
-        CHECK(bvh.nodes.empty());
         CHECK_FALSE(closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
         CHECK_FALSE(occluded_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}, 10.0F));
     }

@@ -25,6 +25,17 @@ Scene hundred_sheets() {
     return scene;
 }
 
+/// Slanted, long, one a little above the other: the boxes of all of them overlap, and a ray from above meets them all.
+Scene hundred_slopes() {
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+        const float z = 0.02F * static_cast<float>(i * 37 % 100);
+        scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, z - 8.0F}, glm::vec3{24.0F, -8.0F, z + 8.0F},
+                                             glm::vec3{-8.0F, 24.0F, z + 8.0F}, Fill{}));
+    }
+    return scene;
+}
+
 void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray) {
     testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_bvh(bvh, ray));
 }
@@ -91,16 +102,20 @@ TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree", "[09-bvh]
     const int rays = 500;
     int hits = 0;
     const std::uint64_t before = thread_stats().surface_tests;
+    const std::uint64_t boxes_before = thread_stats().box_tests;
     for (int i = 0; i < rays; ++i) {
         hits += closest_hit_in_bvh(bvh, random.ray_towards(random.point(5.0F), 20.0F)).has_value() ? 1 : 0;
     }
     const double tested = static_cast<double>(thread_stats().surface_tests - before);
+    const double boxes_tested = static_cast<double>(thread_stats().box_tests - boxes_before);
     INFO("many of the rays hit something");
     CHECK(hits > rays / 4);
     INFO("share of the 1000 spheres that a ray is tested against; a good tree needs less than 1 %");
     CHECK(tested / rays / 1000.0 < 0.05);
     INFO("ask a surface with surface->hit(ray) and a box with box.hit(ray), so that the tests are counted");
     CHECK(tested > 0.0);
+    INFO("box tests of a ray: that of the outermost box, and those of the boxes in it");
+    CHECK(boxes_tested / rays > 1.5);
 }
 
 TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bvh][build_bvh][occluded_in_bvh]") {
@@ -147,4 +162,11 @@ TEST_CASE("occluded_in_bvh: ends with the first hit", "[09-bvh][build_bvh][occlu
     CHECK(occluded_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down}, 200.0F));
     INFO("sheets that were tested, though one was enough");
     CHECK(thread_stats().surface_tests - before < 50);
+
+    const Scene slopes = hundred_slopes();
+    const Bvh overlapping = build_bvh(slopes.surfaces());
+    const std::uint64_t before_slopes = thread_stats().surface_tests;
+    CHECK(occluded_in_bvh(overlapping, {{0.0F, 0.0F, 25.0F}, k_down}, 200.0F));
+    INFO("slopes that were tested, though one was enough: which of them is nearest is not asked");
+    CHECK(thread_stats().surface_tests - before_slopes < 50);
 }

@@ -10,7 +10,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import shorten
 from raysteps.course.manifest import Step
-from raysteps.course.mutants import reference_source
+from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.images.compare import Pixels, parse_ppm
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Output, Task, Word
@@ -46,9 +46,7 @@ def with_knobs(kit: BuiltKit, step: Step, changes: Mapping[str, str]) -> str:
     """The reference's source, with knob(0) and knob(1) in place of constants."""
     source = reference_source(kit.project, step)
     for old, new in changes.items():
-        if source.count(old) != 1:
-            raise GraderFault(f"figures: '{old}' must occur exactly once in solutions/{step.path.as_posix()}")
-        source = source.replace(old, new)
+        source = replaced_once(source, old, new, f"figures: '{old}' in solutions/{step.path.as_posix()}")
     return _READER + source
 
 

@@ -100,6 +100,9 @@ def test_a_handout_tells_how_its_step_is_graded(project: Project, step: Step) ->
         (step.weight_together, "for working with your own steps"),
     ):
         assert f"{100 * share:g} % {words}" in graded, words
+    weights = zip(step.functions, step.function_weights, strict=True)
+    worth = ", ".join(f"`{name}` {weight:g}" for name, weight in weights)
+    assert f"{worth}, of {sum(step.function_weights):g} parts" in graded
 
 
 @_EACH

@@ -119,7 +119,7 @@ def test_todo_lines_above_finished_code_cost_nothing(
     assert results.steps[3].messages[0].startswith("RAYSTEPS_TODO is still in: ")
 
 
-def test_brute_force_in_disguise_gets_at_most_half(
+def test_brute_force_in_disguise_earns_no_more_than_a_tree_that_nobody_searches(
     kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
 ) -> None:
     """An octree of one leaf makes the right picture, but spares the rays nothing."""
@@ -133,7 +133,7 @@ def test_brute_force_in_disguise_gets_at_most_half(
     source = '#pragma GCC diagnostic ignored "-Wunused-function"\n' + source
     result = _grade(kit, make_submission("leaf", {"06-octree": source}), tmp_path / "out").steps[5]
     assert result.status == "partial", result.messages
-    assert 0 < result.points <= result.max / 2
+    assert 0 < result.points <= 0.6 * result.max
     for image in result.images:
         assert not image.passed, image.name
         assert image.wrong_share is not None

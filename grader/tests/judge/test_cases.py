@@ -1,7 +1,6 @@
 """The hidden cases: repeatable, float32-exact, complete."""
 
 import struct
-from math import ceil
 from pathlib import Path
 
 import pytest
@@ -9,13 +8,13 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.hidden_tests import ORDINARY_SHARE, make_cases
+from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32, text
 
 pytestmark = pytest.mark.portable
 
-_SLIPS = 2  # of the ordinary cases may be wrong before the other kinds do not count
+_MANY = 20  # ordinary cases at least
 _FEW = 3  # kinds of cases at least, so that a share says something
 
 
@@ -40,7 +39,7 @@ def test_every_step_has_a_plan(project: Project, steps: list[Step]) -> None:
         for function in plan.functions:
             assert len(function.cases) >= _FEW, function.name
             ordinary = next(iter(function.cases.values()))
-            assert ordinary - ceil(ORDINARY_SHARE * ordinary) >= _SLIPS, function.name
+            assert ordinary >= _MANY, function.name
 
 
 def test_the_same_seed_makes_the_same_cases(project: Project, steps: list[Step]) -> None:
@@ -92,7 +91,7 @@ def test_a_students_kit_has_no_plan(tmp_path: Path, steps: list[Step]) -> None:
     [
         ("weight = 1", "weight = 0", "exclusiveMinimum|minimum|0"),
         ('"any ray" = 40', '"any rays" = 40', "any ray, simple numbers"),
-        ("[functions.point_at]", "[functions.point_to]", "list the functions"),
+        ("[functions.point_at.cases]", "[functions.point_to.cases]", "list the functions"),
         ('of = "few-pixels"', 'of = "many-pixels"', "a twin for each picture"),
         ("weight = 1", "weight = ", "not a plan"),
         ("weight = 1", "weight = 1\ncolour = 2", "colour"),
@@ -103,7 +102,6 @@ def test_a_bad_plan_is_the_kits_fault(
 ) -> None:
     good = (project.solutions / steps[0].id / "cases.toml").read_text(encoding="utf-8")
     assert old in good
-    bad = good.replace(old, new, 1).replace("[functions.point_at.cases]", new.replace("]", ".cases]"), 1)
-    bad = bad if "point_to" in new else good.replace(old, new, 1)
+    bad = good.replace(old, new, 1)
     with pytest.raises(GraderFault, match=said):
         read_plan(_with_plan(tmp_path, steps[0], bad), steps[0])

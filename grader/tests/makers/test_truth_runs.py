@@ -73,7 +73,7 @@ def test_a_folder_is_what_is_in_it(tmp_path: Path, remembered: Remembered) -> No
 
 
 def test_what_a_limit_stopped_is_run_again(tmp_path: Path, remembered: Remembered) -> None:
-    task = replace(_task(tmp_path, "echo begun; sleep 60"), limits=Limits(wall_seconds=0.5))
+    task = replace(_task(tmp_path, "echo begun; sleep 60"), limits=Limits(wall_seconds=0.5, cpu_seconds=0.05))
     for count in (1, 2):
         ran = remembered.run(task)
         assert (ran.stopped, ran.outcome.timed_out, ran.outcome.code) == ("wall", True, -signal.SIGKILL)

@@ -8,8 +8,10 @@ from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
 from raysteps.progress.check import check_steps
-from raysteps.report.terminal import print_details, print_files, print_table, progress
+from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command
+from raysteps.results.model import Results
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,10 +23,19 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     """Checks the steps in the repository and explains what is wrong."""
     chosen = choose(read_steps(project), arguments.steps)
     out = project.build / "check"
+    told = []
+
+    def tell(kit: BuiltKit, results: Results) -> None:
+        print_details(console, results, kit.steps, out, replay_command)
+        console.print()
+        print_table(console, results, visible_only=not project.has_reference)
+        told.append(results)
+
     with console.status("starting") as status:
-        checked = check_steps(project, chosen, progress(console, status))
-    print_details(console, checked.results, checked.kit.steps, out, replay_command)
-    console.print()
-    print_table(console, checked.results, visible_only=not project.has_reference)
+        checked = check_steps(project, chosen, progress(console, status), tell)
+    if told:
+        print_diagnoses(console, checked.results)
+    else:
+        tell(checked.kit, checked.results)
     print_files(console, out / "results.json", checked.page)
     return exit_code(checked.results)

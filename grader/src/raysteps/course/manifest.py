@@ -36,6 +36,7 @@ class Step:
     bonus: bool
     files: tuple[str, ...]
     functions: tuple[str, ...]
+    function_weights: tuple[float, ...]  # what each is worth beside the others
     hints: tuple[str, ...]
     weight_tests: float
     weight_images: float
@@ -55,6 +56,11 @@ class Step:
     @property
     def index(self) -> int:
         return int(self.number)
+
+    def share_of(self, function: str) -> float:
+        """Of what all functions are worth; 0 for a function that is none of them."""
+        weights = dict(zip(self.functions, self.function_weights, strict=True))
+        return weights.get(function, 0.0) / sum(self.function_weights)
 
     @property
     def is_about_a_tree(self) -> bool:
@@ -100,6 +106,7 @@ def read_step(path: Path) -> Step:
             bonus=bool(table.get("bonus", False)),
             files=tuple(table["files"]),
             functions=tuple(table["functions"]),
+            function_weights=tuple(float(weight) for weight in table["functions"].values()),
             hints=tuple(table.get("hints", [])),
             weight_tests=float(weights["tests"]),
             weight_images=float(weights["images"]),
@@ -114,12 +121,14 @@ def read_step(path: Path) -> Step:
             about=" ".join(str(table.get("about", "")).split()),
             left_out=bool(table.get("left_out", False)),
         )
-    except (OSError, KeyError, TypeError, ValueError) as error:
+    except (OSError, KeyError, TypeError, ValueError, AttributeError) as error:
         raise GraderFault(f"{path}: not a step manifest: {reason(error)}") from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
     if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
         raise GraderFault(f'{path}: CMake reads this, too; expected a line like `picture = "fog_picture"`')
+    if not all(weight > 0 for weight in step.function_weights):
+        raise GraderFault(f"{path}: [functions]: every function needs a weight above 0")
     weights_sum = step.weight_tests + step.weight_images + step.weight_hidden + step.weight_together
     if abs(weights_sum - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
         raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")

@@ -14,6 +14,14 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import without_markers
 
 
+def replaced_once(source: str, find: str, new: str, where: str) -> str:
+    """The source with one change; what is to be changed must stand there once."""
+    times = source.count(find)
+    if times != 1:
+        raise GraderFault(f"{where}: `find` occurs {times} times, expected once")
+    return source.replace(find, new)
+
+
 @dataclass(frozen=True)
 class Mutant:
     """One mistake that students make, as a small change of the reference.
@@ -41,10 +49,7 @@ class Mutant:
 
     def applied(self, reference: str) -> str:
         """The reference's source with the mistake in it."""
-        if reference.count(self.find) != 1:
-            times = reference.count(self.find)
-            raise GraderFault(f"{self.step}/mutants.toml: {self.id}: `find` occurs {times} times, expected once")
-        return reference.replace(self.find, self.replace)
+        return replaced_once(reference, self.find, self.replace, f"{self.step}/mutants.toml: {self.id}")
 
 
 def reference_source(project: Project, step: Step) -> str:

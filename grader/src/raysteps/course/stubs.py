@@ -1,6 +1,7 @@
 """Makes the stubs from the marked regions of solutions/."""
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -121,8 +122,9 @@ def solution_regions(solution: str) -> list[MarkedRegion]:
     return found
 
 
-def make_stub(solution: str, step: Step) -> str:
-    """The student's starting point: every named region becomes a TODO, unnamed regions vanish."""
+def make_stub(solution: str, step: Step, keep: Collection[str] = ()) -> str:
+    """The student's starting point: every named region becomes a TODO, unnamed regions vanish. `keep`: functions that
+    stay as they are in the solution, with all unnamed regions."""
     where = f"solutions/{step.path.as_posix()}"
     out: list[str] = []
     names: list[str] = []
@@ -137,9 +139,11 @@ def make_stub(solution: str, step: Step) -> str:
         elif _END.match(line):
             if region is None:
                 raise GraderFault(f"{where}: END SOLUTION without BEGIN SOLUTION")
-            out += _stub_lines(region, step, where)
+            kept = bool(keep) if region.name is None else region.name in keep
+            solved = [line for line in region.body if not _MARKER.match(line)]
+            out += solved if kept else _stub_lines(region, step, where)
             names += [region.name] if region.name else []
-            drop_blank = region.name is None and (not out or not out[-1].strip())
+            drop_blank = region.name is None and not kept and (not out or not out[-1].strip())
             region = None
         elif region is not None:
             region.body.append(line)

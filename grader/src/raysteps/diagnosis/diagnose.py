@@ -71,10 +71,13 @@ class Diagnostician:
         return found
 
     def _questions(self, result: StepResult, unfinished: Collection[str]) -> dict[str, Questions]:
-        """To the functions that the judge found wrong; to all where it found none."""
+        """To the functions that the judge found wrong; to all where it found none. A function may call those before it:
+        what comes after one that is a stub says nothing about itself."""
         if self.plan is None:
             return {}
         judged = [item for item in result.hidden if item.kind == "function"]
         hung = {item.name for item in judged if item.outcome == "timeout"}
         wrong = {item.name for item in judged if not item.passed} or {item.name for item in judged}
-        return questions_of(self.kit, self.step, self.plan, wrong - hung - set(unfinished))
+        names = self.step.functions
+        first_stub = min((names.index(name) for name in unfinished), default=len(names))
+        return questions_of(self.kit, self.step, self.plan, (wrong - hung) & set(names[:first_stub]))

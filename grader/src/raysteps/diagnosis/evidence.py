@@ -31,11 +31,12 @@ _LONGEST = 6000  # characters; of a longer answer its hash will do
 
 @dataclass(frozen=True)
 class ObservedAnswers:
-    """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked."""
+    """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked. `boxes`: of a tree."""
 
     line: str
     problem: str
     known: bool = True
+    boxes: int = 0
 
 
 Answers: TypeAlias = Mapping[
@@ -82,9 +83,18 @@ def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedA
     if not problem:
         return None
     long = len(reply.line) > _LONGEST
-    return ObservedAnswers(
-        "#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line, str(problem)
-    )
+    line = "#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line
+    return ObservedAnswers(line, str(problem), boxes=_boxes(function, reply.line))
+
+
+def _boxes(function: Function, line: str) -> int:
+    """How many a tree has; 0 for what is no tree."""
+    if function.answer not in (TREE, BVH):
+        return 0
+    try:
+        return len(function.answer.parse(line).nodes)
+    except (ProtocolError, ArithmeticError, ValueError):
+        return 0
 
 
 def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float) -> Answers:
@@ -201,6 +211,13 @@ def _fits(function: Function, case: Case, mistake: str, mine: str) -> bool:
         return False
 
 
+_TIMES = 2  # as many boxes: a tree of one leaf is not one of a hundred
+
+
+def _as_many(one: int, other: int) -> bool:
+    return max(one, other) <= _TIMES * min(one, other) + 1
+
+
 def answer_similarity(
     function: Function, case: Case, right: str, mistake: ObservedAnswers, mine: ObservedAnswers
 ) -> float:
@@ -210,8 +227,10 @@ def answer_similarity(
     same_problem = mistake.problem == mine.problem
     if not mistake.line or not mine.line:
         return 0.0  # one of them gave no answer
-    if function.answer in (TREE, BVH) or mistake.line.startswith("#") or mine.line.startswith("#"):
-        return 1.0 if same_problem else 0.0  # everybody divides space in another way
+    if function.answer in (TREE, BVH):  # everybody divides space in another way
+        return 1.0 if same_problem and _as_many(mistake.boxes, mine.boxes) else 0.0
+    if mistake.line.startswith("#") or mine.line.startswith("#"):
+        return 1.0 if same_problem else 0.0
     if mistake.line.startswith("threw") or mine.line.startswith("threw"):
         return 1.0 if same_problem else 0.0
     if _fits(function, case, mistake.line, mine.line):

@@ -11,7 +11,7 @@ from raysteps.diagnosis.evidence import Mask, Picture, differing
 from raysteps.diagnosis.pixel_regions import object_map, place_of, render_text, size_of, without_highlights
 from raysteps.diagnosis.transforms import BEFORE, Transformed, in_words, transformation_of
 from raysteps.images.compare import Pixels
-from raysteps.images.render import reference_picture
+from raysteps.images.render import at_step, reference_picture
 from raysteps.results.model import Diagnosis
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -46,16 +46,10 @@ class Terms:
         self._step = step
         self._picture = picture
         self._scene = kit.project.root / picture.case.scene
-        self._rest = self._without_step(picture.case.args)
-
-    @staticmethod
-    def _without_step(args: tuple[str, ...]) -> tuple[str, ...]:
-        at = args.index("--step") if "--step" in args else len(args)
-        return (*args[:at], *args[at + 2 :])
 
     def at_step(self, step: int) -> Pixels:
         """The same picture with what an earlier step can do."""
-        return reference_picture(self._kit, self._scene, ("--step", str(step), *self._rest))
+        return reference_picture(self._kit, self._scene, at_step(self._picture.case.args, step))
 
     def _between(self, step: int) -> Mask:
         return differing(self.at_step(step - 1), self.at_step(step))
@@ -82,11 +76,11 @@ class Terms:
         yield 3, _HIGHLIGHTS, self._highlights
 
     def found(self) -> list[Term]:
-        """Those that hold nearly all wrong pixels; what the step itself adds comes first."""
+        """What the step itself adds to the light, where that holds nearly all wrong pixels."""
         wrong = self._picture.wrong
         terms = []
-        for least, term, make in self._masks():
-            if self._step < least:
+        for step, term, make in self._masks():
+            if self._step != step:
                 continue
             mask = make()
             within = int((wrong & mask).sum())

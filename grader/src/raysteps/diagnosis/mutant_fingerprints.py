@@ -142,6 +142,15 @@ def _found(path: Path) -> Known | None:
         return None
 
 
+def _place(kit: BuiltKit, step: Step) -> Path:
+    return kit.folder / "mistakes" / f"{step.number}.npz"
+
+
+def are_learned(kit: BuiltKit, step: Step) -> bool:
+    """Whether nobody has to wait for the mistakes of the step."""
+    return _place(kit, step).is_file()
+
+
 def mutant_fingerprints(
     kit: BuiltKit,
     step: Step,
@@ -151,7 +160,7 @@ def mutant_fingerprints(
     sandbox: Sandbox | None = None,
 ) -> Known:
     """By the names of their forms. A mistake of the catalogue that does not build is the kit's fault."""
-    path = kit.folder / "mistakes" / f"{step.number}.npz"
+    path = _place(kit, step)
     known = _found(path)
     if known is None:
         with one_at_a_time(path.with_suffix(".lock")):

@@ -71,7 +71,7 @@ def _picture(image: ImageResult, weight: float) -> Item:
     text = _lines(("", image.message or seen), ("scene: ", image.scene))
     pictures = (("mine", image.mine), ("reference", image.reference), ("difference", image.difference))
     shown = tuple((kind, path) for kind, path in pictures if path)
-    return Item("picture", one_line(image.name), weight, float(image.passed), text, pictures=shown)
+    return Item("picture", one_line(image.name), weight, image.earned, text, pictures=shown)
 
 
 def _hidden(hidden: HiddenResult, weight: float) -> Item:
@@ -99,7 +99,7 @@ def items_of(result: StepResult, step: Step | None) -> list[Item]:
     weights = (1.0, 1.0, 1.0, 0.0)
     if step is not None:
         weights = (step.weight_tests, step.weight_images, step.weight_hidden, step.weight_together)
-    items = [_test(*pair) for pair in zip(tests, _each(weights[0], [1.0] * len(tests)), strict=True)]
+    items = [_test(*pair) for pair in zip(tests, _each(weights[0], [test.weight for test in tests]), strict=True)]
     items += [_picture(*pair) for pair in zip(images, _each(weights[1], [1.0] * len(images)), strict=True)]
     own = [float(item.weight) for item in hidden]
     items += [_hidden(*pair) for pair in zip(hidden, _each(weights[2], own), strict=True)]

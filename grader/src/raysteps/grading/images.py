@@ -6,8 +6,15 @@ from pathlib import Path
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
-from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, shown, write_png
-from raysteps.images.render import Rendered, describe_exit, reference_picture, reference_work, render
+from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, part_right, shown, write_png
+from raysteps.images.render import (
+    Rendered,
+    describe_exit,
+    error_for_nothing,
+    reference_picture,
+    reference_work,
+    render,
+)
 from raysteps.results.model import ImageResult, Integration, Termination
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program
@@ -59,6 +66,30 @@ def too_many_tests(share: float | None, most: float) -> str:
     )
 
 
+def part_of_a_picture(
+    kit: BuiltKit,
+    step: Step,
+    scene: Path,
+    args: tuple[str, ...],
+    max_share: float | None,
+    passed: bool,
+    rendered: Rendered,
+) -> float:
+    """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
+    pixels = 1.0
+    if not passed and rendered.pixels is not None:
+        reference = reference_picture(kit, scene, args)
+        pixels = part_right(rendered.pixels, reference, error_for_nothing(kit, step, scene, args))
+    return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
+
+
+def _part_spared(share: float | None, most: float | None) -> float:
+    """Of the tests that a picture has to spare; 0 where none was counted."""
+    if most is None:
+        return 1.0
+    return min(1.0, max(0.0, 1 - share) / (1 - most)) if share and most < 1 else 0.0
+
+
 def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
@@ -84,6 +115,8 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
         if result.passed and problem:
             result.passed, result.message = False, problem
     result.outcome = "ok" if result.passed else "wrong"
+    if not result.passed:
+        result.share = part_of_a_picture(gallery.kit, step, scene, case.args, case.max_share, verdict.passed, rendered)
     if rendered.pixels.shape == reference.shape:
         # In a students' kit there is nothing that a picture could carry out.
         mine = shown(rendered.pixels, reference, result.wrong_share) if gallery.kit.has_reference else rendered.pixels

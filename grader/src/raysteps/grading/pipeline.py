@@ -16,8 +16,16 @@ from raysteps.common.files import write_bytes
 from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
+from raysteps.diagnosis.mutant_fingerprints import are_learned
 from raysteps.grading.build_messages import link_message
-from raysteps.grading.images import ImageGrader, grade_integration, judge, too_many_tests, trouble
+from raysteps.grading.images import (
+    ImageGrader,
+    grade_integration,
+    judge,
+    part_of_a_picture,
+    too_many_tests,
+    trouble,
+)
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
 from raysteps.grading.withhold import withhold
@@ -40,7 +48,7 @@ from raysteps.toolchain.limits import StepLimits, limits_of, submission_seconds
 
 
 def _judge_scene(
-    gallery: ImageGrader, program: Program, scene: HiddenScene, folder: Path, not_spared: str
+    gallery: ImageGrader, program: Program, step: Step, scene: HiddenScene, folder: Path, not_spared: str
 ) -> HiddenResult:
     """A scene made for this seed. The file's name says nothing about what it is for. `not_spared`: why few tests earn
     nothing."""
@@ -58,7 +66,14 @@ def _judge_scene(
     if verdict.passed and scene.max_share is not None:
         problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
     result.wrong_share = round(verdict.wrong_share, 6)
-    result.message, result.share = problem, 0.0 if problem else 1.0
+    result.message, result.share = problem, 1.0
+    if problem:
+        spent = verdict.passed and problem == not_spared
+        result.share = (
+            0.0
+            if spent
+            else part_of_a_picture(gallery.kit, step, path, scene.args, scene.max_share, verdict.passed, rendered)
+        )
     result.outcome = "wrong" if problem else "ok"
     return result
 
@@ -76,6 +91,7 @@ class HiddenStepGrader(StepGrader):
         super().__init__(work, step, limits, compiled, judged=self._plan is not None)
         self._settings = settings
         self._ran = False
+        self._unexplained: Programs | None = None
         self.fault = ""  # of the grader, in this step
         if self._plan is not None:
             self.kinds = ("test", "raytrace", "worker")
@@ -94,7 +110,7 @@ class HiddenStepGrader(StepGrader):
             step, most = self.step, self._result.max
             what = reason_and_place(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
             self.fault = f"{step.id}: {shorten(printable(what), 300)}"
-            self._ran = False
+            self._ran, self._unexplained = False, None
             self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
 
     def grade(self) -> StepResult:
@@ -120,15 +136,23 @@ class HiddenStepGrader(StepGrader):
                 not_spared = unspared(result.images, result.hidden)
                 take_back(result.images, result.hidden)
                 for scene in hidden_scenes(kit.project, step, plan, seed):
-                    result.hidden.append(_judge_scene(gallery, programs["raytrace"], scene, folder, not_spared))
+                    result.hidden.append(_judge_scene(gallery, programs["raytrace"], step, scene, folder, not_spared))
             result.messages += sum_up(result)
             if not is_right(result):
-                self._explain(programs)
+                self._unexplained = programs
             self._ran = True
         return self._result
 
-    def _explain(self, programs: Programs) -> None:
+    @property
+    def has_to_learn(self) -> bool:
+        """Whether it takes a while to say why the step is wrong: the known mistakes must be learned before."""
+        return self._unexplained is not None and not are_learned(self._work.kit, self.step)
+
+    def explain(self) -> None:
         """In words why it is not right. Whatever a student's program says, it costs no grade."""
+        programs, self._unexplained = self._unexplained, None
+        if programs is None:
+            return
         worker = programs.get("worker")
         ask = ask_student(self._gallery.sandbox, worker, self._gallery.limits) if worker is not None else None
         doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
@@ -198,10 +222,12 @@ def grade_submission(
     say: Callable[[str], None] = lambda text: None,
     *,
     jobs: int = 1,
+    tell: Callable[[Results], None] = lambda results: None,
 ) -> Results:
     """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only; where it was the
     grader that failed in one, GraderFault says so when all is written. So many `jobs` are done at a time; that changes
-    a grade only where a step is near its time limit."""
+    a grade only where a step is near its time limit. `tell` gets the results before known mistakes have to be learned:
+    nobody waits for names."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
     counted = AccountingSandbox(sandbox, together)
@@ -218,10 +244,13 @@ def grade_submission(
             alone = list(pool.map(HiddenStepGrader.grade, graders))
             right = {result.id for result in alone if is_right(result)}
             steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
-    if counted.is_spent:
-        _tell_of_the_limit(steps, together)
-    timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
-    results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+            if counted.is_spent:
+                _tell_of_the_limit(steps, together)
+            timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+            results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+            if any(grader.has_to_learn for grader in graders):
+                tell(results)
+            list(pool.map(HiddenStepGrader.explain, graders))
     try:
         shown = results if settings.feedback == "full" else withhold(results, settings.feedback)
         write_results(shown, out)

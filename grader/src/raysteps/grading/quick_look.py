@@ -93,7 +93,7 @@ class QuickLook:
             return result
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
-        result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits)
+        result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
         if any(test.outcome == "timeout" for test in result.tests):
             gallery.hung()
         self.tell(result)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from raysteps.common.text import count
@@ -18,13 +19,17 @@ def max_points(step: Step, *, judged: bool) -> float:
     return round(step.points * share, 2)
 
 
-def _share(passed: Sequence[bool]) -> float:
-    return sum(passed) / len(passed) if passed else 0.0
-
-
-def _hidden_share(result: StepResult) -> float:
-    weight = sum(item.weight for item in result.hidden)
-    return sum(item.share * item.weight for item in result.hidden) / weight if weight else 0.0
+def test_weights(step: Step, tests: Mapping[str, Sequence[str]]) -> dict[str, float]:
+    """By name of the test: those of one function share what the function is worth. One that names no function counts
+    like the average of the others."""
+    amounts = Counter(function for functions in tests.values() for function in functions)
+    weights = {
+        name: sum(step.share_of(function) / amounts[function] for function in functions)
+        for name, functions in tests.items()
+    }
+    known = [weight for weight in weights.values() if weight]
+    average = sum(known) / len(known) if known else 1.0
+    return {name: round(weight or average, 6) for name, weight in weights.items()}
 
 
 def is_right(result: StepResult) -> bool:
@@ -33,21 +38,24 @@ def is_right(result: StepResult) -> bool:
     return bool(passed) and all(passed)
 
 
+_LEAST_LOSS = 0.01  # points: a step with a mistake never has all of them
+
+
 def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
-    """Visible tests and pictures by their share that passed, hidden items by what was earned of each, and whether the
-    step works together with the steps before it."""
-    tests, images = [test.passed for test in result.tests], [image.passed for image in result.images]
-    points = step.points * (step.weight_tests * _share(tests) + step.weight_images * _share(images))
-    points += step.points * step.weight_hidden * _hidden_share(result)
+    """Visible tests, pictures and hidden items by what was earned of each, and whether the step works together with the
+    steps before it."""
+    points = step.points * (step.weight_tests * result.share_of_tests + step.weight_images * result.share_of_images)
+    points += step.points * step.weight_hidden * result.share_of_hidden
     points += step.points * step.weight_together * result.cumulative.passed
     outcomes = {item.outcome for items in (result.tests, result.images, result.hidden) for item in items}
     if is_right(result) and result.cumulative.passed:
         return "passed", result.max
+    points = min(round(points, 2), round(result.max - _LEAST_LOSS, 2))
     if "crashed" in outcomes:
-        return "crashed", round(points, 2)
+        return "crashed", points
     if "timeout" in outcomes:
-        return "timeout", round(points, 2)
-    return ("partial" if points > 0 else "failed"), round(points, 2)
+        return "timeout", points
+    return ("partial" if points > 0 else "failed"), points
 
 
 def sum_up(result: StepResult) -> list[str]:

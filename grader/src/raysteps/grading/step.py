@@ -16,7 +16,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
-from raysteps.grading.scoring import max_points
+from raysteps.grading.scoring import max_points, test_weights
 from raysteps.grading.unit_tests import run_tests
 from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
@@ -207,8 +207,11 @@ class StepGrader:
         return program
 
     def _run_tests(self, program: Program) -> None:
-        names = self._work.kit.tests[self.step.id]
-        self._result.tests = run_tests(self._work.sandbox, program, names, self._limits)
+        tests = self._work.kit.tests[self.step.id]
+        self._result.tests = run_tests(self._work.sandbox, program, list(tests), self._limits)
+        weights = test_weights(self.step, tests)
+        for test in self._result.tests:
+            test.weight = weights[test.name]
         if any(test.outcome == "timeout" for test in self._result.tests):
             self._gallery.hung()
 

@@ -124,6 +124,37 @@ class Comparison:
     message: str
 
 
+_MOST = 0.9  # of a picture's points are for one that does not pass
+
+
+_WHOLLY_WRONG = 64  # of 255: a pixel that is farther off is no nearer to right than any other
+
+
+def error(mine: Pixels, reference: Pixels) -> float:
+    """How wrong the pixels are on average, from 0 to 1; two pictures of one size."""
+    gap = gaps(mine, reference)
+    return float(np.where(gap > TOLERANCE, np.minimum(gap, _WHOLLY_WRONG), 0).mean()) / _WHOLLY_WRONG
+
+
+def part_right(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
+    """What a picture that does not pass still earns: how much less wrong it is than one that nobody has to work for.
+    `for_nothing`: the error of that one."""
+    if mine.shape != reference.shape or is_flat(mine) or for_nothing <= 0:
+        return 0.0
+    return _MOST * max(0.0, 1 - error(mine, reference) / for_nothing)
+
+
+def error_without_work(reference: Pixels) -> float:
+    """Of the best picture of one colour, the most frequent one or the one in the middle, and of the outlines: black on
+    the most frequent colour."""
+    pixels = reference.reshape(-1, 3)
+    colors, amounts = np.unique(pixels, axis=0, return_counts=True)
+    most = np.broadcast_to(colors[amounts.argmax()], reference.shape)
+    middle = np.broadcast_to(np.median(pixels, axis=0).astype(np.uint8), reference.shape)
+    outlines = np.where((reference == most).all(axis=2, keepdims=True), reference, np.uint8(0))
+    return min(error(picture, reference) for picture in (most, middle, outlines))
+
+
 def _size(pixels: Pixels) -> str:
     return f"{pixels.shape[1]}x{pixels.shape[0]}"
 

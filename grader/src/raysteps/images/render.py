@@ -14,7 +14,16 @@ from raysteps.common.process import run
 from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project
-from raysteps.images.compare import PictureError, Pixels, parse_ppm, read_png, read_ppm, write_png
+from raysteps.images.compare import (
+    PictureError,
+    Pixels,
+    error,
+    error_without_work,
+    parse_ppm,
+    read_png,
+    read_ppm,
+    write_png,
+)
 from raysteps.results.model import Termination, Work
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, TaskResult, Word
 from raysteps.toolchain.compile import Program
@@ -31,14 +40,19 @@ def reference_image_path(project: Project, step: Step, case: ImageCase) -> Path:
 
 
 def write_reference_image(
-    project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None
+    project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None, for_nothing: float
 ) -> None:
-    """A picture without a word in it, and beside it what it was made of and what it cost."""
+    """A picture without a word in it, and beside it what it was made of, what it cost, and how wrong a picture is that
+    took no work."""
     path = reference_image_path(project, step, case)
     write_png(pixels, path)
     write_json(
         path.with_suffix(".json"),
-        {"scene": content_hash(scene.read_bytes()), "work": None if work is None else asdict(work)},
+        {
+            "scene": content_hash(scene.read_bytes()),
+            "work": None if work is None else asdict(work),
+            "for_nothing": for_nothing,
+        },
     )
 
 
@@ -82,6 +96,14 @@ def stored_reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> 
         return Work(**given.facts["work"])
     except (KeyError, TypeError) as error:
         raise UsageError(f"{given.path.with_suffix('.json')}: holds no counters; {_AGAIN}") from error
+
+
+def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> float:
+    given = _find(kit, scene, args)
+    try:
+        return float(given.facts["for_nothing"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise UsageError(f"{given.path.with_suffix('.json')}: holds no `for_nothing`; {_AGAIN}") from error
 
 
 _REFERENCE_SECONDS = 600
@@ -157,6 +179,28 @@ def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixe
         write_bytes(_stats_beside(path), told)
         write_bytes(path, picture.read_bytes())
     return pixels
+
+
+def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
+    """The arguments of the same picture with what another step can do."""
+    at = args.index("--step") if "--step" in args else len(args)
+    return (*args[:at], *args[at + 2 :], "--step", str(step))
+
+
+_FIRST_WITH_LIGHT = 3  # the pictures of the steps before show something else
+
+
+def error_for_nothing(kit: BuiltKit, step: Step, scene: Path, args: tuple[str, ...]) -> float:
+    """How wrong the best picture is that took no work in this step: one of a single colour, outlines, or what the steps
+    before it draw. A tree changes no picture."""
+    if not kit.has_reference:
+        return _stored_for_nothing(kit, scene, args)
+    reference = reference_picture(kit, scene, args)
+    simple = error_without_work(reference)
+    if step.index <= _FIRST_WITH_LIGHT or "--accel" in args or "--step" not in args:
+        return simple
+    before = reference_picture(kit, scene, at_step(args, step.index - 1))
+    return min(simple, error(before, reference))
 
 
 def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:

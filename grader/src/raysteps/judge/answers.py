@@ -27,20 +27,26 @@ class TooLarge(str):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What the judge thinks of one answer; `problem` is empty when it is right."""
+    """What the judge thinks of one answer; `problem` is empty when it is right. `credit`: how much of it is right,
+    from 0 to 1."""
 
     problem: str
     expected: str
     actual: str
+    credit: float = 0.0
+    constant: str = ""  # the right answer without what nobody answers by himself, to tell equal ones
 
 
 @dataclass(frozen=True)
 class Answer(Generic[T]):
-    """`problem` is given inputs, the reference's answer and the student's."""
+    """`problem` is given inputs, the reference's answer and the student's; `credit` the same of a wrong answer that has
+    parts: how many of them are right, from 0 to 1."""
 
     read: Callable[[TokenReader], T]
     words: Callable[[T], str]
     problem: Callable[[Inputs, T, T], str]
+    credit: Callable[[Inputs, T, T], float] = lambda _inputs, _expected, _actual: 0.0
+    constant: Callable[[T], str] | None = None  # `words` without what was counted
 
     def parse(self, line: str) -> T:
         tokens = TokenReader(line)
@@ -63,18 +69,24 @@ class Answer(Generic[T]):
     def verdict(self, name: str, inputs: Inputs, expected_line: str, actual_line: str) -> Verdict:
         """Compares; whatever the student's line holds, it is an answer, and perhaps a wrong one."""
         expected = self.reference(name, inputs, expected_line)
+        constant = (self.constant or self.words)(expected)
         if actual_line.startswith("threw"):
             said = printable(actual_line.removeprefix("threw").strip())
             return Verdict(
-                "an exception left the function", self.words(expected), f"an exception: {shorten(said, 200)}"
+                "an exception left the function",
+                self.words(expected),
+                f"an exception: {shorten(said, 200)}",
+                constant=constant,
             )
         try:
             actual = self.parse(actual_line)
-            return Verdict(self.problem(inputs, expected, actual), self.words(expected), self.words(actual))
+            problem = self.problem(inputs, expected, actual)
+            credit = self.credit(inputs, expected, actual) if problem else 1.0
+            return Verdict(problem, self.words(expected), self.words(actual), credit, constant)
         except GraderFault:
             raise
         except Exception as error:  # the reference's answer was read just so: this is about the student's
-            return Verdict("no proper answer came", self.words(expected), shorten(str(error), 200))
+            return Verdict("no proper answer came", self.words(expected), shorten(str(error), 200), constant=constant)
 
 
 def read_vector(tokens: TokenReader) -> Vector:
@@ -112,6 +124,11 @@ def words_of_number(number: float | int) -> str:
 def first(*problems: str) -> str:
     """The first thing that is wrong, or nothing."""
     return next((problem for problem in problems if problem), "")
+
+
+def share_right(*problems: str) -> float:
+    """How many of the parts have no problem."""
+    return problems.count("") / len(problems)
 
 
 # Compares numbers. Each check gives a few words about what is wrong, or nothing; the words hold no numbers, so that

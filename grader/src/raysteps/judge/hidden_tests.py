@@ -1,5 +1,6 @@
 """Asks the functions of a step, compares with the reference, and says what is wrong."""
 
+from collections import Counter
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -15,7 +16,14 @@ from raysteps.judge.spared_work import spares_nothing
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
 from raysteps.results.model import CaseGroup, HiddenResult, Termination
 
-ORDINARY_SHARE = 0.9  # of the first kind of cases must be right, or the function earns nothing
+# How a function's share comes about.
+
+_ORDINARY = 0.5  # of a function's points are for the first kind of cases, which are ordinary
+_SOME = 0.25  # of the ordinary cases: below, the other kinds count less and less
+_NEARLY = 0.98  # a function with a kind that is wrong earns no more
+_SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
+_MAY_MISS = 0.01  # of the cases of a kind, by rounding
+_DIGITS = 6  # of a share
 _REFERENCE_SECONDS = 600
 
 
@@ -45,16 +53,42 @@ def reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
 
 
 def _group(name: str, judged: Sequence[JudgedCase]) -> CaseGroup:
-    right = sum(not one.verdict.problem for one in judged)
-    return CaseGroup(name, len(judged), right)
+    """Cases that were not asked any more count like those that were."""
+    group = CaseGroup(name, len(judged), sum(not one.verdict.problem for one in judged))
+    asked = [one.verdict.credit for one in judged if one.asked]
+    if _is_right(group):
+        group.share = 1.0
+    elif asked:
+        group.share = round(sum(asked) / len(asked), _DIGITS)
+    return group
 
 
 def _groups(plan: FunctionPlan, judged: Sequence[JudgedCase]) -> list[CaseGroup]:
     return [_group(name, [one for one in judged if one.case.group == name]) for name in plan.cases]
 
 
-def _is_right(group: CaseGroup, may_miss: float) -> bool:
-    return group.cases - group.right <= may_miss * group.cases
+def _is_right(group: CaseGroup) -> bool:
+    return group.cases - group.right <= _MAY_MISS * group.cases
+
+
+def for_nothing(judged: Sequence[JudgedCase]) -> float:
+    """The share of cases that whoever always gives the same answer has right."""
+    answers = Counter(one.verdict.constant for one in judged)
+    most = max(answers.values(), default=0)
+    return round(most / len(judged), _DIGITS) if most > 1 else 0.0
+
+
+def share_of(plan: FunctionPlan, groups: Sequence[CaseGroup], judged: Sequence[JudgedCase]) -> float:
+    """Half of it is for ordinary cases, beyond what one answer to all of them gives, and half for the other kinds by
+    their weights; these count in full only where most ordinary cases are right."""
+    ordinary, *others = groups
+    free = for_nothing([one for one in judged if one.case.group == ordinary.name])
+    usual = max(0.0, (ordinary.share - free) / (1 - free)) if free < 1 else ordinary.share
+    weight = sum(plan.kind_weights[group.name] for group in others)
+    if not weight:
+        return usual
+    rest = sum(group.share * plan.kind_weights[group.name] for group in others) / weight
+    return _ORDINARY * usual + (1 - _ORDINARY) * rest * min(1.0, usual / _SOME)
 
 
 def _first_wrong(judged: Sequence[JudgedCase], wrong: Sequence[CaseGroup]) -> JudgedCase | None:
@@ -66,17 +100,11 @@ def _first_wrong(judged: Sequence[JudgedCase], wrong: Sequence[CaseGroup]) -> Ju
     return None
 
 
-def _message(
-    name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase, share: float
-) -> str:
+def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase) -> str:
     right = len(groups) - len(wrong)
     kinds = "; ".join(f"{group.name} ({group.right} of {group.cases} right)" for group in wrong)
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
-    text += f"wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}."
-    if share == 0 and right:
-        least = f"at least {ORDINARY_SHARE * 100:.0f} % of '{groups[0].name}'"
-        text += f" Until {least} are right, the other kinds do not count."
-    return text
+    return f"{text}wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}."
 
 
 def _outcome(judged: Sequence[JudgedCase]) -> Termination:
@@ -89,14 +117,15 @@ def _result(
     step: Step, plan: FunctionPlan, judged: Sequence[JudgedCase], seed: int, examples: Examples | None
 ) -> HiddenResult:
     groups = _groups(plan, judged)
-    wrong = [group for group in groups if not _is_right(group, plan.may_miss)]
-    ordinary = groups[0].right >= ORDINARY_SHARE * groups[0].cases
-    share = (len(groups) - len(wrong)) / len(groups) if ordinary else 0.0
-    result = HiddenResult(plan.name, "function", round(share, 6), plan.weight, groups=groups)
+    wrong = [group for group in groups if not _is_right(group)]
+    share = min(share_of(plan, groups, judged), _NEARLY) if wrong else 1.0
+    result = HiddenResult(plan.name, "function", round(share, _DIGITS), plan.weight, groups=groups)
     result.spares_nothing = spares_nothing(functions_of(step.number)[plan.name], judged)
+    if result.spares_nothing:
+        result.share = min(result.share, _SPARES_NOTHING)
     found = _first_wrong(judged, wrong)
     if found is not None:
-        result.message = shorten(_message(plan.name, groups, wrong, found, share), LONGEST)
+        result.message = shorten(_message(plan.name, groups, wrong, found), LONGEST)
         if examples is not None:
             place = [one.case for one in judged if one.case.group == found.case.group].index(found.case)
             found, result.case = examples.smallest(step, found, place, seed)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from raysteps.common.vectors import Vector, add, length, minus, times
+from raysteps.common.vectors import Vector, add, dot, length, minus, times
 from raysteps.judge.answers import (
     LENGTHS,
     SMALL,
@@ -14,12 +14,14 @@ from raysteps.judge.answers import (
     off_surface,
     read_ray,
     real,
+    share_right,
     unit_length,
     vector,
     words_of_ray,
 )
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, ProtocolError, Ray, TokenReader
 
+_ALONG = 1e-6  # cosine of a ray that runs along the surface where it meets it
 _LISTED = 256  # surface i of a list has red i / 256
 
 
@@ -58,17 +60,33 @@ def _fill(expected: Fill, actual: Fill) -> str:
     return first(channels("the fill's colour", expected.color, actual.color, SMALL), *wrong)
 
 
-def record_problem(expected: Hit, actual: Hit) -> str:
-    """All that a record holds."""
+def _record_problems(expected: Hit, actual: Hit) -> tuple[str, ...]:
+    """Of all that a record holds, the distance first."""
     sides = "" if expected.front_face == actual.front_face else "front_face is wrong"
-    return first(
+    normal = direction("the normal", expected.normal, actual.normal)
+    if abs(dot(expected.normal, expected.ray_direction)) < _ALONG:  # the ray comes from neither side
+        sides, normal = "", normal and direction("the normal", times(-1.0, expected.normal), actual.normal)
+    return (
         real("the distance", expected.distance, actual.distance, LENGTHS),
         vector("the position", expected.position, actual.position, LENGTHS),
-        direction("the normal", expected.normal, actual.normal),
+        normal,
         sides,
         vector("ray_direction", expected.ray_direction, actual.ray_direction),
         "the fill is wrong" if _fill(expected.fill, actual.fill) else "",
     )
+
+
+def record_problem(expected: Hit, actual: Hit) -> str:
+    """The first thing in a record that is wrong."""
+    return first(*_record_problems(expected, actual))
+
+
+def _record_credit(_inputs: Inputs, expected: MaybeHit, actual: MaybeHit) -> float:
+    """At another distance another point was found."""
+    if expected.hit is None or actual.hit is None:
+        return 0.0
+    distance, *others = _record_problems(expected.hit, actual.hit)
+    return 0.0 if distance else share_right(*others)
 
 
 def _problem(_inputs: Inputs, expected: MaybeHit, actual: MaybeHit) -> str:
@@ -77,7 +95,7 @@ def _problem(_inputs: Inputs, expected: MaybeHit, actual: MaybeHit) -> str:
     return record_problem(expected.hit, actual.hit)
 
 
-HIT = Answer(read_hit, hit_words, _problem)
+HIT = Answer(read_hit, hit_words, _problem, _record_credit)
 
 
 def surface_number(hit: Hit) -> int:
@@ -100,7 +118,7 @@ def found_problem(expected: MaybeHit, actual: MaybeHit) -> str:
     return record_problem(expected.hit, actual.hit)
 
 
-FOUND = Answer(read_hit, found_words, lambda _inputs, expected, actual: found_problem(expected, actual))
+FOUND = Answer(read_hit, found_words, lambda _inputs, expected, actual: found_problem(expected, actual), _record_credit)
 
 
 # Answers that are rays which leave a surface.
@@ -119,29 +137,33 @@ def leaves_surface(hit: Hit, ray: Ray, *, side: float = 1.0) -> str:
     return off_surface(hit.position, times(side, hit.normal), ray.origin, FARTHEST)
 
 
-def _shadow_problem(inputs: Inputs, _expected: Ray, actual: Ray) -> str:
+def _shadow_problems(inputs: Inputs, actual: Ray) -> tuple[str, str]:
     light = inputs["light"]
     assert isinstance(light, Light)
     to_light = minus(light.position, actual.origin)
     reached = add(actual.origin, actual.direction, length(to_light))
     passes = length(minus(reached, light.position)) <= 1.5 * FARTHEST + 1e-5 * length(light.position)
-    return first(
+    return (
+        unit_length("the direction", actual.direction) or ("" if passes else "the ray does not go to the light"),
         leaves_surface(hit_of(inputs), actual),
-        unit_length("the direction", actual.direction),
-        "" if passes else "the ray does not go to the light",
     )
 
 
-def bounce_problem(hit: Hit, expected: Ray, actual: Ray, *, side: float = 1.0) -> str:
+def ray_credit(direction_problem: str, origin_problem: str) -> float:
+    """Half for the right direction from the wrong place; a place without a direction is nothing."""
+    return 0.0 if direction_problem else 0.5 if origin_problem else 1.0
+
+
+def bounce_problems(hit: Hit, expected: Ray, actual: Ray, *, side: float = 1.0) -> tuple[str, str]:
     """The same direction, from a little off the surface."""
-    return first(
+    return (
         direction("the direction", expected.direction, actual.direction),
         leaves_surface(hit, actual, side=side),
     )
 
 
-def _reflected_problem(inputs: Inputs, expected: Ray, actual: Ray) -> str:
-    return bounce_problem(hit_of(inputs), expected, actual)
+def _reflected_problems(inputs: Inputs, expected: Ray, actual: Ray) -> tuple[str, str]:
+    return bounce_problems(hit_of(inputs), expected, actual)
 
 
 def side_of(hit: Hit, origin: Vector) -> float:
@@ -151,15 +173,21 @@ def side_of(hit: Hit, origin: Vector) -> float:
     return 1.0 if inner > 0 else -1.0
 
 
-def _transmitted_problem(inputs: Inputs, expected: Ray, actual: Ray) -> str:
+def _transmitted_problems(inputs: Inputs, expected: Ray, actual: Ray) -> tuple[str, str]:
     hit = hit_of(inputs)
-    return bounce_problem(hit, expected, actual, side=side_of(hit, expected.origin))
+    return bounce_problems(hit, expected, actual, side=side_of(hit, expected.origin))
 
 
-def _ray(problem: Callable[[Inputs, Ray, Ray], str]) -> Answer[Ray]:
-    return Answer(read_ray, words_of_ray, problem)
+def ray_answer(problems: Callable[[Inputs, Ray, Ray], tuple[str, str]]) -> Answer[Ray]:
+    """A ray; `problems` are those of its direction and of its origin."""
+    return Answer(
+        read_ray,
+        words_of_ray,
+        lambda inputs, expected, actual: first(*problems(inputs, expected, actual)),
+        lambda inputs, expected, actual: ray_credit(*problems(inputs, expected, actual)),
+    )
 
 
-SHADOW_RAY = _ray(_shadow_problem)
-REFLECTED_RAY = _ray(_reflected_problem)
-TRANSMITTED_RAY = _ray(_transmitted_problem)
+SHADOW_RAY = ray_answer(lambda inputs, _expected, actual: _shadow_problems(inputs, actual))
+REFLECTED_RAY = ray_answer(_reflected_problems)
+TRANSMITTED_RAY = ray_answer(_transmitted_problems)

@@ -1,7 +1,7 @@
 """What the judge asks of a step: solutions/NN-name/cases.toml."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Literal
@@ -21,12 +21,12 @@ _Wrong = Annotated[float, Meta(ge=0, le=1)]  # share of the pixels
 
 @dataclass(frozen=True)
 class FunctionPlan:
-    """How many cases of each kind a function gets; of each, that share may miss by rounding."""
+    """How many cases of each kind a function gets, and what each kind is worth beside the others."""
 
     name: str
-    weight: float
-    may_miss: float
+    weight: float  # among the hidden items
     cases: Mapping[str, int]
+    kind_weights: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -62,13 +62,22 @@ class Plan:
     random_scenes: tuple[RandomPlan, ...]
 
 
+_Cases = Annotated[int, Meta(ge=1, le=1000)]
+
+
+@dataclass(frozen=True)
+class _KindTable:
+    """A kind of cases that counts more than another, or less."""
+
+    cases: _Cases
+    weight: _Weight
+
+
 @dataclass(frozen=True)
 class _FunctionTable:
-    """A function in cases.toml: how many cases of each kind, and the share of them that may miss."""
+    """A function in cases.toml: how many cases of each kind."""
 
-    weight: _Weight
-    cases: Annotated[dict[str, Annotated[int, Meta(ge=1, le=1000)]], Meta(min_length=1)]
-    may_miss: Annotated[float, Meta(ge=0, le=0.1)] = 0.01
+    cases: Annotated[dict[str, _Cases | _KindTable], Meta(min_length=1)]
 
 
 @dataclass(frozen=True)
@@ -106,13 +115,27 @@ def _check_names(plan: Plan, step: Step) -> None:
         raise GraderFault(f"{step.id}: cases.toml must list a twin for each picture of step.toml, in its order")
 
 
+_FUNCTIONS = 4.0  # what all functions are worth beside all scenes
+
+
+def _function_plan(step: Step, name: str, table: _FunctionTable) -> FunctionPlan:
+    kinds = {kind: it if isinstance(it, _KindTable) else _KindTable(it, 1.0) for kind, it in table.cases.items()}
+    return FunctionPlan(
+        name,
+        _FUNCTIONS * step.share_of(name),
+        {kind: it.cases for kind, it in kinds.items()},
+        {kind: it.weight for kind, it in kinds.items()},
+    )
+
+
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> Plan:
     table = parse_table(text, path, "a plan of hidden cases", _PlanTable)
+    scenes = sum(scene.weight for scene in table.twins) + sum(scene.weight for scene in table.random_scenes)
     plan = Plan(
-        tuple(FunctionPlan(name, it.weight, it.may_miss, it.cases) for name, it in (table.functions or {}).items()),
-        tuple(TwinPlan(twin.of, twin.moves, twin.size, twin.max_wrong, twin.weight) for twin in table.twins),
-        table.random_scenes,
+        tuple(_function_plan(step, name, it) for name, it in (table.functions or {}).items()),
+        tuple(TwinPlan(twin.of, twin.moves, twin.size, twin.max_wrong, twin.weight / scenes) for twin in table.twins),
+        tuple(replace(scene, weight=scene.weight / scenes) for scene in table.random_scenes),
     )
     _check_names(plan, step)
     return plan

@@ -264,10 +264,11 @@ class TokenReader:
         return self._words[self._next - 1]
 
     def real(self) -> float:
+        """The float32 that was written: its shortest decimal text is another number where floats are 64 bits wide."""
         found = self.word()
         try:
-            return float(found) if len(found) <= _MAX_DIGITS else _refuse(found)
-        except ValueError:
+            return f32(float(found)) if len(found) <= _MAX_DIGITS else _refuse(found)
+        except (ValueError, OverflowError):
             return _refuse(found)
 
     def whole(self, low: int = 0, high: int = 1 << 31) -> int:

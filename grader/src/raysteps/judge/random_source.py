@@ -58,6 +58,10 @@ class RandomSource:
     def real(self, low: float, high: float) -> float:
         return f32(self.fine(low, high))
 
+    def logarithmic(self, low: float, high: float) -> float:
+        """Each power of ten between them is as likely as any other."""
+        return f32(math.exp(self.fine(math.log(low), math.log(high))))
+
     def sign(self) -> float:
         return 1.0 if self.chance(0.5) else -1.0
 

@@ -122,6 +122,7 @@ SEARCHES: Answer[tuple[Search, ...]] = Answer(
     lambda tokens: read_all(tokens, _read_one),
     lambda searches: words_of(searches, lambda search: found_words(search.found)),
     _problem,
+    constant=lambda searches: "; ".join(found_words(search.found) for search in searches),
 )
 
 
@@ -160,6 +161,7 @@ ANY_HITS: Answer[tuple[Occlusion, ...]] = Answer(
     lambda tokens: read_all(tokens, _read_occlusion),
     lambda answers: words_of(answers, _one_in_words),
     _occlusion_problem,
+    constant=lambda answers: " ".join(str(answer.found) for answer in answers),
 )
 
 
@@ -218,5 +220,5 @@ def _any_problem(inputs: Inputs, expected: tuple[Occlusion, ...], actual: tuple[
     return problem_of(inputs, (expected, actual), one_occlusion_problem, work_problem)
 
 
-CLOSEST_IN_BVH = Answer(SEARCHES.read, SEARCHES.words, _closest_problem)
-ANY_IN_BVH = Answer(ANY_HITS.read, ANY_HITS.words, _any_problem)
+CLOSEST_IN_BVH = Answer(SEARCHES.read, SEARCHES.words, _closest_problem, constant=SEARCHES.constant)
+ANY_IN_BVH = Answer(ANY_HITS.read, ANY_HITS.words, _any_problem, constant=ANY_HITS.constant)

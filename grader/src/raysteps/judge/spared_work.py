@@ -38,8 +38,11 @@ def take_back(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> 
     why = _why(hidden)
     every_one = unspared(images, hidden)
     for image in images:
-        few = (image.share_tested or 0) < _TOO_GOOD * (image.max_share or 1)
-        if why and image.passed and image.max_share is not None and (few or every_one):
+        if not why or image.max_share is None:
+            continue
+        image.share = 0.0
+        few = (image.share_tested or 0) < _TOO_GOOD * image.max_share
+        if image.passed and (few or every_one):
             image.passed, image.outcome, image.message = False, "wrong", why
 
 

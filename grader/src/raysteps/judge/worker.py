@@ -1,6 +1,7 @@
 """Asks a worker all cases of a function. A crash costs the case that was running, and the rest goes on."""
 
 import hashlib
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
@@ -54,7 +55,8 @@ class TimeBudget:
 
 Ask: TypeAlias = Callable[[bytes, float], TaskResult]  # the worker's stdin, and how many seconds it may take
 
-_MAX_RESTARTS = 3
+_MAX_ENDINGS = 3  # in one kind of cases; what else is of that kind is not asked, and counts like what was
+_MAX_RESTARTS = 24
 _MAX_CUTS = 30  # a long answer may be cut off at the limit of a sandbox; what came before counts
 
 
@@ -129,9 +131,11 @@ def _what_came(ran: TaskResult, cases: Sequence[Case], first: int) -> tuple[list
 
 
 def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
-    """Goes on behind a case that ended the worker, three times at most."""
+    """Goes on behind a case that ended the worker. A kind of cases that ended it three times is left, and a function
+    that hung three times, or never answered until then."""
     replies: list[Reply] = []
-    used, restarts, cuts = 0.0, 0, 0
+    used, hangs, cuts = 0.0, 0, 0
+    endings: Counter[str] = Counter()  # by kind
     seconds = budget.next_function()
     while len(replies) < len(cases):
         if not seconds:
@@ -139,7 +143,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         ran = ask(_stdin(cases, len(replies)), seconds)
         answers, trouble = _what_came(ran, cases, len(replies))
         used += ran.outcome.seconds
-        budget.spend(ran.outcome.seconds, hung=_hung(ran))
+        budget.spend(seconds if _hung(ran) else ran.cpu_seconds, hung=_hung(ran))
         seconds = budget.next_run()
         replies += answers
         if len(replies) == len(cases):
@@ -147,11 +151,16 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         if trouble is None and cuts < _MAX_CUTS:
             cuts += 1
             continue
+        kind = cases[len(replies)].group
         replies.append(trouble or Reply("", "wrong", "the answer is too long"))
-        restarts += 1
-        if restarts > _MAX_RESTARTS:
-            given_up = Reply("", replies[-1].outcome, "not asked any more after that", asked=False)
+        endings[kind] += 1
+        hangs += _hung(ran)
+        given_up = Reply("", replies[-1].outcome, "not asked any more after that", asked=False)
+        answered = any(reply.outcome == "ok" for reply in replies)
+        if hangs == _MAX_ENDINGS or endings.total() == (_MAX_RESTARTS if answered else _MAX_ENDINGS):
             return _give_up(replies, cases, used, given_up)
+        if endings[kind] == _MAX_ENDINGS:
+            replies += [given_up for case in cases[len(replies) :] if case.group == kind]
     return Replies(replies, used)
 
 
@@ -186,7 +195,7 @@ def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> 
     """Compares with the reference's line."""
     verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
     if reply.outcome != "ok":
-        verdict = Verdict(reply.note, verdict.expected, f"no answer: {reply.note}")
+        verdict = replace(verdict, problem=reply.note, actual=f"no answer: {reply.note}", credit=0.0)
     outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"
     return JudgedCase(case, verdict, outcome, reply.asked)
 

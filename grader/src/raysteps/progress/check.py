@@ -1,7 +1,9 @@
 """Checks a student's own steps and keeps what came of it in build/check."""
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from raysteps.common.files import one_at_a_time
@@ -27,8 +29,11 @@ class CheckResult:
     page: Path | None
 
 
+Tell = Callable[[BuiltKit, Results], None]  # of results in which no mistake has its name yet
+
+
 def _look_through(
-    kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: ProgressCallback
+    kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: ProgressCallback, tell: Tell
 ) -> Results:
     jobs = os.cpu_count() or 1
     if not kit.has_reference:
@@ -39,16 +44,20 @@ def _look_through(
     from raysteps.results.settings import Settings
 
     settings = Settings(only=tuple(step.id for step in chosen))
-    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs)
+    first = partial(tell, kit)
+    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first)
 
 
-def check_steps(project: Project, chosen: list[Step], say: ProgressCallback) -> CheckResult:
-    """The steps in the repository; the results go to build/check. Your own code needs no sandbox."""
+def check_steps(
+    project: Project, chosen: list[Step], say: ProgressCallback, tell: Tell = lambda kit, results: None
+) -> CheckResult:
+    """The steps in the repository; the results go to build/check. Your own code needs no sandbox. Where mistakes must
+    be learned before they can be named, `tell` gets the results at once."""
     out = project.build / "check"
     with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say).in_one_process()
         clear(out, kit.steps, chosen)
         submission = load_submission(project.steps, kit.steps)
-        results = _look_through(kit, submission, chosen, out, say)
+        results = _look_through(kit, submission, chosen, out, say, tell)
         remember(project, results, submission.sources)
         return CheckResult(kit, results, try_student_page(out, kit.steps, say))

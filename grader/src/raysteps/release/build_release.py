@@ -11,7 +11,7 @@ from raysteps.common.files import content_hash, write_bytes
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.project import Project
-from raysteps.images.render import reference_picture, reference_work, write_reference_image
+from raysteps.images.render import error_for_nothing, reference_picture, reference_work, write_reference_image
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
 from raysteps.toolchain.build_kit import write_given_tests
@@ -102,7 +102,8 @@ def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path) ->
             scene = kit.project.root / case.scene
             pixels = reference_picture(kit, scene, case.args)
             work = reference_work(kit, scene, case.args) if case.max_share is not None else None
-            write_reference_image(target, step, case, scene, pixels, work)
+            for_nothing = error_for_nothing(kit, step, scene, case.args)
+            write_reference_image(target, step, case, scene, pixels, work, for_nothing)
     write_given_tests(target, {step.id: kit.tests[step.id] for step in steps})
 
 

@@ -115,17 +115,9 @@ class Part:
     earned: float
 
 
-def _right(items: Sequence[TestResult | ImageResult], noun: str) -> tuple[str, float]:
+def _right(items: Sequence[TestResult | ImageResult], noun: str, share: float) -> tuple[str, float]:
     right = sum(item.passed for item in items)
-    return (f"{right} of {count(len(items), noun)}", right / len(items)) if items else ("not run", 0.0)
-
-
-def _hidden_part(items: Sequence[HiddenResult]) -> tuple[str, float]:
-    weight = sum(item.weight for item in items)
-    share = sum(item.share * item.weight for item in items) / weight if weight else 0.0
-    if not items:
-        return "not run", 0.0
-    return percent(share), share
+    return (f"{right} of {count(len(items), noun)}" if items else "not run", share)
 
 
 def parts_of(result: StepResult, step: Step | None) -> list[Part]:
@@ -133,11 +125,11 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     step's weights are not known."""
     if step is None:
         return []
-    together = result.cumulative.passed
+    together, share = result.cumulative.passed, result.share_of_hidden
     found = [
-        ("tests", _right(result.tests, "test"), step.weight_tests),
-        ("pictures", _right(result.images, "picture"), step.weight_images),
-        ("hidden", _hidden_part(result.hidden), step.weight_hidden),
+        ("tests", _right(result.tests, "test", result.share_of_tests), step.weight_tests),
+        ("pictures", _right(result.images, "picture", result.share_of_images), step.weight_images),
+        ("hidden", (percent(share) if result.hidden else "not run", share), step.weight_hidden),
         ("together", ("yes" if together else "no", float(together)), step.weight_together),
     ]
     if result.max < step.points - _NEAR:

@@ -130,6 +130,16 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
             console.print(f"  together  {escape(result.cumulative.message)}")
 
 
+def print_diagnoses(console: Console, results: Results) -> None:
+    """What explains the wrong steps, of results that were printed before it was known."""
+    for result in results.steps:
+        if result.diagnoses:
+            console.print(f"\n[bold]{result.id}[/bold]")
+            for diagnosis in result.diagnoses:
+                _print_diagnosis(console, diagnosis)
+    console.print()
+
+
 def print_table(console: Console, results: Results, *, visible_only: bool = False) -> None:
     """One row per step and the total. `visible_only`: there is no judge, as in a students' kit."""
     table = Table(title=escape(results.submission), title_justify="left")

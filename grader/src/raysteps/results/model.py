@@ -28,6 +28,7 @@ class TestResult:
     expanded: str = ""
     location: str = ""
     outcome: Termination = "ok"
+    weight: Amount = field(default=1.0, metadata=OPTIONAL)  # among the tests of the step
 
 
 @dataclass(frozen=True)
@@ -75,17 +76,24 @@ class ImageResult:
     difference: str | None = None
     seconds: Amount = 0.0
     outcome: Termination = "ok"
+    share: Share = field(default=0.0, metadata=OPTIONAL)  # of its points that were earned where it did not pass
+
+    @property
+    def earned(self) -> float:
+        return 1.0 if self.passed else self.share
 
 
 @dataclass
 class CaseGroup:
-    """One kind of hidden cases of a function, such as `origin inside`; all must be right."""
+    """One kind of hidden cases of a function, such as `origin inside`. `share`: how much of it was right, parts of
+    answers included."""
 
     FORMER_KEYS: ClassVar = ("undecided", "wasteful")
 
     name: str
     cases: Count
     right: Count
+    share: Share = field(default=0.0, metadata=OPTIONAL)
 
 
 @dataclass
@@ -137,6 +145,12 @@ class Integration:
     message: str = ""
 
 
+def _mean(items: Sequence[tuple[float, float]]) -> float:
+    """Of pairs of a weight and a share."""
+    weight = sum(weight for weight, _ in items)
+    return sum(weight * share for weight, share in items) / weight if weight else 0.0
+
+
 @dataclass
 class StepResult:
     """What became of one step."""
@@ -155,6 +169,20 @@ class StepResult:
     build_log: str = ""  # all that the compiler said
     cumulative: Integration = field(default_factory=lambda: Integration(False))
     messages: list[str] = field(default_factory=list)
+
+    @property
+    def share_of_tests(self) -> float:
+        """How much of what all visible tests are worth was earned."""
+        return _mean([(test.weight, float(test.passed)) for test in self.tests])
+
+    @property
+    def share_of_images(self) -> float:
+        """Each visible picture counts the same."""
+        return _mean([(1.0, image.earned) for image in self.images])
+
+    @property
+    def share_of_hidden(self) -> float:
+        return _mean([(item.weight, item.share) for item in self.hidden])
 
 
 @dataclass

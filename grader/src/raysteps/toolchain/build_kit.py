@@ -5,6 +5,7 @@ import os
 import shutil
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
@@ -30,7 +31,7 @@ from raysteps.toolchain.link import (
     version_script,
 )
 
-# The names of the visible tests, as the reference ran them: a students' kit cannot ask it again.
+# The visible tests, as the reference ran them: a students' kit cannot ask it again.
 
 
 def given_tests(project: Project) -> Path:
@@ -48,6 +49,12 @@ def read_given_tests(project: Project) -> Tests:
     except (OSError, ValueError) as error:
         raise GraderFault(f"{path}: expected the list of the tests; take it from a fresh copy of the kit") from error
     return tests
+
+
+def _tested(step: Step, name: str, tags: Sequence[str]) -> list[str]:
+    """The functions that a test is about: of those among its tags the one that its name begins with, where there is."""
+    functions = [tag for tag in tags if tag in step.functions]
+    return [function for function in functions if name.startswith(f"{function}:")] or functions
 
 
 # Puts one kit folder together from what CMake built.
@@ -108,12 +115,13 @@ class Assembly:
         self._write_rest("libraries", [*self._others, self._core])
         self._write_rest("raytrace", raytrace)
         self._write_rest("worker", worker)
-        tests: dict[str, list[str]] = {}
+        tests: dict[str, dict[str, list[str]]] = {}
         for at, step in enumerate(self._course, start=1):
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._write_rest(f"test-{step.number}", objects)
             self._link_reference(f"test-{step.number}", objects)
-            tests[step.id] = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
+            listed = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
+            tests[step.id] = {name: _tested(step, name, tags) for name, tags in listed.items()}
             if not self._add_remote(self._course[:at]):
                 self._add_plain(raytrace, worker, objects, self._course[:at])
         return tests

@@ -37,6 +37,7 @@ class TestOutcome:
     name: str
     passed: bool
     failure: Failure | None = None
+    tags: tuple[str, ...] = ()
 
 
 def _text(element: Element | None) -> str:
@@ -104,7 +105,8 @@ def _first_failure(room: Element, sections: tuple[str, ...] = ()) -> Failure | N
 def _outcome(case: Element) -> TestOutcome:
     overall = case.find("OverallResult")
     passed = overall is not None and overall.get("success") == "true"
-    return TestOutcome(printable(case.get("name", "")), passed, None if passed else _first_failure(case))
+    tags = tuple(re.findall(r"\[([^\[\]]+)\]", case.get("tags", "")))
+    return TestOutcome(printable(case.get("name", "")), passed, None if passed else _first_failure(case), tags)
 
 
 def parse_report(report: bytes) -> list[TestOutcome] | None:
@@ -137,8 +139,8 @@ def _outcomes(root: Element) -> list[TestOutcome] | None:
 _SECONDS = 600
 
 
-def list_tests(program: Path) -> list[str]:
-    """Their names; the reference must pass every one."""
+def list_tests(program: Path) -> dict[str, tuple[str, ...]]:
+    """Their names with their tags; the reference must pass every one."""
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         report = Path(folder) / "report.xml"
         run([program, "-r", "xml", "-o", report], seconds=_SECONDS, cwd=Path(folder))
@@ -148,4 +150,4 @@ def list_tests(program: Path) -> list[str]:
     failed = [case.name for case in cases if not case.passed]
     if failed:
         raise GraderFault(f"the reference fails its own tests: {failed[0]}")
-    return [case.name for case in cases]
+    return {case.name: case.tags for case in cases}

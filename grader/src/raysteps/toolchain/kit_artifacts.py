@@ -16,7 +16,7 @@ from raysteps.toolchain.link import Description, library_name, link
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
-Tests = Mapping[str, Sequence[str]]  # by step: the names of its visible tests
+Tests = Mapping[str, Mapping[str, Sequence[str]]]  # by step: its visible tests, each with the functions that it tests
 
 
 # Links what is needed of a kit when it is needed: programs that ask steps in another process, and the boxes that these
@@ -122,7 +122,7 @@ class ProgramLinker:
 
 @dataclass(frozen=True)
 class BuiltKit:
-    """Lives in build/kit/FINGERPRINT. `tests` holds the names of each step's visible test cases."""
+    """Lives in build/kit/FINGERPRINT. `tests` holds each step's visible test cases."""
 
     project: Project
     folder: Path

@@ -33,7 +33,7 @@ from raysteps.judge.functions import Function, Group, Make
 from raysteps.judge.protocol import Ray, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.searches import ANY_IN_BVH, CLOSEST_IN_BVH, WhoseBvh
-from raysteps.judge.surfaces import Scripted
+from raysteps.judge.surfaces import Scripted, Triangle
 
 # The closest hit.
 
@@ -70,6 +70,16 @@ def _same_spheres(draw: RandomSource) -> RaysInScene:
 
 def _in_a_dense_scene(draw: RandomSource) -> RaysInScene:
     return many_rays(draw, dense_scene(draw))
+
+
+def _through_slopes(draw: RandomSource) -> RaysInScene:
+    """The boxes of all of them overlap: who looks for the nearest hit asks them all, and any hit is enough."""
+    slopes = []
+    for _ in range(64):
+        up = draw.eighths(0, 3)
+        slopes.append(Triangle((-8.0, -8.0, up - 8), (24.0, -8.0, up + 8), (-8.0, 24.0, up + 8)))
+    rays = (draw.ray_towards(draw.point(3), 25) for _ in range(24))
+    return tuple(slopes), tuple(rays)
 
 
 _closest = partial(search, WhoseBvh, closest)
@@ -162,7 +172,7 @@ OCCLUDED_IN_BVH = Function(
         Group("large ones among small ones", _occluded(_out_of_the_shell, _of_the_first(1.2), own=1)),
         Group("everything behind the ray", _occluded(lambda d: looking_away(d, 12), between(5, 50))),
         Group("few surfaces are asked", _occluded(among_many, fixed(40.0), own=1), saves=True),
-        Group("the first hit ends the search", _occluded(_in_a_dense_scene, fixed(40.0), own=0)),
+        Group("the first hit ends the search", _occluded(_through_slopes, fixed(60.0), own=0)),
         Group("no surfaces", _occluded(no_surfaces, fixed(9.0), own=1)),
     ),
     yes_or_no=True,

@@ -10,15 +10,15 @@ from raysteps.judge.answers import (
     direction,
     first,
     read_frame,
-    read_ray,
     read_vector,
     real,
+    share_right,
     vector,
     words_of_frame,
-    words_of_ray,
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
+from raysteps.judge.hits import ray_answer
 from raysteps.judge.protocol import Camera, Frame, Inputs, Ray, Real, Whole, f32, rounded
 from raysteps.judge.random_source import RandomSource
 
@@ -86,8 +86,8 @@ def _extreme_camera(draw: RandomSource) -> Camera:
     return replace(camera, origin=origin, at=rounded(add(origin, view, distance)), up=rounded(times(size, up)))
 
 
-def _frame_problem(_inputs: Inputs, expected: Frame, actual: Frame) -> str:
-    return first(
+def _frame_problems(expected: Frame, actual: Frame) -> tuple[str, ...]:
+    return (
         direction("forward", expected.forward, actual.forward),
         direction("right", expected.right, actual.right),
         direction("up", expected.up, actual.up),
@@ -96,9 +96,19 @@ def _frame_problem(_inputs: Inputs, expected: Frame, actual: Frame) -> str:
     )
 
 
+def _frame_credit(forward: str, *others: str) -> float:
+    """All else follows from the direction of the view."""
+    return 0.0 if forward else share_right(forward, *others)
+
+
 VIEW_FRAME = Function(
     "view_frame",
-    Answer(read_frame, words_of_frame, _frame_problem),
+    Answer(
+        read_frame,
+        words_of_frame,
+        lambda _, expected, actual: first(*_frame_problems(expected, actual)),
+        lambda _, expected, actual: _frame_credit(*_frame_problems(expected, actual)),
+    ),
     (
         Group("any camera", lambda d: {"camera": any_camera(d)}),
         Group("simple numbers", lambda d: {"camera": simple_camera(d)}),
@@ -113,10 +123,10 @@ VIEW_FRAME = Function(
 # Cases of step 01: the primary rays of pixels.
 
 
-def _ray_problem(_inputs: Inputs, expected: Ray, actual: Ray) -> str:
-    return first(
-        vector("the origin", expected.origin, actual.origin),
+def _ray_problems(_inputs: Inputs, expected: Ray, actual: Ray) -> tuple[str, str]:
+    return (
         direction("the direction", expected.direction, actual.direction, degrees=0.05),
+        vector("the origin", expected.origin, actual.origin),
     )
 
 
@@ -166,7 +176,7 @@ def _one_pixel_wide(draw: RandomSource) -> Inputs:
 
 PRIMARY_RAY = Function(
     "primary_ray",
-    Answer(read_ray, words_of_ray, _ray_problem),
+    ray_answer(_ray_problems),
     (
         Group("any pixel", lambda d: _any_pixel(d, any_camera(d))),
         Group("few pixels", _few_pixels),
@@ -198,7 +208,7 @@ _POINT_AT = Function(
         Group("simple numbers", lambda d: _along(_simple_ray(d), d.eighths(1, 10))),
         Group("behind the origin", lambda d: _along(Ray(d.point(10), d.direction()), d.real(-20, -0.5))),
         Group("from the centre of the world", lambda d: _along(Ray(_AT_ORIGIN, d.direction()), d.real(0.5, 20))),
-        Group("far away", lambda d: _along(Ray(d.point(10), d.direction()), d.real(1e3, 1e5))),
+        Group("far away", lambda d: _along(Ray(d.point(10), d.direction()), d.logarithmic(1e3, 1e5))),
         Group("distance 0", lambda d: _along(Ray(d.point(10), d.direction()), 0.0)),
     ),
 )

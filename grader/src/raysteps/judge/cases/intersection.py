@@ -1,7 +1,7 @@
 """Cases of step 02: the closest of several hits; triangles and spheres have modules of their own."""
 
 from raysteps.common.vectors import add, cross, times, unit
-from raysteps.judge.cases.triangles import TRIANGLE_INTERSECT
+from raysteps.judge.cases.triangles import NEAREST, SIZES, TRIANGLE_INTERSECT
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
 from raysteps.judge.protocol import Inputs, Ray, rounded
@@ -72,10 +72,19 @@ def _nearly_tangent(draw: RandomSource) -> Inputs:
     return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(0.5, 3)), draw)
 
 
+def _exactly_tangent(draw: RandomSource) -> Inputs:
+    """The ray touches the sphere in one point. All numbers are small and whole, so that every method sees a 0."""
+    direction = draw.axis()
+    beside = times(draw.sign(), next_axis(direction))
+    s = Sphere(draw.simple_point(4), float(draw.whole(1, 4)))
+    start = add(add(s.center, direction, -float(draw.whole(5, 9))), beside, s.radius)
+    return _case(s, Ray(start, direction), draw)
+
+
 def _close_origin(draw: RandomSource) -> Inputs:
     """Just outside the sphere or just inside, on the way in or out."""
     s = draw.sphere(reach=2.0, low=1.0)
-    outward, off = draw.direction(), draw.real(0.02, 0.08) * draw.sign()
+    outward, off = draw.direction(), draw.logarithmic(NEAREST, 0.1) * draw.sign()
     direction = draw.above(times(draw.sign(), outward), 0.4)
     return _case(s, Ray(rounded(add(s.center, outward, s.radius + off)), direction), draw)
 
@@ -87,12 +96,11 @@ def _on_sphere(draw: RandomSource) -> Inputs:
     return _case(s, Ray(add(s.center, outward, s.radius), times(draw.sign(), outward)), draw)
 
 
-def _tiny_or_huge(draw: RandomSource) -> Inputs:
-    if draw.chance(0.5):
-        s = Sphere(draw.point(1), draw.real(0.02, 0.05))
-        return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(0.3, 1)), draw)
-    s = Sphere(draw.point(100), draw.real(200, 1000))
-    return _case(s, _at_sphere(draw, s, 0.0, 0.7, s.radius + draw.real(20, 200)), draw)
+def _any_size(draw: RandomSource) -> Inputs:
+    """The distance is up to 30 times the radius: farther away a method that is right on paper loses its digits."""
+    radius = draw.logarithmic(*SIZES)
+    s = Sphere(draw.point(min(1.0, 300 * radius) if radius < 1 else 0.1 * radius), radius)
+    return _case(s, _at_sphere(draw, s, 0.0, 0.7, radius * (1 + draw.logarithmic(0.1, 30))), draw)
 
 
 def _signed_zeros(draw: RandomSource) -> Inputs:
@@ -111,9 +119,10 @@ SPHERE_INTERSECT = Function(
         Group("origin inside", _inside_sphere),
         Group("origin in the centre", _from_center),
         Group("far away", _far_sphere),
-        Group("tiny and huge", _tiny_or_huge),
+        Group("of any size", _any_size),
         Group("along an axis, with zeros of either sign", _signed_zeros, exact=True),
         Group("nearly tangent", _nearly_tangent),
+        Group("exactly tangent", _exactly_tangent, exact=True),
         Group("origin close to the sphere", _close_origin),
         Group("origin on the sphere", _on_sphere, exact=True),
         Group("behind the origin", _sphere_behind),

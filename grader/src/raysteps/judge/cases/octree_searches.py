@@ -15,6 +15,7 @@ from raysteps.judge.cases.search_cases import (
     from_far,
     from_inside,
     looking_away,
+    many_rays,
     no_surfaces,
     occluded,
     one_ray,
@@ -22,7 +23,7 @@ from raysteps.judge.cases.search_cases import (
     search,
     slope_and_balls,
 )
-from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene
+from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene, small_scene
 from raysteps.judge.functions import Function, Group, Make
 from raysteps.judge.protocol import Ray, f32, rounded
 from raysteps.judge.random_source import RandomSource
@@ -76,6 +77,25 @@ def _balls_in_a_row(draw: RandomSource) -> RaysInScene:
     return BALLS, (Ray(rounded(add(near, direction, -25)), direction),)
 
 
+def _at_one_distance(draw: RandomSource) -> RaysInScene:
+    """A floor and a tile in it, in the plane z = 0 and with exact numbers: both are met at once, and the first in the
+    scene counts. The floor is in boxes that the ray goes through before it comes to the tile's."""
+    legs = float(2 ** draw.whole(0, 2))
+    corner = (draw.eighths(-5, 1), draw.eighths(-5, 1), 0.0)
+    tile = Triangle(corner, add(corner, (legs, 0.0, 0.0)), add(corner, (0.0, legs, 0.0)))
+    floor = Triangle((-8.0, -8.0, 0.0), (24.0, -8.0, 0.0), (-8.0, 24.0, 0.0))
+    flat = draw.until(lambda found: 0.02 < -found[2] < 0.15, draw.direction)
+    target = add(corner, (legs / 4, legs / 4, 0.0))
+    surfaces = [tile, floor] if draw.chance(0.7) else [floor, tile]
+    balls = [ball for ball in BALLS if ball.center[2] < 0]
+    return (*balls, *surfaces), (Ray(rounded(add(target, flat, -30)), flat),)
+
+
+def _in_crowded_boxes(draw: RandomSource) -> RaysInScene:
+    """Many surfaces in each list."""
+    return many_rays(draw, small_scene(draw, 250, 50, largest=1.0))
+
+
 _closest = partial(search, WhoseTree, closest)
 
 CLOSEST_HIT_IN_OCTREE = Function(
@@ -89,6 +109,8 @@ CLOSEST_HIT_IN_OCTREE = Function(
         Group("a nearer hit in a later box", _closest(slope_and_balls)),
         Group("from far away", _closest(from_far)),
         Group("everything behind the ray", _closest(looking_away)),
+        Group("several at one distance", _closest(_at_one_distance), exact=True),
+        Group("crowded boxes", _closest(_in_crowded_boxes, own=0)),
         Group("a ball before a slope", _closest(_ball_before_the_slope, own=0)),
         Group("one ball behind another", _closest(_balls_in_a_row)),
         Group("large ones among small ones", _closest(over_a_ground, own=1)),
@@ -162,6 +184,7 @@ OCCLUDED_IN_OCTREE = Function(
         Group("from far away", _occluded(from_far, between(93, 102))),
         Group("everything behind the ray", _occluded(looking_away, between(10, 50))),
         Group("large ones among small ones", _occluded(over_a_ground, between(2, 9), own=1)),
+        Group("crowded boxes", _occluded(_in_crowded_boxes, between(7, 17), own=0)),
         Group("few surfaces are asked", _occluded(among_many, between(13, 15), own=1)),
         Group("no surfaces", _occluded(no_surfaces, fixed(9.0), own=1)),
     ),

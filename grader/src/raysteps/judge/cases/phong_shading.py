@@ -241,7 +241,7 @@ def _lights(
     draw: RandomSource, hit: Hit, count: int, *, low: float = 0.1, near: float = 2.0, far: float = 15.0
 ) -> Inputs:
     lights = [
-        draw.light(rounded(add(hit.position, draw.above(hit.normal, low, low + 0.85), draw.real(near, far))))
+        draw.light(rounded(add(hit.position, draw.above(hit.normal, low, low + 0.85), draw.logarithmic(near, far))))
         for _ in range(count)
     ]
     return {"hit": hit, "lights": Lights(tuple(lights))}
@@ -277,6 +277,12 @@ def _simple_shade(draw: RandomSource) -> Inputs:
     return {"hit": hit, "lights": Lights((Light(rounded(times(5.0, to_light))),))}
 
 
+def _matt(draw: RandomSource) -> Inputs:
+    """Without highlights."""
+    hit = _hit(draw)
+    return _lights(draw, replace(hit, fill=replace(hit.fill, ks=0.0)), draw.whole(1, 4))
+
+
 def _bright(draw: RandomSource) -> Inputs:
     hit = _hit(draw)
     hit = replace(hit, fill=replace(hit.fill, color=draw.color(0.7, 1.0), kd=1.0))
@@ -289,7 +295,9 @@ SHADE = Function(
     (
         Group("several lights", lambda d: _lights(d, _hit(d), d.whole(2, 4))),
         Group("simple numbers", _simple_shade),
+        Group("matt surfaces", _matt),
         Group("one light", lambda d: _lights(d, _hit(d), 1)),
+        Group("many lights", lambda d: _lights(d, _hit(d), d.whole(9, 40))),
         Group("lights in front and behind", _front_and_back),
         Group("far lights", lambda d: _lights(d, _hit(d), 2, near=50, far=200)),
         Group("brighter than 1", _bright),

@@ -14,7 +14,7 @@ from raysteps.judge.scripted_tracer import Script, ScriptedHit, TracedCall, read
 
 _DEGREES = 0.5
 _AT_THE_HIT = 0.5  # a bounced ray that starts farther away from the hit was not made by reflected_ray
-_HEAD_ON = 0.999  # cosine
+_HEAD_ON = 0.9999  # cosine
 
 
 def _script(inputs: Inputs) -> Script:
@@ -43,18 +43,25 @@ def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -
     return _met_head_on(inputs) and not all(same)
 
 
-def _trace_problem(inputs: Inputs, expected: TracedCall, actual: TracedCall) -> str:
+def _trace_problems(inputs: Inputs, expected: TracedCall, actual: TracedCall) -> tuple[str, ...]:
     counts = ""
     if len(actual.cast) != len(expected.cast):
         counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
     astray = not counts and bool(expected.cast) and _is_astray(inputs, expected.cast, actual.cast)
     shaded = sorted(expected.shaded) == sorted(actual.shaded)
-    return first(
+    return (
         counts,
         "a ray that was cast is wrong" if astray else "",
         channels("the colour", expected.color, actual.color),
         "" if shaded else "direct_lighting was asked for other hits, or with another depth",
     )
+
+
+def _trace_credit(inputs: Inputs, expected: TracedCall, actual: TracedCall) -> float:
+    """The right rays with a wrong colour, or the other way round, are half of it; none at all are nothing."""
+    counts, astray, color, shaded = _trace_problems(inputs, expected, actual)
+    asked = len(expected.cast) > 1 and not (counts or astray or shaded)
+    return 0.5 if asked or not color else 0.0
 
 
 def _scripted(draw: RandomSource, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
@@ -71,7 +78,9 @@ def _trace(draw: RandomSource, hits: tuple[ScriptedHit, ...], depth: int, most: 
 
 
 def _mirror_and_dull(draw: RandomSource) -> Inputs:
-    """Some mirrors, then something dull or nothing."""
+    """Some mirrors, then something dull or nothing; or a dull thing at once."""
+    if draw.chance(0.25):
+        return _trace(draw, _scripted(draw, 1, 0.0, 0.0), 1, 6)
     hits = _scripted(draw, draw.whole(1, 3), 0.2, 0.9)
     end = _scripted(draw, 4, 0.0, 0.0)[3:] if draw.chance(0.6) else ()
     return _trace(draw, hits + end, 1, 6)
@@ -116,7 +125,12 @@ def _corridor(draw: RandomSource) -> Inputs:
 
 TRACE = Function(
     "trace",
-    Answer(read_traced, traced_words, _trace_problem),
+    Answer(
+        read_traced,
+        traced_words,
+        lambda inputs, expected, actual: first(*_trace_problems(inputs, expected, actual)),
+        _trace_credit,
+    ),
     (
         Group("mirrors and what they show", _mirror_and_dull),
         Group("simple numbers", _simple_trace),
@@ -134,8 +148,11 @@ TRACE = Function(
 
 
 def _hit(draw: RandomSource, low: float = 0.15, high: float = 1.0, reach: float = 3.0) -> Inputs:
+    """A mirror may be met from its back, and be of anything: neither matters."""
     normal = draw.direction()
-    return {"hit": Hit(draw.point(reach), normal, rounded(times(-1.0, draw.above(normal, low, high))))}
+    direction = rounded(times(-1.0, draw.above(normal, low, high)))
+    position = draw.point(reach)
+    return {"hit": Hit(position, normal, direction, draw.real(0.5, 20), draw.fill(), draw.chance(0.6))}
 
 
 def _simple_hit(draw: RandomSource) -> Inputs:

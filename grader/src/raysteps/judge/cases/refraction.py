@@ -215,6 +215,14 @@ def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> st
     return first(*problems, channels("the colour", expected.color, actual.color))
 
 
+def _brought_credit(_inputs: Inputs, expected: _Brought, actual: _Brought) -> float:
+    """Another ray with the right colour, or the right ray with another colour."""
+    if not channels("", expected.color, actual.color):
+        return 0.5
+    same = len(expected.traced) == len(actual.traced) > 0
+    return 0.5 if same and expected.traced[0][1] == actual.traced[0][1] else 0.0
+
+
 def _light(draw: RandomSource, hit: Hit) -> Inputs:
     return {"hit": hit, "depth": Whole(draw.whole(1, 6)), "traced": Vec(draw.color())}
 
@@ -233,7 +241,7 @@ def _not_glass(draw: RandomSource) -> Inputs:
 
 TRANSMITTED_LIGHT = Function(
     "transmitted_light",
-    Answer(_read_brought, _brought_words, _brought_problem),
+    Answer(_read_brought, _brought_words, _brought_problem, _brought_credit),
     (
         Group("glass of index 1", lambda d: _light(d, hit_on_glass(d, 1.0, outside=d.chance(0.5)))),
         Group("any hit on glass", lambda d: _light(d, random_hit(d))),

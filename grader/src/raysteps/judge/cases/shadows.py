@@ -18,11 +18,13 @@ def hit_at(position: Vector, normal: Vector) -> Hit:
 
 
 def random_hit(draw: RandomSource, reach: float = 3.0) -> Hit:
-    return hit_at(draw.point(reach), draw.direction())
+    """From either side of its surface, and on anything: neither matters."""
+    hit = hit_at(draw.point(reach), draw.direction())
+    return replace(hit, distance=draw.real(0.5, 20), fill=draw.fill(), front_face=draw.chance(0.6))
 
 
 def light_above(draw: RandomSource, hit: Hit, near: float, far: float) -> Light:
-    return Light(rounded(add(hit.position, draw.above(hit.normal, 0.25, 1.0), draw.real(near, far))))
+    return Light(rounded(add(hit.position, draw.above(hit.normal, 0.25, 1.0), draw.logarithmic(near, far))))
 
 
 def scene(surfaces: list[Surface], hit: Hit, light: Light) -> Inputs:
@@ -193,7 +195,7 @@ def _read_lit(tokens: TokenReader) -> _Lit:
     return _Lit(tokens.flag(), tokens.whole())
 
 
-_LIT = Answer(_read_lit, _lit_words, _lit_problem)
+_LIT = Answer(_read_lit, _lit_words, _lit_problem, constant=lambda answer: str(answer.lit))
 
 
 def _lit_or_not(draw: RandomSource) -> Inputs:

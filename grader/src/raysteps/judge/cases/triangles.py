@@ -1,6 +1,6 @@
 """Cases of step 02: rays and triangles; those with exact numbers have a module of their own."""
 
-from raysteps.common.vectors import Vector, add, cross, minus, times, unit
+from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import HIT
 from raysteps.judge.protocol import Inputs, Ray, rounded
@@ -9,6 +9,8 @@ from raysteps.judge.surfaces import Triangle
 
 # Cases of step 02: rays that are aimed at a triangle or beside it.
 
+SIZES = (0.002, 1000.0)  # of a triangle's longest edge and of a sphere's radius
+NEAREST = 3e-4  # a hit nearer than 1e-4 may be left out
 _STEEP = 0.2  # least cosine between ray and normal: seen edge-on, rounding may decide
 
 
@@ -127,10 +129,16 @@ def _triangle_behind(draw: RandomSource) -> Inputs:
 
 def _small_triangle(draw: RandomSource) -> Inputs:
     """Its area is tiny, and nothing else about it is: who compares it with a small number loses it."""
-    t, place = draw.triangle(), draw.point(3)
-    a, b, c = (rounded(add(place, corner, 0.005)) for corner in (t.a, t.b, t.c))
-    t = Triangle(a, b, c)
-    return case(t, towards(draw, t, inside(draw, t), draw.sign(), draw.real(1, 4)), draw)
+    t = _of_size(draw, draw.logarithmic(SIZES[0], 10 * SIZES[0]), draw.point(1))
+    return case(t, towards(draw, t, inside(draw, t), draw.sign(), draw.real(0.5, 1)), draw)
+
+
+def _of_size(draw: RandomSource, size: float, place: Vector) -> Triangle:
+    """No sliver; its longest edge is so long, and never shorter by rounding."""
+    shape = draw.triangle(1.0)
+    longest = max(length(minus(*pair)) for pair in ((shape.a, shape.b), (shape.b, shape.c), (shape.c, shape.a)))
+    a, b, c = (rounded(add(place, corner, 1.01 * size / longest)) for corner in (shape.a, shape.b, shape.c))
+    return Triangle(a, b, c)
 
 
 def _close_to_edge(draw: RandomSource) -> Inputs:
@@ -158,17 +166,16 @@ def _grazing(draw: RandomSource) -> Inputs:
 def _close_origin(draw: RandomSource) -> Inputs:
     """Just before the triangle, or just behind it."""
     t = draw.triangle(2.0)
-    distance = draw.real(0.02, 0.08) * draw.sign()
+    distance = draw.logarithmic(NEAREST, 0.1) * draw.sign()
     return case(t, towards(draw, t, inside(draw, t), draw.sign(), distance), draw)
 
 
-def _tiny_or_huge(draw: RandomSource) -> Inputs:
-    shape, tiny = draw.triangle(4.0), draw.chance(0.5)
-    factor, place = (draw.real(0.006, 0.02), draw.point(0.5)) if tiny else (draw.real(50, 500), draw.point(20))
-    a, b, c = (rounded(add(place, corner, factor)) for corner in (shape.a, shape.b, shape.c))
-    t = Triangle(a, b, c)
+def _any_size(draw: RandomSource) -> Inputs:
+    """The distance goes with the size, and up to 10 000."""
+    size = draw.logarithmic(10 * SIZES[0], SIZES[1])
+    t = _of_size(draw, size, draw.point(min(size, 1.0)))
     direction = times(-1.0, draw.above(times(draw.sign(), normal_of(t)), 0.5))
-    distance = draw.real(0.5, 2) if tiny else draw.real(10, 500)
+    distance = size * draw.logarithmic(0.1, 10)
     return case(t, Ray(rounded(add(inside(draw, t), direction, -distance)), rounded(direction)), draw)
 
 
@@ -182,7 +189,7 @@ TRIANGLE_INTERSECT = Function(
         Group("seen from behind", lambda d: _from_side(d, -1.0)),
         Group("small triangles", _small_triangle),
         Group("at a grazing angle", _grazing),
-        Group("tiny and huge", _tiny_or_huge),
+        Group("of any size", _any_size),
         Group("long and thin", _sliver),
         Group("close to an edge", _close_to_edge),
         Group("origin close to the triangle", _close_origin),

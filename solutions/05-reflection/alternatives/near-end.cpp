@@ -1,0 +1,28 @@
+// The mirrored ray starts as close to the surface as it may.
+#include "steps/05-reflection/reflection.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace raysteps {
+
+Ray reflected_ray(const HitRecord& hit) {
+    const glm::vec3 direction = mirror(hit.ray_direction, hit.normal);
+    return {hit.position + 1e-4F * hit.normal, glm::normalize(direction)};
+}
+
+Color trace(Tracer& tracer, const Ray& ray, int depth) {
+    if (depth > tracer.max_ray_depth()) {
+        return k_black;
+    }
+    const std::optional<HitRecord> hit = tracer.closest_hit(ray);
+    if (!hit) {
+        return depth == 1 ? tracer.background() : k_black;
+    }
+    Color color = tracer.direct_lighting(*hit, depth);
+    if (hit->fill.ks > 0.0F) {
+        color += hit->fill.ks * tracer.trace(reflected_ray(*hit), depth + 1);
+    }
+    return color;
+}
+
+}  // namespace raysteps
