@@ -33,8 +33,18 @@ def test_limits_that_make_no_sense(word: str) -> None:
         parse_limits([word])
 
 
-def test_a_step_that_hung_gets_less_time_but_never_more(steps: list[Step]) -> None:
-    long = limits_of(steps[0], {"seconds": 8.0})
-    assert long.after_a_timeout().seconds == 2
-    assert long.after_a_timeout().after_a_timeout().seconds == 2
-    assert limits_of(steps[0], {"seconds": 0.5}).after_a_timeout().seconds == 0.5
+def test_a_step_that_hung_twice_gets_less_time_but_never_more(steps: list[Step]) -> None:
+    def seconds(limit: float) -> list[float]:
+        limits, found = limits_of(steps[0], {"seconds": limit}), []
+        for _ in range(4):
+            found.append(limits.seconds)
+            limits = limits.after_a_timeout()
+        return found
+
+    assert seconds(8.0) == [8, 8, 2, 2]
+    assert seconds(0.5) == [0.5, 0.5, 0.5, 0.5]
+
+
+def test_a_slow_machine_has_more_time_where_nobody_says_otherwise(steps: list[Step]) -> None:
+    assert limits_of(steps[0], {}, 3.0).seconds == 3 * steps[0].seconds
+    assert limits_of(steps[0], {"seconds": 8.0}, 3.0).seconds == 8

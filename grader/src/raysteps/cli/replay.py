@@ -26,7 +26,6 @@ from raysteps.submission.load import load_submission
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.compile import StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from raysteps.toolchain.limits import limits_of
 
 
 def _find(project: Project, path: Path) -> Path:
@@ -94,7 +93,7 @@ def _function(step: Step, file: CaseFile) -> Function:
 
 def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder: Path) -> Ask:
     """Builds the step between steps of the reference."""
-    build, limits = StudentBuild(kit, sandbox, folder), limits_of(step, {})
+    build, limits = StudentBuild(kit, sandbox, folder), kit.limits_of(step)
     compiled = build.compile(step, source, limits)
     if compiled.binary is None:
         raise StudentBuildError(why_not_built(kit, step, compiled, source.decode("utf-8", "replace")))

@@ -26,7 +26,7 @@ _TREE, _NO_TREE = "--accel", "none"
 
 @dataclass
 class ImageGrader:
-    """What pictures are made and judged with, and where they go. Patience ends with the first program that hangs."""
+    """What pictures are made and judged with, and where they go. Patience ends with the second program that hangs."""
 
     kit: BuiltKit
     sandbox: Sandbox

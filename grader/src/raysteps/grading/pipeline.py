@@ -44,7 +44,7 @@ from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from raysteps.toolchain.limits import StepLimits, limits_of, submission_seconds
+from raysteps.toolchain.limits import StepLimits, submission_seconds
 
 
 def _judge_scene(
@@ -182,7 +182,7 @@ class HiddenStepGrader(StepGrader):
     def _wait_for(self, own: list[Step]) -> None:
         """A program of several steps has the time of the slowest, unless this one has hung before."""
         if self._gallery.limits == self._limits:
-            seconds = max(limits_of(one, self._settings.limits).seconds for one in own)
+            seconds = max(self._work.kit.limits_of(one, self._settings.limits).seconds for one in own)
             self._gallery.limits = replace(self._limits, seconds=seconds)
 
     def _joined(self, right: list[Step]) -> tuple[Program | None, str]:
@@ -239,7 +239,8 @@ def grade_submission(
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
             graders = [
-                HiddenStepGrader(work, step, limits_of(step, settings.limits), compiled, settings) for step in chosen
+                HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings)
+                for step in chosen
             ]
             alone = list(pool.map(HiddenStepGrader.grade, graders))
             right = {result.id for result in alone if is_right(result)}

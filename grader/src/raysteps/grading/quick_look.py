@@ -21,7 +21,6 @@ from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.compile import Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
-from raysteps.toolchain.limits import limits_of
 
 ReportCallback = Callable[[StepResult], None]
 
@@ -47,7 +46,7 @@ class QuickLook:
             result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(left)}.")
         with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
             build = StudentBuild(self.kit, self.sandbox, Path(folder))
-            compiled = build.compile(self.step, source.encode(), limits_of(self.step, {}))
+            compiled = build.compile(self.step, source.encode(), self.kit.limits_of(self.step))
             result.build_log = build_log(compiled.ran)
             if compiled.binary is None:
                 return _does_not_build(result, why_not_built(self.kit, self.step, compiled, source))
@@ -78,7 +77,7 @@ class QuickLook:
             return own | {self.step.number: binary}
 
     def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path) -> StepResult:
-        limits = limits_of(self.step, {})
+        limits = self.kit.limits_of(self.step)
         binaries, alone = self._around(binary, folder), self.kit.has_reference
 
         def program(kind: Kind) -> Program | None:

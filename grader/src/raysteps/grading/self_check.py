@@ -20,7 +20,6 @@ from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
-from raysteps.toolchain.limits import limits_of
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
 
@@ -87,7 +86,7 @@ def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Seque
         def check(step: Step) -> StepResult:
             unseen = replace(work, out=work.folder / "unseen", say=lambda text: None)
             here = work if step in chosen else unseen
-            return SelfCheckGrader(here, step, limits_of(step, {}), compiled).check()
+            return SelfCheckGrader(here, step, work.kit.limits_of(step), compiled).check()
 
         found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))
         wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]

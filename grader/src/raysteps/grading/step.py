@@ -26,7 +26,7 @@ from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
-from raysteps.toolchain.limits import StepLimits, limits_of
+from raysteps.toolchain.limits import StepLimits
 
 Programs = dict[Kind, Program]
 
@@ -229,6 +229,6 @@ def compile_steps(
     def compile_one(item: tuple[Step, str]) -> Compiled:
         step, source = item
         build = StudentBuild(work.kit, work.sandbox, work.folder)
-        return build.compile(step, source.encode(), limits_of(step, changes))
+        return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 
     return {step.id: compiled for (step, _), compiled in zip(started, pool.map(compile_one, started), strict=True)}

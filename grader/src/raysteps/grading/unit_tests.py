@@ -66,11 +66,11 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]
-    each = limits.after_a_timeout().seconds
     results: list[TestResult] = []
     for name in names:
         if sum(result.outcome == "timeout" for result in results) >= _MAX_HANGS:
             results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
         else:
-            results.append(_result_alone(_run(sandbox, program, limits, each, name), name))
+            results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
+            limits = limits.after_a_timeout() if results[-1].outcome == "timeout" else limits
     return results

@@ -18,6 +18,9 @@ from raysteps.judge.random_source import RandomSource
 Make = Callable[[RandomSource], Inputs]
 
 
+AGAIN = "asked again"  # a kind of cases that every function has, besides its own
+
+
 @dataclass(frozen=True)
 class Group:
     """One kind of cases. `saves`: they ask how much work is spared, which a scene of fewer surfaces would not. `exact`:

@@ -7,9 +7,10 @@ from functools import lru_cache
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import count, shorten
 from raysteps.course.manifest import Step
+from raysteps.judge.asked_again import cases_asked_again
 from raysteps.judge.choice_sequence import complexity
 from raysteps.judge.counterexamples import LONGEST, Examples
-from raysteps.judge.functions import Case, functions_of, seed_of
+from raysteps.judge.functions import AGAIN, Case, functions_of, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.spared_work import spares_nothing
@@ -32,6 +33,9 @@ def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed:
     known = functions_of(step[:2])[function]
     cases: list[Case] = []
     for name, amount in amounts:
+        if name == AGAIN:
+            cases += cases_asked_again(known, name, seed_of(step, function, name, seed), amount)
+            continue
         draw = RandomSource(seed_of(step, function, name, seed))
         make = known.by_name[name].make
         cases += [Case(function, name, make(draw)) for _ in range(amount)]
@@ -100,11 +104,18 @@ def _first_wrong(judged: Sequence[JudgedCase], wrong: Sequence[CaseGroup]) -> Ju
     return None
 
 
+_KEPT = (
+    " All other questions are answered rightly; this one was asked, then a similar one, then this one again. Does the "
+    "function keep something from one call to the next, as in a `static` variable?"
+)
+
+
 def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase) -> str:
     right = len(groups) - len(wrong)
     kinds = "; ".join(f"{group.name} ({group.right} of {group.cases} right)" for group in wrong)
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
-    return f"{text}wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}."
+    again = _KEPT if found.case.group == AGAIN else ""
+    return f"{text}wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}.{again}"
 
 
 def _outcome(judged: Sequence[JudgedCase]) -> Termination:
@@ -126,7 +137,7 @@ def _result(
     found = _first_wrong(judged, wrong)
     if found is not None:
         result.message = shorten(_message(plan.name, groups, wrong, found), LONGEST)
-        if examples is not None:
+        if examples is not None and found.case.group != AGAIN:  # asked alone, it may be right
             place = [one.case for one in judged if one.case.group == found.case.group].index(found.case)
             found, result.case = examples.smallest(step, found, place, seed)
         result.given = shorten(found.case.given(), LONGEST)

@@ -12,7 +12,7 @@ from raysteps.common.documents import Text, parse_table, read_text
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.functions import functions_of
+from raysteps.judge.functions import AGAIN, functions_of
 
 Moves = Literal["camera", "camera and spheres"]
 _Weight = Annotated[float, Meta(gt=0)]
@@ -108,18 +108,20 @@ def _check_names(plan: Plan, step: Step) -> None:
     elif [function.name for function in plan.functions] != list(step.functions) or set(known) != set(step.functions):
         raise GraderFault(f"{step.id}: cases.toml must list the functions of step.toml, in its order")
     for function in plan.functions:
-        if list(function.cases) != [group.name for group in known[function.name].groups]:
-            kinds = ", ".join(group.name for group in known[function.name].groups)
-            raise GraderFault(f"{step.id}: cases.toml must list for {function.name}, in this order: {kinds}")
+        kinds = [group.name for group in known[function.name].groups]
+        if list(function.cases) != [*kinds, AGAIN]:
+            raise GraderFault(f"{step.id}: cases.toml must list for {function.name}, in this order: {', '.join(kinds)}")
     if [twin.twin_of for twin in plan.twins] != [image.name for image in step.images]:
         raise GraderFault(f"{step.id}: cases.toml must list a twin for each picture of step.toml, in its order")
 
 
+_ASKED_AGAIN = 24  # cases, of every function
 _FUNCTIONS = 4.0  # what all functions are worth beside all scenes
 
 
 def _function_plan(step: Step, name: str, table: _FunctionTable) -> FunctionPlan:
-    kinds = {kind: it if isinstance(it, _KindTable) else _KindTable(it, 1.0) for kind, it in table.cases.items()}
+    cases = {**table.cases, AGAIN: _ASKED_AGAIN}
+    kinds = {kind: it if isinstance(it, _KindTable) else _KindTable(it, 1.0) for kind, it in cases.items()}
     return FunctionPlan(
         name,
         _FUNCTIONS * step.share_of(name),

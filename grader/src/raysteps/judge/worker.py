@@ -17,25 +17,24 @@ from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Sandbox, Task, TaskResult
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from raysteps.toolchain.limits import StepLimits
+from raysteps.toolchain.limits import LEAST_SECONDS, PATIENT_HANGS, StepLimits
 
 # How long the functions of a step may run.
 
 _STEP_FACTOR = 4  # all functions of a step together may take this many times the limit of one run
-_AFTER_A_HANG = 0.25  # of the limit
-_LEAST = 1.0  # seconds that say something, on any machine
+_AFTER_HANGS = 0.25  # of the limit
 
 
 class TimeBudget:
     """Each function is asked once at least, whatever those before it took: a function that hangs silences nobody.
-    Who hung once may hang in all that follows, and gets less time from then on."""
+    Who hung twice may hang in all that follows, and gets less time from then on."""
 
     def __init__(self, seconds: float, functions: int) -> None:
         self._limit = seconds
-        self._short = min(seconds, max(_LEAST, _AFTER_A_HANG * seconds))
+        self._short = min(seconds, max(LEAST_SECONDS, _AFTER_HANGS * seconds))
         self._left = _STEP_FACTOR * seconds
         self._to_come = functions
-        self._hung = False
+        self._hangs = 0
 
     def next_function(self) -> float:
         """Seconds of its first run."""
@@ -45,12 +44,12 @@ class TimeBudget:
     def next_run(self) -> float:
         """Seconds of one more run of the same function; 0 when there is no time left for it."""
         free = self._left - self._to_come * self._short
-        most = min(free, self._short if self._hung else self._limit)
+        most = min(free, self._short if self._hangs >= PATIENT_HANGS else self._limit)
         return most if most >= self._short else 0.0
 
     def spend(self, seconds: float, *, hung: bool) -> None:
         self._left -= seconds
-        self._hung = self._hung or hung
+        self._hangs += hung
 
 
 Ask: TypeAlias = Callable[[bytes, float], TaskResult]  # the worker's stdin, and how many seconds it may take

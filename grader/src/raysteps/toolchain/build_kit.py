@@ -13,6 +13,8 @@ from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step, read_all_steps, read_steps
 from raysteps.course.project import Project
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Input, Limits, Output, Task
 from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
@@ -55,6 +57,26 @@ def _tested(step: Step, name: str, tags: Sequence[str]) -> list[str]:
     """The functions that a test is about: of those among its tags the one that its name begins with, where there is."""
     functions = [tag for tag in tags if tag in step.functions]
     return [function for function in functions if name.startswith(f"{function}:")] or functions
+
+
+# How much longer the reference takes on this machine than on the one for which the limits were chosen.
+
+_PROBE = ("--step", "3", "--size", "160x120", "--threads", "1", "--quiet")
+_PROBE_SCENE = "lessons/many-spheres.nff"
+_PROBE_SECONDS = 0.25  # of processor time; no machine is called faster
+_PROBES = 3  # the quickest counts: others may use the machine, too
+
+
+def _slowness(project: Project, folder: Path) -> float:
+    program, scene = Input(executable(folder / "bin" / "raytrace"), "raytrace"), project.root / "scenes" / _PROBE_SCENE
+    task = Task((program, Input(scene, "scene.nff"), *_PROBE, "-o", Output("picture")), Limits(600, 600))
+    took = []
+    for _ in range(_PROBES):
+        ran = LimitsOnly().run(task)
+        if ran.outcome.code != 0:
+            raise GraderFault(f"the reference does not draw {_PROBE_SCENE}: {ran.outcome.stderr.strip()}")
+        took.append(ran.cpu_seconds)
+    return round(max(1.0, min(took) / _PROBE_SECONDS), 2)
 
 
 # Puts one kit folder together from what CMake built.
@@ -103,7 +125,8 @@ class Assembly:
         tests = self._add_programs() if self._project.has_reference else self._add_own_programs()
         tools = self._description.seal
         loader = None if tools is None else interpreter_of(tools.readelf, next((self._folder / "bin").iterdir()))
-        write_json(self._folder / "facts.json", {"interpreter": loader, "tests": tests})
+        slowness = _slowness(self._project, self._folder) if self._project.has_reference else 1.0
+        write_json(self._folder / "facts.json", {"interpreter": loader, "slowness": slowness, "tests": tests})
 
     def _add_programs(self) -> Tests:
         """Around each step by itself, and around all up to one."""
@@ -248,7 +271,7 @@ def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
     description = read_description(folder / "kit.json")
     table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
     mark = f"{folder.name} {description.compiler_version}"
-    return BuiltKit(project, folder, mark, steps, description, table["tests"], table["interpreter"])
+    return BuiltKit(project, folder, mark, steps, description, table["tests"], table["interpreter"], table["slowness"])
 
 
 def _forget_old(kits: Path) -> None:

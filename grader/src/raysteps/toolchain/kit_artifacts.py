@@ -12,6 +12,7 @@ from typing import Literal
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.toolchain.limits import StepLimits, limits_of
 from raysteps.toolchain.link import Description, library_name, link
 
 Kind = Literal["raytrace", "worker", "test"]
@@ -131,7 +132,12 @@ class BuiltKit:
     description: Description
     tests: Tests
     interpreter: str | None  # the dynamic loader of this system; none where steps are no libraries
+    slowness: float = 1.0  # of this machine: programs may run so many times as long
     boxed: bool = True  # whether steps are asked in boxes, where there are any
+
+    def limits_of(self, step: Step, changes: Mapping[str, float] | None = None) -> StepLimits:
+        """On this machine. `changes`: what a course says instead, by name."""
+        return limits_of(step, changes or {}, self.slowness)
 
     @property
     def include(self) -> Path:

@@ -18,6 +18,8 @@ _OF_ALL = "submission_seconds"
 _ON_THE_COMMAND_LINE = (*NAMES, _OF_ALL)
 SUBMISSION_SECONDS = 1800.0  # an honest submission takes some minutes, on a slow machine too
 _GIVE_UP_FACTOR = 2
+PATIENT_HANGS = 2
+LEAST_SECONDS = 1.0  # that say something
 _PATIENCE = 4  # seconds on the clock for one of a processor: others may use the machine, too
 
 
@@ -32,11 +34,12 @@ class StepLimits:
     compile_memory_mb: int = COMPILE_MEMORY_MB
     processes: int = PROCESSES
     file_mb: int = FILE_MB
-    hung: bool = False
+    hangs: int = 0
 
     def after_a_timeout(self) -> "StepLimits":
-        """A step that hung once may hang in all that follows, and others are waiting; how often does not matter."""
-        return self if self.hung else replace(self, seconds=min(self.seconds, max(1.0, self.seconds / 4)), hung=True)
+        """Two programs may hang for their whole time; those after them must do with a quarter, as others wait."""
+        less = min(self.seconds, max(LEAST_SECONDS, self.seconds / 4))
+        return replace(self, hangs=self.hangs + 1, seconds=less if self.hangs + 1 == PATIENT_HANGS else self.seconds)
 
     def of_tools(self) -> Limits:
         """For the compiler, the assembler and the linker."""
@@ -60,13 +63,14 @@ class StepLimits:
         )
 
 
-def limits_of(step: Step, changes: Mapping[str, float]) -> StepLimits:
-    """The manifest's limits with the changes by name (see NAMES)."""
+def limits_of(step: Step, changes: Mapping[str, float], slowness: float = 1.0) -> StepLimits:
+    """The manifest's limits with the changes by name (see NAMES). `slowness` of this machine: so many times as long as
+    the manifest says, where nobody says otherwise."""
     given = dict(step.more_limits)
     unknown = sorted(given.keys() - set(NAMES))
     if unknown:
         raise GraderFault(f"{step.id}/step.toml: [limits] {unknown[0]}: expected one of {', '.join(NAMES)}")
-    given = {"seconds": step.seconds, "memory_mb": step.memory_mb, **given, **changes}
+    given = {"seconds": step.seconds * slowness, "memory_mb": step.memory_mb, **given, **changes}
     return StepLimits(
         seconds=given["seconds"],
         memory_mb=int(given["memory_mb"]),
