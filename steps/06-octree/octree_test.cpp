@@ -1,5 +1,6 @@
 // Visible tests of step 06: a tree that loses no surface, and gives the same hits with fewer tests.
-// Nothing here asks how deep the tree is, or how long the lists in its leaves are.
+// Nothing here asks how deep the tree is, or how long the lists in its leaves are. Searches are asked in a tree that the
+// tests make themselves.
 #include "steps/06-octree/octree.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "core/scene.hpp"
 #include "core/stats.hpp"
 #include "testing/testing.hpp"
+#include "testing/trees.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -93,11 +95,11 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
 }
 
 TEST_CASE("closest_hit_in_octree: the same hits as without the tree",
-          "[06-octree][build_octree][closest_hit_in_octree]") {
+          "[06-octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     SECTION("rays from inside the scene") {
         for (int i = 0; i < 1500; ++i) {
             check_same_hit(root, scene.surfaces(), random.ray(5.0F));
@@ -119,7 +121,7 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree",
 }
 
 TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
-          "[06-octree][build_octree][closest_hit_in_octree]") {
+          "[06-octree][closest_hit_in_octree]") {
     // A large triangle, slanted, runs through boxes near and far; small balls stand before it.
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, -8.0F}, glm::vec3{24.0F, -8.0F, 8.0F},
@@ -128,7 +130,7 @@ TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
         const glm::vec3 place(static_cast<float>(i % 4), static_cast<float>(i / 4 % 4), static_cast<float>(i / 16));
         scene.add(sphere_at(4.0F * place - 6.0F, 0.7F));
     }
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     Random random;
     INFO(random);
     for (int i = 0; i < 1500; ++i) {
@@ -137,14 +139,14 @@ TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
 }
 
 TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small things",
-          "[06-octree][build_octree][closest_hit_in_octree]") {
+          "[06-octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);
     scene.add(std::make_unique<Triangle>(glm::vec3{-300.0F, -300.0F, -5.5F}, glm::vec3{300.0F, -300.0F, -5.5F},
                                          glm::vec3{0.0F, 300.0F, -5.5F}, Fill{}));
     scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     for (int i = 0; i < 500; ++i) {
         const Ray ray = random.ray(5.0F);
         INFO("wherever a ray from inside the dome goes, it meets something");
@@ -154,7 +156,7 @@ TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small t
 }
 
 TEST_CASE("closest_hit_in_octree: of several hits at one distance the first in the scene counts",
-          "[06-octree][build_octree][closest_hit_in_octree]") {
+          "[06-octree][closest_hit_in_octree]") {
     // A floor with a tile in it. The ray comes in low, through boxes that hold the floor and not the tile.
     Scene scene;
     for (int i = 0; i < 64; ++i) {
@@ -166,7 +168,7 @@ TEST_CASE("closest_hit_in_octree: of several hits at one distance the first in t
                                          glm::vec3{2.0F, 3.0F, 0.0F}, fill));
     scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, 0.0F}, glm::vec3{24.0F, -8.0F, 0.0F},
                                          glm::vec3{-8.0F, 24.0F, 0.0F}, Fill{}));
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     const glm::vec3 direction = glm::normalize(glm::vec3{1.0F, 1.0F, -0.02F});
     const std::optional<HitRecord> hit =
         closest_hit_in_octree(root, {glm::vec3{2.25F, 2.25F, 0.0F} - 12.0F * direction, direction});
@@ -191,11 +193,11 @@ TEST_CASE("build_octree: the boxes sort the surfaces out", "[06-octree][build_oc
 }
 
 TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
-          "[06-octree][build_octree][closest_hit_in_octree]") {
+          "[06-octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     const int rays = 500;
     int hits = 0;
     const std::uint64_t before = thread_stats().surface_tests;
@@ -216,11 +218,11 @@ TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
 }
 
 TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
-          "[06-octree][build_octree][occluded_in_octree]") {
+          "[06-octree][occluded_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     for (int i = 0; i < 1000; ++i) {
         check_same_occlusion(root, scene.surfaces(), random.ray(5.0F));
         check_same_occlusion(root, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
@@ -228,22 +230,22 @@ TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
 }
 
 TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it",
-          "[06-octree][build_octree][occluded_in_octree]") {
+          "[06-octree][occluded_in_octree]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);
     scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
-    const Node root = build_octree(scene.surfaces());
+    const Node root = columns_around(scene.surfaces());
     for (int i = 0; i < 500; ++i) {
         check_same_occlusion(root, scene.surfaces(), random.ray(5.0F));
     }
     INFO("the only ball is met at 4; a distance of 4 ends there, so nothing is nearer");
     Scene one;
     one.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
-    const Node small = build_octree(one.surfaces());
+    const Node small = columns_around(one.surfaces());
     CHECK_FALSE(occluded_in_octree(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.0F));
     CHECK(occluded_in_octree(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.5F));
-    CHECK_FALSE(occluded_in_octree(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
+    CHECK_FALSE(occluded_in_octree(Node{}, {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
 }
 
 TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in_octree]") {

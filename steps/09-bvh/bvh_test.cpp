@@ -10,6 +10,7 @@
 
 #include "steps/02-intersection/intersection.hpp"
 #include "testing/testing.hpp"
+#include "testing/trees.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -161,20 +162,20 @@ TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh]") {
     SECTION("no surfaces: no nodes") { CHECK(build_bvh({}).nodes.empty()); }
 }
 
-TEST_CASE("closest_hit_in_bvh: in scenes that cannot be divided", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
+TEST_CASE("closest_hit_in_bvh: in scenes that cannot be divided", "[09-bvh][closest_hit_in_bvh]") {
     SECTION("2000 spheres in the same place") {
         const Scene scene = spheres_in_one_place();
-        check_same_hit(build_bvh(scene.surfaces()), scene.surfaces(), {{1.2F, 0.9F, 9.0F}, k_down});
+        check_same_hit(chain_of_leaves(scene.surfaces()), scene.surfaces(), {{1.2F, 0.9F, 9.0F}, k_down});
     }
     SECTION("triangles that all lie in one plane: a flat box") {
         const Scene scene = row_of_triangles();
-        const Bvh bvh = build_bvh(scene.surfaces());
+        const Bvh bvh = chain_of_leaves(scene.surfaces());
         for (int i = 0; i < 30; ++i) {
             check_same_hit(bvh, scene.surfaces(), {{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down});
         }
     }
     SECTION("no surfaces: no hit") {
-        const Bvh bvh = build_bvh({});
+        const Bvh bvh = chain_of_leaves({});
         CHECK_FALSE(closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
         CHECK_FALSE(occluded_in_bvh(bvh, {{0.0F, 0.0F, 0.0F}, k_down}, 10.0F));
     }

@@ -1,4 +1,5 @@
-// Visible tests of step 09: the same hits as without the tree, with fewer tests.
+// Visible tests of step 09: the same hits as without the tree, with fewer tests. But for one, searches are asked in a
+// tree that the tests make themselves.
 #include <limits>
 #include <memory>
 
@@ -6,6 +7,7 @@
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/09-bvh/bvh.hpp"
 #include "testing/testing.hpp"
+#include "testing/trees.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -49,11 +51,11 @@ void check_occlusion(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray
 
 }  // namespace
 
-TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
+TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][closest_hit_in_bvh]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
-    const Bvh bvh = build_bvh(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces());
     SECTION("rays from inside the scene") {
         for (int i = 0; i < 1500; ++i) {
             check_same_hit(bvh, scene.surfaces(), random.ray(5.0F));
@@ -78,7 +80,7 @@ TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][bui
 }
 
 TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the scene counts",
-          "[09-bvh][build_bvh][closest_hit_in_bvh]") {
+          "[09-bvh][closest_hit_in_bvh]") {
     Scene scene;
     for (int i = 0; i < 200; ++i) {
         Fill fill;
@@ -87,7 +89,7 @@ TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the 
                                              glm::vec3{0.0F, 1.0F + static_cast<float>((i * 7 + 100) % 200), 0.0F},
                                              fill));
     }
-    const Bvh bvh = build_bvh(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces());
     const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down});
     REQUIRE(hit.has_value());
     INFO("number of the triangle that was found; all of them are hit at distance 5");
@@ -118,11 +120,11 @@ TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree", "[09-bvh]
     CHECK(boxes_tested / rays > 1.5);
 }
 
-TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bvh][build_bvh][occluded_in_bvh]") {
+TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bvh][occluded_in_bvh]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 150, 20);
-    const Bvh bvh = build_bvh(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces());
     for (int i = 0; i < 1500; ++i) {
         check_occlusion(bvh, scene.surfaces(), random.ray(5.0F), random.uniform(0.0F, 12.0F));
         check_occlusion(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F),
@@ -130,11 +132,11 @@ TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bv
     }
 }
 
-TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count", "[09-bvh][build_bvh][occluded_in_bvh]") {
+TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count", "[09-bvh][occluded_in_bvh]") {
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
                                          glm::vec3{0.0F, 1.0F, 0.0F}, Fill{}));
-    const Bvh bvh = build_bvh(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces());
     const Ray ray{{0.0F, 0.0F, 4.0F}, k_down};
     CHECK_FALSE(occluded_in_bvh(bvh, ray, 3.9F));
     CHECK_FALSE(occluded_in_bvh(bvh, ray, 4.0F));
@@ -142,9 +144,9 @@ TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count", "[09-b
     CHECK(occluded_in_bvh(bvh, ray, std::numeric_limits<float>::infinity()));
 }
 
-TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
+TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][closest_hit_in_bvh]") {
     const Scene scene = hundred_sheets();
-    const Bvh bvh = build_bvh(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces());
     const auto sheets_tested = [&bvh](const Ray& ray) {
         const std::uint64_t before = thread_stats().surface_tests;
         CHECK(closest_hit_in_bvh(bvh, ray).has_value());
@@ -155,16 +157,16 @@ TEST_CASE("closest_hit_in_bvh: what begins behind the hit is spared", "[09-bvh][
     CHECK(sheets_tested({{0.0F, 0.0F, -105.0F}, -k_down}) < 50);
 }
 
-TEST_CASE("occluded_in_bvh: ends with the first hit", "[09-bvh][build_bvh][occluded_in_bvh]") {
+TEST_CASE("occluded_in_bvh: ends with the first hit", "[09-bvh][occluded_in_bvh]") {
     const Scene scene = hundred_sheets();
-    const Bvh bvh = build_bvh(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces());
     const std::uint64_t before = thread_stats().surface_tests;
     CHECK(occluded_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down}, 200.0F));
     INFO("sheets that were tested, though one was enough");
     CHECK(thread_stats().surface_tests - before < 50);
 
     const Scene slopes = hundred_slopes();
-    const Bvh overlapping = build_bvh(slopes.surfaces());
+    const Bvh overlapping = chain_of_leaves(slopes.surfaces());
     const std::uint64_t before_slopes = thread_stats().surface_tests;
     CHECK(occluded_in_bvh(overlapping, {{0.0F, 0.0F, 25.0F}, k_down}, 200.0F));
     INFO("slopes that were tested, though one was enough: which of them is nearest is not asked");

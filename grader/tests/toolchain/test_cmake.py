@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.course.project import Project
-from raysteps.toolchain.cmake import BuildTree, release_tree
+from raysteps.toolchain.cmake import BuildTree, _HowFar, release_tree
 from tools.selftest.programs import use_compiler_cache
 
 
@@ -91,3 +91,31 @@ def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: 
         outcome = tree.build([])
         assert outcome.code == 0, outcome.stderr
         assert _hits() == hits
+
+
+@pytest.mark.parametrize(
+    ("pieces", "expected"),
+    [
+        ([b"[1/140] Building\n[2/140] Building\n", b"[3/140] Buil"], ["2 of 140", "3 of 140"]),
+        ([b"[  1%] Building\n", b"[ 26%] Built target\n"], ["1 %", "26 %"]),
+        ([b"a warning[-Wall]\n"], []),
+    ],
+)
+def test_a_build_says_how_far_it_is(
+    pieces: list[bytes], expected: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(_HowFar, "_EVERY", -1.0)
+    how_far = _HowFar(said.append)
+    for piece in pieces:
+        how_far.heard(piece)
+    assert said == expected
+
+
+def test_a_build_does_not_say_it_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(_HowFar, "_EVERY", 3600.0)
+    how_far = _HowFar(said.append)
+    for done in range(140):
+        how_far.heard(f"[{done}/140] Building\n".encode())
+    assert not said

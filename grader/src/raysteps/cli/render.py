@@ -101,7 +101,7 @@ def _build(tree: BuildTree, target: str) -> Outcome:
     with tree.locked():
         begun.parent.mkdir(parents=True, exist_ok=True)
         begun.touch()
-        return tree.build([target])
+        return tree.build([target], lambda far: _say(f"building: {far}", first=False))
 
 
 def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
@@ -153,8 +153,7 @@ def run_words(project: Project, args: list[str]) -> int:
         raise UsageError(f"{args[at]}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
     if impl == "reference":
-        first = not any((project.build / "kit").glob("*/kit.json"))
-        kit = build_kit(project, lambda text: _say(text, first=first))
+        kit = build_kit(project, lambda text: _say(text, first=False))
         return run_raytrace(kit.reference("raytrace"), args)
     program = build_mine(release_tree(project))
     if at == len(args):

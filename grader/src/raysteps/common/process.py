@@ -6,7 +6,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,12 +43,13 @@ _PIECE = 1 << 16
 
 class PipeReader:
     """A thread that reads a pipe to its end and keeps the first `cap` bytes. The pipe is its own, to close it as well:
-    somebody who outlives the program may hold the other end for long."""
+    somebody who outlives the program may hold the other end for long. `heard` gets each piece when it comes."""
 
-    def __init__(self, pipe: IO[bytes] | None, cap: int) -> None:
+    def __init__(self, pipe: IO[bytes] | None, cap: int, heard: Callable[[bytes], None] = lambda data: None) -> None:
         assert pipe is not None
         self._pipe = pipe
         self._cap = cap
+        self._heard = heard
         self._kept = bytearray()
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
@@ -57,6 +58,7 @@ class PipeReader:
         with self._pipe:
             while data := os.read(self._pipe.fileno(), _PIECE):
                 self._kept += data[: max(0, self._cap - len(self._kept))]
+                self._heard(data)
 
     def is_at_end(self, seconds: float) -> bool:
         """Whether the pipe was closed at the other end, within that time."""
@@ -140,8 +142,10 @@ def run(
     seconds: float,
     cwd: Path | None = None,
     cap: int = _MEGABYTE,
+    heard: Callable[[bytes], None] = lambda data: None,
 ) -> Outcome:
-    """Runs the words of a command, never a shell; kills whatever it started in the end."""
+    """Runs the words of a command, never a shell; kills whatever it started in the end. `heard` gets what it says on
+    stdout, piece by piece and in another thread."""
     start = time.monotonic()
     process = subprocess.Popen(
         [str(word) for word in command],
@@ -151,7 +155,7 @@ def run(
         stderr=subprocess.PIPE,
         **new_session(),
     )
-    pipes = [PipeReader(process.stdout, cap), PipeReader(process.stderr, cap)]
+    pipes = [PipeReader(process.stdout, cap, heard), PipeReader(process.stderr, cap)]
     try:
         in_time = _has_ended_in_time(process, pipes, start + seconds)
     finally:

@@ -21,7 +21,7 @@ from raysteps.results.model import CaseGroup, HiddenResult, Termination
 
 _ORDINARY = 0.5  # of a function's points are for the first kind of cases, which are ordinary
 _SOME = 0.25  # of the ordinary cases: below, the other kinds count less and less
-_NEARLY = 0.98  # a function with a kind that is wrong earns no more
+_NEARLY = 0.9  # a function with a kind that is wrong earns no more
 _SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
 _MAY_MISS = 0.01  # of the cases of a kind, by rounding
 _DIGITS = 6  # of a share

@@ -3,7 +3,8 @@
 import os
 import re
 import shutil
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,24 @@ from raysteps.course.project import Project
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
 _LAUNCHER = "CMAKE_CXX_COMPILER_LAUNCHER"
+
+
+class _HowFar:
+    """What Ninja and Make say of it: `[37/140]`, or `[ 26%]`."""
+
+    _DONE = re.compile(rb"\[ *([0-9]+)(?:/([0-9]+)|(%))\]")
+    _EVERY = 5.0  # seconds
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self._say = say
+        self._next = time.monotonic() + self._EVERY
+
+    def heard(self, data: bytes) -> None:
+        found = self._DONE.findall(data)
+        if found and time.monotonic() > self._next:
+            done, of, percent = (word.decode() for word in found[-1])
+            self._say(f"{done} %" if percent else f"{done} of {of}")
+            self._next = time.monotonic() + self._EVERY
 
 
 @dataclass(frozen=True)
@@ -82,8 +101,8 @@ class BuildTree:
         if outcome.code != 0:
             raise GraderFault("CMake cannot configure the kit:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
 
-    def build(self, targets: list[str]) -> Outcome:
-        """Builds the targets (all of them when there are none)."""
+    def build(self, targets: list[str], say: Callable[[str], None] = lambda text: None) -> Outcome:
+        """Builds the targets (all of them when there are none). `say` gets how far it is, every few seconds."""
         self.configure()
         cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for whoever uses ccache: copies of the kit share it
         command: list[str | Path] = ["cmake", "-E", "env", cached, "cmake", "--build", self.folder]
@@ -91,7 +110,7 @@ class BuildTree:
             command.append("--parallel")
         if targets:
             command += ["--target", *targets]
-        return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root)
+        return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root, heard=_HowFar(say).heard)
 
     @contextmanager
     def locked(self) -> Iterator[None]:

@@ -1,0 +1,82 @@
+#pragma once
+// Trees to search in that no step has built: a search is tested by itself, whatever the builder does. They are right, and
+// poor: nobody would build them so.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vector_relational.hpp>
+
+#include "core/bvh.hpp"
+#include "core/node.hpp"
+
+namespace raysteps::testing {
+
+inline Box bounds_around(const SurfaceList& surfaces, std::size_t first, std::size_t end) {
+    Box box;
+    for (std::size_t i = first; i < end; ++i) {
+        box.extend(surfaces[i]->bounds());
+    }
+    return box.padded(1e-3F);
+}
+
+/// Number `number` of eight slabs of the box, side by side along the axis, with the surfaces whose bounds touch it.
+inline Node slab(const Box& box, int axis, int number, const SurfaceList& surfaces) {
+    Node node{box, {}, {}};
+    const float thickness = (box.max[axis] - box.min[axis]) / 8.0F;
+    node.box.min[axis] = box.min[axis] + thickness * static_cast<float>(number);
+    node.box.max[axis] = box.min[axis] + thickness * static_cast<float>(number + 1);
+    for (const Surface* surface : surfaces) {
+        const Box bounds = surface->bounds();
+        if (glm::all(glm::lessThanEqual(bounds.min, node.box.max)) &&
+            glm::all(glm::lessThanEqual(node.box.min, bounds.max))) {
+            node.surfaces.push_back(surface);
+        }
+    }
+    return node;
+}
+
+/// Columns along z: eight slabs along x, and in each of them eight along y.
+inline Node columns_around(const SurfaceList& surfaces) {
+    Node root{bounds_around(surfaces, 0, surfaces.size()), {}, {}};
+    for (int x = 0; x < 8 && !surfaces.empty(); ++x) {
+        Node part = slab(root.box, 0, x, surfaces);
+        for (int y = 0; y < 8; ++y) {
+            part.children.push_back(slab(part.box, 1, y, part.surfaces));
+        }
+        part.surfaces.clear();
+        root.children.push_back(part);
+    }
+    return root;
+}
+
+/// Sorted along the longest side: a few surfaces in a leaf, beside it a node with all others, and so on.
+inline Bvh chain_of_leaves(const SurfaceList& surfaces) {
+    Bvh bvh{{}, surfaces};
+    const std::size_t count = surfaces.size();
+    if (count == 0) {
+        return bvh;
+    }
+    const Box all = bounds_around(surfaces, 0, count);
+    const glm::vec3 size = all.max - all.min;
+    const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+    std::stable_sort(bvh.surfaces.begin(), bvh.surfaces.end(), [axis](const Surface* a, const Surface* b) {
+        return a->bounds().center()[axis] < b->bounds().center()[axis];
+    });
+    const std::size_t in_leaf = 3 + count / 40;
+    const auto leaf = [&bvh](std::size_t first, std::size_t end) {
+        return BvhNode{bounds_around(bvh.surfaces, first, end), static_cast<std::uint32_t>(first),
+                       static_cast<std::uint32_t>(end - first)};
+    };
+    std::size_t first = 0;
+    bvh.nodes.push_back(leaf(0, count));
+    while (bvh.nodes.back().count > in_leaf) {
+        BvhNode& rest = bvh.nodes.back();
+        rest = {rest.box, static_cast<std::uint32_t>(bvh.nodes.size()), 0};
+        bvh.nodes.push_back(leaf(first, first + in_leaf));
+        first += in_leaf;
+        bvh.nodes.push_back(leaf(first, count));
+    }
+    return bvh;
+}
+
+}  // namespace raysteps::testing
