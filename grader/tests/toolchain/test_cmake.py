@@ -101,9 +101,7 @@ def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: 
         ([b"a warning[-Wall]\n"], []),
     ],
 )
-def test_a_build_says_how_far_it_is(
-    pieces: list[bytes], expected: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_build_says_how_far_it_is(pieces: list[bytes], expected: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     said: list[str] = []
     monkeypatch.setattr(_HowFar, "_EVERY", -1.0)
     how_far = _HowFar(said.append)

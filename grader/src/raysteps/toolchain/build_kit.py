@@ -258,9 +258,7 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
         mark = fingerprint(project)
         folder = project.build / "kit" / mark
         if not (folder / "kit.json").is_file():
-            what = f"building the framework{', the references' if project.has_reference else ''} and the tests"
-            say(what)
-            _build(project, steps, folder, lambda far: say(f"{what}: {far}"))
+            _build(project, steps, folder, say)
         if fingerprint(project) == mark:
             os.utime(folder)
             _forget_old(folder.parent)
@@ -284,12 +282,14 @@ def _forget_old(kits: Path) -> None:
 
 
 def _build(project: Project, steps: list[Step], folder: Path, say: ProgressCallback) -> None:
+    what = f"building the framework{', the references' if project.has_reference else ''} and the tests"
+    say(what)
     folder.parent.mkdir(parents=True, exist_ok=True)
     tree = release_tree(project)
     with tree.locked(), tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent) as name:
         if (folder / "kit.json").is_file():
             return  # somebody else was faster
-        outcome = tree.build(["kit"], say)
+        outcome = tree.build(["kit"], lambda far: say(f"{what}: {far}"))
         if outcome.code != 0:
             raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
         for left in folder.parent.glob(".new-*"):  # by builds that were killed: this one has the lock
