@@ -28,13 +28,15 @@ class TooLarge(str):
 @dataclass(frozen=True)
 class Verdict:
     """What the judge thinks of one answer; `problem` is empty when it is right. `credit`: how much of it is right,
-    from 0 to 1."""
+    from 0 to 1. `right` and `given`: the two answers where they are vectors that can be near each other."""
 
     problem: str
     expected: str
     actual: str
     credit: float = 0.0
     constant: str = ""  # the right answer without what nobody answers by himself, to tell equal ones
+    right: Vector | None = None
+    given: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,7 @@ class Answer(Generic[T]):
     problem: Callable[[Inputs, T, T], str]
     credit: Callable[[Inputs, T, T], float] = lambda _inputs, _expected, _actual: 0.0
     constant: Callable[[T], str] | None = None  # `words` without what was counted
+    near: Callable[[T], Vector] | None = None  # where an answer that is nearly right is worth something
 
     def parse(self, line: str) -> T:
         tokens = TokenReader(line)
@@ -70,6 +73,7 @@ class Answer(Generic[T]):
         """Compares; whatever the student's line holds, it is an answer, and perhaps a wrong one."""
         expected = self.reference(name, inputs, expected_line)
         constant = (self.constant or self.words)(expected)
+        right = self.near(expected) if self.near is not None else None
         if actual_line.startswith("threw"):
             said = printable(actual_line.removeprefix("threw").strip())
             return Verdict(
@@ -77,16 +81,19 @@ class Answer(Generic[T]):
                 self.words(expected),
                 f"an exception: {shorten(said, 200)}",
                 constant=constant,
+                right=right,
             )
         try:
             actual = self.parse(actual_line)
             problem = self.problem(inputs, expected, actual)
             credit = self.credit(inputs, expected, actual) if problem else 1.0
-            return Verdict(problem, self.words(expected), self.words(actual), credit, constant)
+            given = self.near(actual) if self.near is not None else None
+            return Verdict(problem, self.words(expected), self.words(actual), credit, constant, right, given)
         except GraderFault:
             raise
         except Exception as error:  # the reference's answer was read just so: this is about the student's
-            return Verdict("no proper answer came", self.words(expected), shorten(str(error), 200), constant=constant)
+            said = shorten(str(error), 200)
+            return Verdict("no proper answer came", self.words(expected), said, constant=constant, right=right)
 
 
 def read_vector(tokens: TokenReader) -> Vector:
@@ -103,6 +110,11 @@ def read_frame(tokens: TokenReader) -> Frame:
 
 def read_whole(tokens: TokenReader) -> int:
     return tokens.whole(-(1 << 31))
+
+
+def itself(v: Vector) -> Vector:
+    """What is near to a vector."""
+    return v
 
 
 def words_of_vector(v: Vector) -> str:

@@ -3,10 +3,14 @@
 from collections import Counter
 from collections.abc import Sequence
 from functools import lru_cache
+from math import inf
+from statistics import median
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import count, shorten
+from raysteps.common.vectors import length, minus
 from raysteps.course.manifest import Step
+from raysteps.judge.answers import Verdict
 from raysteps.judge.asked_again import cases_asked_again
 from raysteps.judge.choice_sequence import complexity
 from raysteps.judge.counterexamples import LONGEST, Examples
@@ -23,6 +27,7 @@ _ORDINARY = 0.5  # of a function's points are for the first kind of cases, which
 _SOME = 0.25  # of the ordinary cases: below, the other kinds count less and less
 _NEARLY = 0.9  # a function with a kind that is wrong earns no more
 _SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
+_NEAR = 0.5  # of the share of wrong answers that come near the right ones
 _MAY_MISS = 0.01  # of the cases of a kind, by rounding
 _DIGITS = 6  # of a share
 _REFERENCE_SECONDS = 600
@@ -59,12 +64,29 @@ def reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:
 def _group(name: str, judged: Sequence[JudgedCase]) -> CaseGroup:
     """Cases that were not asked any more count like those that were."""
     group = CaseGroup(name, len(judged), sum(not one.verdict.problem for one in judged))
-    asked = [one.verdict.credit for one in judged if one.asked]
+    asked = [one.verdict for one in judged if one.asked]
     if _is_right(group):
         group.share = 1.0
     elif asked:
-        group.share = round(sum(asked) / len(asked), _DIGITS)
+        credit = sum(one.credit for one in asked) / len(asked)
+        group.share = round(max(credit, _NEAR * nearness(asked)), _DIGITS)
     return group
+
+
+def nearness(verdicts: Sequence[Verdict]) -> float:
+    """From 0 to 1, how much nearer the answers come to the right ones than the best single answer to all of them does:
+    the median. No answer is as far off as twice that one."""
+    pairs = [(one.right, one.given) for one in verdicts if one.right is not None]
+    if not pairs:
+        return 0.0
+    x, y, z = (median(right[axis] for right, _ in pairs) for axis in range(3))
+    far = off = 0.0
+    for right, given in pairs:
+        most = length(minus(right, (x, y, z)))
+        gap = 2 * most if given is None else length(minus(right, given))
+        far += most
+        off += gap if gap < 2 * most else 2 * most
+    return max(0.0, 1.0 - off / far) if 0 < far < inf else 0.0
 
 
 def _groups(plan: FunctionPlan, judged: Sequence[JudgedCase]) -> list[CaseGroup]:

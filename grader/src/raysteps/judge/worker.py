@@ -194,7 +194,7 @@ def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> 
     """Compares with the reference's line."""
     verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
     if reply.outcome != "ok":
-        verdict = replace(verdict, problem=reply.note, actual=f"no answer: {reply.note}", credit=0.0)
+        verdict = replace(verdict, problem=reply.note, actual=f"no answer: {reply.note}", credit=0.0, given=None)
     outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"
     return JudgedCase(case, verdict, outcome, reply.asked)
 

@@ -3,14 +3,14 @@
 from dataclasses import replace
 
 from raysteps.common.vectors import Vector, add, times, unit
-from raysteps.judge.answers import Answer, channels, read_vector, vector, words_of_vector
+from raysteps.judge.answers import Answer, channels, itself, read_vector, vector, words_of_vector
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec, mirrored, rounded
 from raysteps.judge.random_source import RandomSource, next_axis
 
 # Cases of step 03: mirrored directions.
 
-_DIRECTION = Answer(read_vector, words_of_vector, lambda _, e, a: vector("the direction", e, a))
+_DIRECTION = Answer(read_vector, words_of_vector, lambda _, e, a: vector("the direction", e, a), near=itself)
 
 
 def _mirror(direction: Vector, normal: Vector) -> Inputs:
@@ -58,7 +58,7 @@ MIRROR = Function(
 
 # What the cases of step 03 share: colours as answers, and simple lights and surfaces.
 
-COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colour", e, a))
+COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colour", e, a), near=itself)
 WHITE = Light((0.0, 0.0, 10.0))
 PLAIN = Fill((1.0, 1.0, 1.0), 1.0, 1.0, 1.0)
 

@@ -7,6 +7,7 @@ from raysteps.judge.answers import (
     Answer,
     Tolerance,
     channels,
+    itself,
     read_vector,
     read_whole,
     words_of_number,
@@ -17,7 +18,7 @@ from raysteps.judge.protocol import Inputs, Real, Vec, f32
 from raysteps.judge.random_source import RandomSource
 
 _CLOSE = Tolerance(1e-5, 1e-4)
-_COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colour", e, a, _CLOSE))
+_COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colour", e, a, _CLOSE), near=itself)
 
 
 def _byte_problem(_inputs: Inputs, expected: int, actual: int) -> str:
