@@ -1,6 +1,6 @@
 #pragma once
-// Trees to search in that no step has built: a search is tested by itself, whatever the builder does. They are right, and
-// poor: nobody would build them so.
+// Trees to search in that no step has built: a search is tested by itself, whatever the builder does. They are right,
+// and poor: nobody would build them so.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,12 +11,14 @@
 
 namespace raysteps::testing {
 
-inline Box bounds_around(const SurfaceList& surfaces, std::size_t first, std::size_t end) {
+constexpr float k_padding = 1e-3F;  ///< of boxes, so that rounding loses nothing
+
+inline Box bounds_around(const SurfaceList& surfaces, std::size_t first, std::size_t end, float padding) {
     Box box;
     for (std::size_t i = first; i < end; ++i) {
         box.extend(surfaces[i]->bounds());
     }
-    return box.padded(1e-3F);
+    return box.padded(padding);
 }
 
 /// Number `number` of eight slabs of the box, side by side along the axis, with the surfaces whose bounds touch it.
@@ -37,7 +39,7 @@ inline Node slab(const Box& box, int axis, int number, const SurfaceList& surfac
 
 /// Columns along z: eight slabs along x, and in each of them eight along y.
 inline Node columns_around(const SurfaceList& surfaces) {
-    Node root{bounds_around(surfaces, 0, surfaces.size()), {}, {}};
+    Node root{bounds_around(surfaces, 0, surfaces.size(), k_padding), {}, {}};
     for (int x = 0; x < 8 && !surfaces.empty(); ++x) {
         Node part = slab(root.box, 0, x, surfaces);
         for (int y = 0; y < 8; ++y) {
@@ -50,21 +52,21 @@ inline Node columns_around(const SurfaceList& surfaces) {
 }
 
 /// Sorted along the longest side: a few surfaces in a leaf, beside it a node with all others, and so on.
-inline Bvh chain_of_leaves(const SurfaceList& surfaces) {
+inline Bvh chain_of_leaves(const SurfaceList& surfaces, float padding = k_padding) {
     Bvh bvh{{}, surfaces};
     const std::size_t count = surfaces.size();
     if (count == 0) {
         return bvh;
     }
-    const Box all = bounds_around(surfaces, 0, count);
+    const Box all = bounds_around(surfaces, 0, count, padding);
     const glm::vec3 size = all.max - all.min;
     const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
     std::stable_sort(bvh.surfaces.begin(), bvh.surfaces.end(), [axis](const Surface* a, const Surface* b) {
         return a->bounds().center()[axis] < b->bounds().center()[axis];
     });
     const std::size_t in_leaf = 3 + count / 40;
-    const auto leaf = [&bvh](std::size_t first, std::size_t end) {
-        return BvhNode{bounds_around(bvh.surfaces, first, end), static_cast<std::uint32_t>(first),
+    const auto leaf = [&bvh, padding](std::size_t first, std::size_t end) {
+        return BvhNode{bounds_around(bvh.surfaces, first, end, padding), static_cast<std::uint32_t>(first),
                        static_cast<std::uint32_t>(end - first)};
     };
     std::size_t first = 0;

@@ -1,6 +1,6 @@
 // Visible tests of step 06: a tree that loses no surface, and gives the same hits with fewer tests.
-// Nothing here asks how deep the tree is, or how long the lists in its leaves are. Searches are asked in a tree that the
-// tests make themselves.
+// Nothing here asks how deep the tree is, or how long the lists in its leaves are. Searches are asked in a tree that
+// the tests make themselves.
 #include "steps/06-octree/octree.hpp"
 
 #include <algorithm>
@@ -94,8 +94,7 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
     }
 }
 
-TEST_CASE("closest_hit_in_octree: the same hits as without the tree",
-          "[06-octree][closest_hit_in_octree]") {
+TEST_CASE("closest_hit_in_octree: the same hits as without the tree", "[06-octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
@@ -120,8 +119,7 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree",
     }
 }
 
-TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost",
-          "[06-octree][closest_hit_in_octree]") {
+TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost", "[06-octree][closest_hit_in_octree]") {
     // A large triangle, slanted, runs through boxes near and far; small balls stand before it.
     Scene scene;
     scene.add(std::make_unique<Triangle>(glm::vec3{-8.0F, -8.0F, -8.0F}, glm::vec3{24.0F, -8.0F, 8.0F},
@@ -192,8 +190,7 @@ TEST_CASE("build_octree: the boxes sort the surfaces out", "[06-octree][build_oc
     CHECK(listed > 0.0);
 }
 
-TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
-          "[06-octree][closest_hit_in_octree]") {
+TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree", "[06-octree][closest_hit_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
@@ -217,8 +214,7 @@ TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree",
     CHECK(boxes_tested / rays > 1.5);
 }
 
-TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
-          "[06-octree][occluded_in_octree]") {
+TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance", "[06-octree][occluded_in_octree]") {
     Random random;
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
@@ -229,8 +225,7 @@ TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
     }
 }
 
-TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it",
-          "[06-octree][occluded_in_octree]") {
+TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it", "[06-octree][occluded_in_octree]") {
     Random random;
     INFO(random);
     Scene scene = mixed_scene(random, 60, 0);

@@ -89,10 +89,10 @@ TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the 
                                              glm::vec3{0.0F, 1.0F + static_cast<float>((i * 7 + 100) % 200), 0.0F},
                                              fill));
     }
-    const Bvh bvh = chain_of_leaves(scene.surfaces());
+    const Bvh bvh = chain_of_leaves(scene.surfaces(), 0.0F);
     const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, {{0.0F, 0.0F, 5.0F}, k_down});
     REQUIRE(hit.has_value());
-    INFO("number of the triangle that was found; all of them are hit at distance 5");
+    INFO("number of the triangle that was found; all of them are hit at distance 5, and all boxes begin there");
     CHECK(hit->fill.kd == 0.0F);
 }
 
