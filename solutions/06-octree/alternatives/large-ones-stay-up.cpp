@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <tuple>
 #include <utility>
 
 namespace raysteps {
@@ -48,15 +49,26 @@ Node sort_in(const Box& box, SurfaceList surfaces, int level, float margin) {
     return node;
 }
 
-void search(const Node& node, const Ray& ray, std::optional<HitRecord>& closest) {
+struct Found {
+    HitRecord hit;
+    std::size_t order;
+
+    [[nodiscard]] bool comes_before(const Found& other) const {
+        return std::tie(hit.distance, order) < std::tie(other.hit.distance, other.order);
+    }
+};
+
+void search(const Node& node, const Ray& ray, std::optional<Found>& closest) {
     const std::optional<Interval> part = node.box.hit(ray);
-    if (!part || (closest && closest->distance < part->enter * (1.0F - 10.0F * k_share))) {
+    if (!part || (closest && closest->hit.distance < part->enter * (1.0F - 10.0F * k_share))) {
         return;
     }
     for (const Surface* surface : node.surfaces) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        if (hit && (!closest || hit->distance < closest->distance)) {
-            closest = hit;
+        if (const std::optional<HitRecord> hit = surface->hit(ray)) {
+            const Found found{*hit, surface->order()};
+            if (!closest || found.comes_before(*closest)) {
+                closest = found;
+            }
         }
     }
     // Bit by bit: where the ray runs downwards along an axis, the upper part comes first.
@@ -132,9 +144,9 @@ Node build_octree(const SurfaceList& surfaces) {
 }
 
 std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
-    std::optional<HitRecord> closest;
+    std::optional<Found> closest;
     search(root, ray, closest);
-    return closest;
+    return closest ? std::make_optional(closest->hit) : std::nullopt;
 }
 
 // The children first: what is large stays up here, and is more often far away than in between.

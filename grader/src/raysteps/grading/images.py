@@ -6,7 +6,17 @@ from pathlib import Path
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
-from raysteps.images.compare import Comparison, Pixels, compare, difference, is_flat, part_right, shown, write_png
+from raysteps.images.compare import (
+    MOST_OF_A_PICTURE,
+    Comparison,
+    Pixels,
+    compare,
+    difference,
+    is_flat,
+    part_right,
+    shown,
+    write_png,
+)
 from raysteps.images.render import (
     Rendered,
     describe_exit,
@@ -15,7 +25,7 @@ from raysteps.images.render import (
     reference_work,
     render,
 )
-from raysteps.results.model import ImageResult, Integration, Termination
+from raysteps.results.model import ImageResult, Integration, Termination, TestResult
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -36,6 +46,12 @@ class ImageGrader:
 
     def hung(self) -> None:
         self.limits = self.limits.after_a_timeout()
+
+    def hung_in(self, tests: Sequence[TestResult]) -> None:
+        """All together, and then each by itself."""
+        if any(test.outcome == "timeout" for test in tests):
+            self.hung()
+            self.hung()
 
     def args_of(self, case: ImageCase) -> tuple[str, ...]:
         """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""
@@ -72,12 +88,13 @@ def part_of_a_picture(
     scene: Path,
     args: tuple[str, ...],
     max_share: float | None,
-    passed: bool,
     rendered: Rendered,
+    *,
+    pixels_pass: bool,
 ) -> float:
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
-    pixels = 1.0
-    if not passed and rendered.pixels is not None:
+    pixels = MOST_OF_A_PICTURE
+    if not pixels_pass and rendered.pixels is not None:
         reference = reference_picture(kit, scene, args)
         pixels = part_right(rendered.pixels, reference, error_for_nothing(kit, step, scene, args))
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
@@ -116,7 +133,9 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
             result.passed, result.message = False, problem
     result.outcome = "ok" if result.passed else "wrong"
     if not result.passed:
-        result.share = part_of_a_picture(gallery.kit, step, scene, case.args, case.max_share, verdict.passed, rendered)
+        result.share = part_of_a_picture(
+            gallery.kit, step, scene, case.args, case.max_share, rendered, pixels_pass=verdict.passed
+        )
     if rendered.pixels.shape == reference.shape:
         # In a students' kit there is nothing that a picture could carry out.
         mine = shown(rendered.pixels, reference, result.wrong_share) if gallery.kit.has_reference else rendered.pixels

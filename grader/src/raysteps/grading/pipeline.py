@@ -35,7 +35,7 @@ from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import run_hidden_tests
 from raysteps.judge.plan import read_plan
-from raysteps.judge.spared_work import take_back, unspared
+from raysteps.judge.spared_work import take_back, unspared, why_unspared
 from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.settings import Settings
@@ -48,10 +48,10 @@ from raysteps.toolchain.limits import StepLimits, submission_seconds
 
 
 def _judge_scene(
-    gallery: ImageGrader, program: Program, step: Step, scene: HiddenScene, folder: Path, not_spared: str
+    gallery: ImageGrader, program: Program, step: Step, scene: HiddenScene, folder: Path, not_spared: str, spares: bool
 ) -> HiddenResult:
     """A scene made for this seed. The file's name says nothing about what it is for. `not_spared`: why few tests earn
-    nothing."""
+    nothing; `spares`: whether a picture that does not pass earns something all the same."""
     path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
     write_bytes(path, scene.nff.encode())
     reference = reference_picture(gallery.kit, path, scene.args)
@@ -66,15 +66,15 @@ def _judge_scene(
     if verdict.passed and scene.max_share is not None:
         problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
     result.wrong_share = round(verdict.wrong_share, 6)
-    result.message, result.share = problem, 1.0
-    if problem:
-        spent = verdict.passed and problem == not_spared
-        result.share = (
-            0.0
-            if spent
-            else part_of_a_picture(gallery.kit, step, path, scene.args, scene.max_share, verdict.passed, rendered)
+    result.message = problem
+    if not problem:
+        result.share, result.outcome = 1.0, "ok"
+        return result
+    result.outcome = "wrong"
+    if spares or scene.max_share is None:
+        result.share = part_of_a_picture(
+            gallery.kit, step, path, scene.args, scene.max_share, rendered, pixels_pass=verdict.passed
         )
-    result.outcome = "wrong" if problem else "ok"
     return result
 
 
@@ -135,8 +135,11 @@ class HiddenStepGrader(StepGrader):
                 )
                 not_spared = unspared(result.images, result.hidden)
                 take_back(result.images, result.hidden)
+                spares = not why_unspared(result.hidden)
                 for scene in hidden_scenes(kit.project, step, plan, seed):
-                    result.hidden.append(_judge_scene(gallery, programs["raytrace"], step, scene, folder, not_spared))
+                    result.hidden.append(
+                        _judge_scene(gallery, programs["raytrace"], step, scene, folder, not_spared, spares)
+                    )
             result.messages += sum_up(result)
             if not is_right(result):
                 self._unexplained = programs

@@ -93,8 +93,7 @@ class QuickLook:
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
-        if any(test.outcome == "timeout" for test in result.tests):
-            gallery.hung()
+        gallery.hung_in(result.tests)
         self.tell(result)
         for case in self.step.images:
             result.images.append(judge(gallery, raytrace, self.step, case))

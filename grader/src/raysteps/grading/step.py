@@ -212,8 +212,7 @@ class StepGrader:
         weights = test_weights(self.step, tests)
         for test in self._result.tests:
             test.weight = weights[test.name]
-        if any(test.outcome == "timeout" for test in self._result.tests):
-            self._gallery.hung()
+        self._gallery.hung_in(self._result.tests)
 
 
 # Compiles the steps of a submission, several at a time.

@@ -62,7 +62,9 @@ def _result_alone(ran: TaskResult, name: str) -> TestResult:
 
 def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: StepLimits) -> list[TestResult]:
     """All test cases in one process; when that ends badly, each in a process of its own."""
-    together = _complete(_run(sandbox, program, limits, limits.seconds), names)
+    ran = _run(sandbox, program, limits, limits.seconds)
+    together = _complete(ran, names)
+    limits = limits.after_a_timeout() if ran.outcome.timed_out or ran.stopped in ("wall", "cpu") else limits
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]

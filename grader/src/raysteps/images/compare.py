@@ -124,13 +124,11 @@ class Comparison:
     message: str
 
 
-_MOST = 0.9  # of a picture's points are for one that does not pass
-
-
+MOST_OF_A_PICTURE = 0.9  # of its points are for one that does not pass
 _WHOLLY_WRONG = 64  # of 255: a pixel that is farther off is no nearer to right than any other
 
 
-def error(mine: Pixels, reference: Pixels) -> float:
+def mean_error(mine: Pixels, reference: Pixels) -> float:
     """How wrong the pixels are on average, from 0 to 1; two pictures of one size."""
     gap = gaps(mine, reference)
     return float(np.where(gap > TOLERANCE, np.minimum(gap, _WHOLLY_WRONG), 0).mean()) / _WHOLLY_WRONG
@@ -141,7 +139,7 @@ def part_right(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
     `for_nothing`: the error of that one."""
     if mine.shape != reference.shape or is_flat(mine) or for_nothing <= 0:
         return 0.0
-    return _MOST * max(0.0, 1 - error(mine, reference) / for_nothing)
+    return MOST_OF_A_PICTURE * max(0.0, 1 - mean_error(mine, reference) / for_nothing)
 
 
 def error_without_work(reference: Pixels) -> float:
@@ -152,7 +150,7 @@ def error_without_work(reference: Pixels) -> float:
     most = np.broadcast_to(colors[amounts.argmax()], reference.shape)
     middle = np.broadcast_to(np.median(pixels, axis=0).astype(np.uint8), reference.shape)
     outlines = np.where((reference == most).all(axis=2, keepdims=True), reference, np.uint8(0))
-    return min(error(picture, reference) for picture in (most, middle, outlines))
+    return min(mean_error(picture, reference) for picture in (most, middle, outlines))
 
 
 def _size(pixels: Pixels) -> str:

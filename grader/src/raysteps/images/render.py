@@ -17,8 +17,8 @@ from raysteps.course.project import Project
 from raysteps.images.compare import (
     PictureError,
     Pixels,
-    error,
     error_without_work,
+    mean_error,
     parse_ppm,
     read_png,
     read_ppm,
@@ -200,7 +200,7 @@ def error_for_nothing(kit: BuiltKit, step: Step, scene: Path, args: tuple[str, .
     if step.index <= _FIRST_WITH_LIGHT or "--accel" in args or "--step" not in args:
         return simple
     before = reference_picture(kit, scene, at_step(args, step.index - 1))
-    return min(simple, error(before, reference))
+    return min(simple, mean_error(before, reference))
 
 
 def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:

@@ -74,8 +74,8 @@ def _group(name: str, judged: Sequence[JudgedCase]) -> CaseGroup:
 
 
 def nearness(verdicts: Sequence[Verdict]) -> float:
-    """From 0 to 1, how much nearer the answers come to the right ones than the best single answer to all of them does:
-    the median. No answer is as far off as twice that one."""
+    """From 0 to 1, how much nearer the answers come to the right ones than one answer to all of them does, their median
+    in each direction. No answer counts as more than twice as far off as that one."""
     pairs = [(one.right, one.given) for one in verdicts if one.right is not None]
     if not pairs:
         return 0.0
@@ -106,7 +106,7 @@ def for_nothing(judged: Sequence[JudgedCase]) -> float:
 
 def share_of(plan: FunctionPlan, groups: Sequence[CaseGroup], judged: Sequence[JudgedCase]) -> float:
     """Half of it is for ordinary cases, beyond what one answer to all of them gives, and half for the other kinds by
-    their weights; these count in full only where most ordinary cases are right."""
+    their weights; these count in full only where at least a quarter of the first half is earned."""
     ordinary, *others = groups
     free = for_nothing([one for one in judged if one.case.group == ordinary.name])
     usual = max(0.0, (ordinary.share - free) / (1 - free)) if free < 1 else ordinary.share
@@ -127,16 +127,27 @@ def _first_wrong(judged: Sequence[JudgedCase], wrong: Sequence[CaseGroup]) -> Ju
 
 
 _KEPT = (
-    " All other questions are answered rightly; this one was asked, then a similar one, then this one again. Does the "
+    " A question was asked, then a similar one, then the first again, and the answers do not fit together. Does the "
     "function keep something from one call to the next, as in a `static` variable?"
 )
 
 
-def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase) -> str:
+def _keeps_something(judged: Sequence[JudgedCase]) -> bool:
+    """Whether one question was answered in two ways, or a similar one like the one before it."""
+    again = [one for one in judged if one.case.group == AGAIN]
+    for first, other, last in zip(again[::3], again[1::3], again[2::3], strict=False):
+        if all(one.asked and one.outcome in ("ok", "wrong") for one in (first, other, last)):
+            in_two_ways = bool(last.verdict.problem) and not first.verdict.problem
+            if in_two_ways or (other.verdict.problem and other.verdict.actual == first.verdict.actual):
+                return True
+    return False
+
+
+def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase, kept: bool) -> str:
     right = len(groups) - len(wrong)
     kinds = "; ".join(f"{group.name} ({group.right} of {group.cases} right)" for group in wrong)
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
-    again = _KEPT if found.case.group == AGAIN else ""
+    again = _KEPT if kept and found.case.group == AGAIN else ""
     return f"{text}wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}.{again}"
 
 
@@ -158,7 +169,7 @@ def _result(
         result.share = min(result.share, _SPARES_NOTHING)
     found = _first_wrong(judged, wrong)
     if found is not None:
-        result.message = shorten(_message(plan.name, groups, wrong, found), LONGEST)
+        result.message = shorten(_message(plan.name, groups, wrong, found, _keeps_something(judged)), LONGEST)
         if examples is not None and found.case.group != AGAIN:  # asked alone, it may be right
             place = [one.case for one in judged if one.case.group == found.case.group].index(found.case)
             found, result.case = examples.smallest(step, found, place, seed)

@@ -1,7 +1,7 @@
 """Answers that are hit records."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, add, dot, length, minus, times
 from raysteps.judge.answers import (
@@ -178,6 +178,14 @@ def _transmitted_problems(inputs: Inputs, expected: Ray, actual: Ray) -> tuple[s
     return bounce_problems(hit, expected, actual, side=side_of(hit, expected.origin))
 
 
+_NEARLY = 3.0  # degrees: a ray from another place on the hit's surface has a little another way to the light
+
+
+def _shadow_credit(inputs: Inputs, expected: Ray, actual: Ray) -> float:
+    """A ray that starts at the light reaches it whatever its direction."""
+    return ray_credit(direction("", expected.direction, actual.direction, _NEARLY), _shadow_problems(inputs, actual)[1])
+
+
 def ray_answer(problems: Callable[[Inputs, Ray, Ray], tuple[str, str]]) -> Answer[Ray]:
     """A ray; `problems` are those of its direction and of its origin."""
     return Answer(
@@ -188,6 +196,8 @@ def ray_answer(problems: Callable[[Inputs, Ray, Ray], tuple[str, str]]) -> Answe
     )
 
 
-SHADOW_RAY = ray_answer(lambda inputs, _expected, actual: _shadow_problems(inputs, actual))
+SHADOW_RAY = replace(
+    ray_answer(lambda inputs, _expected, actual: _shadow_problems(inputs, actual)), credit=_shadow_credit
+)
 REFLECTED_RAY = ray_answer(_reflected_problems)
 TRANSMITTED_RAY = ray_answer(_transmitted_problems)

@@ -30,12 +30,12 @@ def spares_nothing(function: Function, judged: Sequence[JudgedCase]) -> bool:
 def unspared(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> str:
     """Why few tests in the pictures of the step earn nothing, or nothing. Where most of a picture is sky, few objects
     are tested without any merit: so a step of which another picture tests too many keeps its points."""
-    return "" if any(_is_above(image) for image in images) else _why(hidden)
+    return "" if any(_is_above(image) for image in images) else why_unspared(hidden)
 
 
 def take_back(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> None:
     """Of the visible pictures in which few objects may be tested."""
-    why = _why(hidden)
+    why = why_unspared(hidden)
     every_one = unspared(images, hidden)
     for image in images:
         if not why or image.max_share is None:
@@ -50,7 +50,8 @@ def _is_above(image: ImageResult) -> bool:
     return image.max_share is not None and (image.share_tested or 0) > image.max_share
 
 
-def _why(hidden: Sequence[HiddenResult]) -> str:
+def why_unspared(hidden: Sequence[HiddenResult]) -> str:
+    """In words; nothing where the judge's cases are spared something."""
     names = [item.name for item in hidden if item.spares_nothing]
     if not names:
         return ""

@@ -117,7 +117,7 @@ class Part:
 
 def _right(items: Sequence[TestResult | ImageResult], noun: str, share: float) -> tuple[str, float]:
     right = sum(item.passed for item in items)
-    return (f"{right} of {count(len(items), noun)}" if items else "not run", share)
+    return (f"{percent(share)}: {right} of {count(len(items), noun)} right" if items else "not run", share)
 
 
 def parts_of(result: StepResult, step: Step | None) -> list[Part]:

@@ -145,8 +145,16 @@ class SupervisedSandbox:
         seen = monitor(process, start, task.limits, _Family(process), wire)
         said = os.read(status, 64) if readable(status, 0) else b""
         cpu = max(seen.cpu_seconds, seen.watched_cpu_seconds)
-        ran = TaskResult(_outcome(seen, said), inside.outputs(), cpu, seen.stopped)
+        outcome = _outcome(seen, said)
+        stopped = "cpu" if _ended_by_the_system(outcome, cpu, task.limits) else seen.stopped
+        ran = TaskResult(outcome, inside.outputs(), cpu, stopped)
         return ran if asked is None else asked.result(ran)
+
+
+def _ended_by_the_system(outcome: Outcome, cpu_seconds: float, limits: Limits) -> bool:
+    """For its processor time, where this process cannot see how much that is."""
+    by_signal = outcome.code in (-signal.SIGXCPU, -signal.SIGKILL)
+    return not _LINUX and by_signal and cpu_seconds >= limits.cpu_seconds
 
 
 def _environment(task: Task, program: str, scratch: Path) -> dict[str, str]:

@@ -202,6 +202,10 @@ def _same_way(hit: Hit, expected: Ray, actual: Ray) -> str:
 
 
 def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
+    return first(_traced_problem(inputs, expected, actual), channels("the colour", expected.color, actual.color))
+
+
+def _traced_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
     if len(expected.traced) != len(actual.traced):
         return f"too {'many' if len(actual.traced) > len(expected.traced) else 'few'} rays were traced"
     hit = hit_of(inputs)
@@ -212,15 +216,14 @@ def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> st
         )
         for mine, theirs in zip(expected.traced, actual.traced, strict=True)
     ]
-    return first(*problems, channels("the colour", expected.color, actual.color))
+    return first(*problems)
 
 
-def _brought_credit(_inputs: Inputs, expected: _Brought, actual: _Brought) -> float:
+def _brought_credit(inputs: Inputs, expected: _Brought, actual: _Brought) -> float:
     """Another ray with the right colour, or the right ray with another colour."""
     if not channels("", expected.color, actual.color):
         return 0.5
-    same = len(expected.traced) == len(actual.traced) > 0
-    return 0.5 if same and expected.traced[0][1] == actual.traced[0][1] else 0.0
+    return 0.5 if expected.traced and not _traced_problem(inputs, expected, actual) else 0.0
 
 
 def _light(draw: RandomSource, hit: Hit) -> Inputs:
