@@ -7,13 +7,17 @@ import numpy as np
 import pytest
 
 from raysteps.images.compare import (
+    MOST_OF_A_PICTURE,
     TOLERANCE,
     PictureError,
     Pixels,
     compare,
     difference,
+    error_without_work,
     gaps,
     is_flat,
+    mean_error,
+    part_right,
     pixels_differ,
     read_ppm,
     shown,
@@ -119,3 +123,18 @@ def test_other_pictures_are_shown_as_they_are() -> None:
         wrong = gaps(mine, reference) > TOLERANCE
         assert wrong[:20].mean() > 0.9
         assert (picture[wrong] == mine[wrong]).all()
+
+
+def test_a_picture_that_does_not_pass_earns_by_how_much_less_wrong_it_is() -> None:
+    reference = np.zeros((20, 20, 3), dtype=np.uint8)
+    reference[5:15, 5:15] = 200
+    for_nothing = error_without_work(reference)
+    half = reference.copy()
+    half[5:15, 5:10] = 0
+    assert 0 < for_nothing <= mean_error(np.zeros_like(reference), reference)
+    assert part_right(half, reference, for_nothing) == pytest.approx(MOST_OF_A_PICTURE / 2)
+    assert part_right(reference, reference, for_nothing) == MOST_OF_A_PICTURE
+    assert part_right(np.full_like(reference, 90), reference, for_nothing) == 0, "one colour is no work"
+    assert part_right(255 - reference, reference, for_nothing) == 0
+    assert part_right(half[:10], reference, for_nothing) == 0, "another size"
+    assert part_right(half, reference, 0.0) == 0, "whatever is drawn, nobody had to work for it"

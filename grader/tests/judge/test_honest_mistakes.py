@@ -101,6 +101,8 @@ def test_a_tree_that_spares_nothing(honest: _Honest, steps: list[Step]) -> None:
     """It costs the pictures; but where most of one is sky, rays test few objects all the same."""
     result = honest.grade(steps[5], "k_leaf_size = 8", "k_leaf_size = 100000")
     assert sum(image.passed for image in result.images) <= 1
+    scenes = [item for item in result.hidden if item.kind == "picture"]
+    assert all(item.share == 0 for item in scenes if not item.passed), "nor does it earn anything in part"
 
 
 def test_a_tree_that_is_too_large_to_be_told(honest: _Honest, steps: list[Step], solved: Sources) -> None:

@@ -48,3 +48,9 @@ def test_a_step_that_hung_twice_gets_less_time_but_never_more(steps: list[Step])
 def test_a_slow_machine_has_more_time_where_nobody_says_otherwise(steps: list[Step]) -> None:
     assert limits_of(steps[0], {}, 3.0).seconds == 3 * steps[0].seconds
     assert limits_of(steps[0], {"seconds": 8.0}, 3.0).seconds == 8
+
+
+def test_seconds_are_processor_time_and_four_times_that_on_the_clock(steps: list[Step]) -> None:
+    limits = limits_of(steps[0], {"seconds": 8.0}).of_program()
+    assert (limits.cpu_seconds, limits.wall_seconds) == (8, 32)
+    assert limits_of(steps[0], {"seconds": 8.0}).of_program(2.0).wall_seconds == 8
