@@ -96,7 +96,7 @@ def test_a_step_that_is_taken_away_leaves_nothing(copy: Project, capsys: pytest.
 
 def test_points_and_weights_are_the_manifests(copy: Project) -> None:
     _change(copy, "04-shadows", "points = 10", "points = 25")
-    _change(copy, "04-shadows", "tests = 0.4", "tests = 0.5")
+    _change(copy, "04-shadows", "tests = 0.45", "tests = 0.55")
     with pytest.raises(GraderFault, match="the weights must sum to 1"):
         read_steps(copy)
     _change(copy, "04-shadows", "hidden = 0.35", "hidden = 0.25")

@@ -72,7 +72,7 @@ def test_it_tells_what_to_do_next_and_how_the_points_come_about(
     assert page.get_by_role("img", name=f"{total.points} of 100 points").count() == 1
     sums = page.locator(".arithmetic tfoot td").all_inner_texts()
     assert sum(float(text) for text in sums[:-1]) == pytest.approx(total.points, abs=0.05)
-    assert "× 40 % of 15" in page.locator("#step-03 .parts").inner_text()  # noqa: RUF001
+    assert "× 45 % of 15" in page.locator("#step-03 .parts").inner_text()  # noqa: RUF001
     assert [page.locator(f"#step-0{at}").evaluate("step => step.open") for at in (1, 3, 4)] == [False, True, False]
     strip.nth(3).click()
     assert page.locator("#step-04").evaluate("step => step.open")
