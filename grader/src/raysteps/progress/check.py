@@ -1,19 +1,21 @@
-"""Checks a student's own steps and keeps what came of it in build/check."""
+"""Checks a student's own steps and keeps what came of it in build/check: one report, whatever was checked last."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.self_check import self_check
 from raysteps.grading.step import clear
-from raysteps.progress.standing import remember
+from raysteps.progress.standing import next_of, remember, standings
 from raysteps.report.student import try_student_page
-from raysteps.results.model import Results
+from raysteps.results.model import Results, StepResult
+from raysteps.results.store import read_results, write_results
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.build_kit import build_kit
@@ -48,16 +50,40 @@ def _look_through(
     return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first)
 
 
+def _with_steps(results: Results, steps: Sequence[StepResult]) -> Results:
+    ordered = sorted(steps, key=lambda result: result.id)
+    return Results.of(results.submission, ordered, results.seed or 0, results.kit, results.isolation, results.timing)
+
+
+def _found_before(out: Path, kit: BuiltKit, chosen: Sequence[Step]) -> Results | None:
+    """What the same kit found of other steps, if any."""
+    try:
+        before = read_results(out / "results.json")
+    except UsageError:
+        return None
+    asked = {step.id for step in chosen}
+    kept = [result for result in before.steps if result.id not in asked]
+    return _with_steps(before, kept) if kept and before.kit == kit.fingerprint else None
+
+
 def check_steps(
     project: Project, chosen: list[Step], say: ProgressCallback, tell: Tell = lambda kit, results: None
 ) -> CheckResult:
-    """The steps in the repository; the results go to build/check. Your own code needs no sandbox. Where mistakes must
-    be learned before they can be named, `tell` gets the results at once."""
+    """The chosen steps of those in the repository. In build/check they take the place of what was there of them, and
+    the other steps stay. Your own code needs no sandbox. Where mistakes must be learned before they can be named,
+    `tell` gets the results at once."""
     out = project.build / "check"
     with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say).in_one_process()
-        clear(out, kit.steps, chosen)
+        before = _found_before(out, kit, chosen)
+        kept = [] if before is None else before.steps
+        clear(out, [step for step in kit.steps if step.id not in {result.id for result in kept}], chosen)
+        if before is not None:
+            write_results(before, out)  # whatever becomes of the rest
         submission = load_submission(project.steps, kit.steps)
         results = _look_through(kit, submission, chosen, out, say, tell)
+        if kept:
+            write_results(_with_steps(results, [*kept, *results.steps]), out)
         remember(project, results, submission.sources)
-        return CheckResult(kit, results, try_student_page(out, kit.steps, say))
+        following = next_of(standings(project))
+        return CheckResult(kit, results, try_student_page(out, kit.steps, say, following))

@@ -288,14 +288,15 @@ def _sums(parts: Sequence[Part]) -> dict[str, float]:
     return {name: sum(part.earned for part in parts if part.name == name) for name in _PARTS}
 
 
-def student_page(results: Results, folder: Path, steps: Sequence[Step]) -> str:
-    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more."""
-    text = _page(results, make_album(results, folder, _ROOM), steps)
+def student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> str:
+    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more. `following`:
+    the step to do when those on the page are right."""
+    text = _page(results, make_album(results, folder, _ROOM), steps, following)
     excess = len(text.encode()) - _MAX
-    return text if excess <= 0 else _page(results, make_album(results, folder, _ROOM - excess), steps)
+    return text if excess <= 0 else _page(results, make_album(results, folder, _ROOM - excess), steps, following)
 
 
-def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[Step]) -> str:
+def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[Step], beyond: Step | None) -> str:
     known = {step.id: step for step in steps}
     views = {result.id: step_view(result, known.get(result.id), album) for result in results.steps}
     parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
@@ -305,6 +306,9 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
         "name": name,
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
+        "beyond": {"number": beyond.number, "title": beyond.title, "check": check_command(beyond.id)}
+        if beyond
+        else None,
         "total": _total(results.total),
         "columns": _PARTS,
         "sums": _sums(parts),
@@ -320,17 +324,19 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 
-def write_student_page(results: Results, folder: Path, steps: Sequence[Step]) -> Path:
+def write_student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> Path:
     """Writes FOLDER/report.html."""
     path = folder / REPORT
-    write_if_changed(path, student_page(results, folder, steps).encode())
+    write_if_changed(path, student_page(results, folder, steps, following).encode())
     return path
 
 
-def try_student_page(folder: Path, steps: Sequence[Step], say: Callable[[str], None]) -> Path | None:
+def try_student_page(
+    folder: Path, steps: Sequence[Step], say: Callable[[str], None], following: Step | None = None
+) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
-        return write_student_page(read_results(folder / "results.json"), folder, steps)
+        return write_student_page(read_results(folder / "results.json"), folder, steps, following)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {error!r}")
         return None

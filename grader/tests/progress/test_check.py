@@ -1,0 +1,87 @@
+"""The command `check`: one report of all steps, whatever was checked last."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from course_fakes import checked, small_project, write_own
+
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project
+from raysteps.progress import check
+from raysteps.report.student import REPORT
+from raysteps.results.model import Results
+from raysteps.results.store import read_results, write_results
+
+_CODE = "int answer() { return 42; }\n"
+
+
+class _Kit(SimpleNamespace):
+    """What `check` asks of one."""
+
+    def in_one_process(self) -> "_Kit":
+        return self
+
+
+@pytest.fixture
+def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+    """Whatever is checked passes."""
+    project = small_project(tmp_path)
+    kit = _Kit(fingerprint="one", steps=read_steps(project), has_reference=False, project=project)
+
+    def look_through(_kit: Any, _submission: Any, chosen: Sequence[Step], out: Path, *_: Any) -> Results:
+        results = Results.of("steps", [checked(step, "passed", 6.5).steps[0] for step in chosen], kit=kit.fingerprint)
+        write_results(results, out)
+        return results
+
+    monkeypatch.setattr(check, "build_kit", lambda *_: kit)
+    monkeypatch.setattr(check, "_look_through", look_through)
+    return project
+
+
+def _check(course: Project, *numbers: int) -> list[str]:
+    """The steps that are in the results."""
+    chosen = [step for step in read_steps(course) if step.index in numbers]
+    for step in chosen:
+        write_own(course, step, _CODE)
+    check.check_steps(course, chosen, lambda _: None)
+    return [result.id[:2] for result in read_results(course.build / "check" / "results.json").steps]
+
+
+def _page(course: Project) -> str:
+    return (course.build / "check" / REPORT).read_text(encoding="utf-8")
+
+
+def test_a_step_takes_its_place_among_the_others(course: Project) -> None:
+    assert _check(course, 2) == ["02"]
+    assert _check(course, 1) == ["01", "02"]
+    assert _check(course, 2) == ["01", "02"]
+    assert read_results(course.build / "check" / "results.json").total.points == 13
+
+
+def test_the_next_thing_to_do_is_the_real_one(course: Project) -> None:
+    _check(course, 1)
+    assert "Next comes 02 " in _page(course)
+    _check(course, *range(2, 10))
+    assert "Nothing: every step is right." in _page(course)
+
+
+def test_another_kit_begins_anew(course: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    _check(course, 1)
+    other = _Kit(fingerprint="two", steps=read_steps(course), has_reference=False, project=course)
+    monkeypatch.setattr(check, "build_kit", lambda *_: other)
+    assert _check(course, 2) == ["02"]
+
+
+def test_what_was_found_before_outlives_a_check_that_fails(course: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    _check(course, 1, 2)
+
+    def fail(*_: Any) -> Results:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(check, "_look_through", fail)
+    with pytest.raises(KeyboardInterrupt):
+        _check(course, 2)
+    assert [result.id[:2] for result in read_results(course.build / "check" / "results.json").steps] == ["01"]
