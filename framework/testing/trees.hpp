@@ -37,15 +37,20 @@ inline Node slab(const Box& box, int axis, int number, const SurfaceList& surfac
     return node;
 }
 
-/// Columns along z: eight slabs along x, and in each of them eight along y.
+/// Columns along z: eight slabs along x, and in each of them eight along y. What reaches through most of a slab stays in
+/// the slab's own list.
 inline Node columns_around(const SurfaceList& surfaces) {
     Node root{bounds_around(surfaces, 0, surfaces.size(), k_padding), {}, {}};
     for (int x = 0; x < 8 && !surfaces.empty(); ++x) {
         Node part = slab(root.box, 0, x, surfaces);
+        const float most = 0.75F * (part.box.max.y - part.box.min.y);
+        const auto is_short = [most](const Surface* one) { return one->bounds().max.y - one->bounds().min.y < most; };
+        const auto long_ones = std::stable_partition(part.surfaces.begin(), part.surfaces.end(), is_short);
+        const SurfaceList short_ones(part.surfaces.begin(), long_ones);
+        part.surfaces.erase(part.surfaces.begin(), long_ones);
         for (int y = 0; y < 8; ++y) {
-            part.children.push_back(slab(part.box, 1, y, part.surfaces));
+            part.children.push_back(slab(part.box, 1, y, short_ones));
         }
-        part.surfaces.clear();
         root.children.push_back(part);
     }
     return root;

@@ -104,7 +104,22 @@ def test_partly_done_steps_name_what_is_left(
     left = 'RAYSTEPS_TODO("03-phong-shading", "specular");'
     source = _inserted(solved["03-phong-shading"], "specular", left)
     results = _grade(kit, make_submission("partly", {steps[2].id: source}), tmp_path)
-    assert "RAYSTEPS_TODO is still in: specular." in results.steps[2].messages
+    result = results.steps[2]
+    assert "RAYSTEPS_TODO is still in: specular. The tests pass: delete that line." in result.messages
+    assert not any(test.waits_for for test in result.tests)
+
+
+def test_what_is_not_written_yet_waits_aside(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, steps: list[Step]
+) -> None:
+    source = solved["03-phong-shading"].replace("std::pow(cosine, fill.shine)", "0.0F")
+    source = _inserted(source, "specular", 'RAYSTEPS_TODO("03-phong-shading", "specular");')
+    result = _grade(kit, make_submission("waiting", {steps[2].id: source}), tmp_path).steps[2]
+    assert "Not written yet: specular." in result.messages
+    failed = [test for test in result.tests if not test.passed]
+    assert {test.waits_for for test in failed if test.name.startswith("specular:")} == {"specular"}
+    assert [bool(test.waits_for) for test in result.tests] == sorted(bool(test.waits_for) for test in result.tests)
+    assert [item.name for item in result.hidden if item.waits_for] == ["specular"]
 
 
 def test_todo_lines_above_finished_code_cost_nothing(

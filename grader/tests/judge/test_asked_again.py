@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from raysteps.judge.asked_again import cases_asked_again
 from raysteps.judge.functions import AGAIN, Function, functions_of
+from raysteps.judge.hidden_tests import cases_asked_again
 
 pytestmark = pytest.mark.portable
 

@@ -133,6 +133,8 @@ class HiddenStepGrader(StepGrader):
                 result.hidden = run_hidden_tests(
                     step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, seconds, examples
                 )
+                for item in result.hidden:
+                    item.waits_for = item.name if item.name in self._unfinished and not item.passed else ""
                 not_spared = unspared(result.images, result.hidden)
                 take_back(result.images, result.hidden)
                 spares = not why_unspared(result.hidden)

@@ -1,19 +1,18 @@
 """What can be told of a step within a second or two: whether it builds, its visible tests and its pictures."""
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.self_check import own_steps
 from raysteps.grading.step import GradingContext, compile_steps
-from raysteps.grading.unit_tests import run_tests
+from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_picture
 from raysteps.results.model import ImageResult, StepResult
@@ -41,16 +40,13 @@ class QuickLook:
         result = StepResult(self.step.id, "failed", 0.0, self.step.points, self.step.bonus)
         if same_code(source, pristine_stub(self.kit.project, self.step)):
             return self._not_started(result)
-        left = unfinished_functions(source, self.step)
-        if left:
-            result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(left)}.")
         with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
             build = StudentBuild(self.kit, self.sandbox, Path(folder))
             compiled = build.compile(self.step, source.encode(), self.kit.limits_of(self.step))
             result.build_log = build_log(compiled.ran)
             if compiled.binary is None:
                 return _does_not_build(result, why_not_built(self.kit, self.step, compiled, source))
-            return self._run(build, compiled.binary, result, Path(folder))
+            return self._run(build, compiled.binary, result, Path(folder), unfinished_functions(source, self.step))
 
     def _not_started(self, result: StepResult) -> StepResult:
         """The reference's pictures are shown all the same: that is where it goes."""
@@ -76,7 +72,9 @@ class QuickLook:
             own = own_steps(work, self.step, compile_steps(work, earlier, pool, {}))
             return own | {self.step.number: binary}
 
-    def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path) -> StepResult:
+    def _run(
+        self, build: StudentBuild, binary: Path, result: StepResult, folder: Path, unfinished: Sequence[str]
+    ) -> StepResult:
         limits = self.kit.limits_of(self.step)
         binaries, alone = self._around(binary, folder), self.kit.has_reference
 
@@ -94,6 +92,7 @@ class QuickLook:
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
         gallery.hung_in(result.tests)
+        set_aside(result, self.kit.tests[self.step.id], unfinished)
         self.tell(result)
         for case in self.step.images:
             result.images.append(judge(gallery, raytrace, self.step, case))

@@ -11,13 +11,12 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import usable_folder
 from raysteps.common.process import Outcome
-from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points, test_weights
-from raysteps.grading.unit_tests import run_tests
+from raysteps.grading.unit_tests import not_written_yet, run_tests, set_aside
 from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
 from raysteps.results.store import FOLDER as CASES
@@ -166,9 +165,7 @@ class StepGrader:
             return None
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
-        left = self._unfinished = unfinished_functions(source, step)
-        if left:
-            result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(left)}.")
+        self._unfinished = unfinished_functions(source, step)
         compiled = self._compiled[step.id]
         result.build_log = build_log(compiled.ran)
         if compiled.binary is None:
@@ -190,6 +187,8 @@ class StepGrader:
             raise GraderFault(f"{self.step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
 
     def _does_not_build(self, message: str) -> None:
+        if self._unfinished:
+            self._result.messages.append(not_written_yet(self._unfinished))
         self._result.status = "does-not-build"
         self._result.messages.append(message)
         self._result.cumulative = Integration(False, "This step does not build.")
@@ -212,6 +211,7 @@ class StepGrader:
         weights = test_weights(self.step, tests)
         for test in self._result.tests:
             test.weight = weights[test.name]
+        set_aside(self._result, tests, self._unfinished)
         self._gallery.hung_in(self._result.tests)
 
 

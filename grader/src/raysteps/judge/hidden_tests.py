@@ -11,26 +11,74 @@ from raysteps.common.text import count, shorten
 from raysteps.common.vectors import length, minus
 from raysteps.course.manifest import Step
 from raysteps.judge.answers import Verdict
-from raysteps.judge.asked_again import cases_asked_again
-from raysteps.judge.choice_sequence import complexity
+from raysteps.judge.choice_sequence import Choice, Chosen, InvalidChoice, Recorder, Replay, complexity
 from raysteps.judge.counterexamples import LONGEST, Examples
-from raysteps.judge.functions import AGAIN, Case, functions_of, seed_of
+from raysteps.judge.functions import AGAIN, Case, Function, Group, functions_of, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
-from raysteps.judge.random_source import RandomSource
+from raysteps.judge.protocol import Inputs
+from raysteps.judge.random_source import MOST_TRIES, RandomSource
 from raysteps.judge.spared_work import spares_nothing
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
 from raysteps.results.model import CaseGroup, HiddenResult, Termination
 
-# How a function's share comes about.
+# The same question twice, and between them one that differs in a single input: whoever keeps something from call to
+# call, or knows a question again by a part of it, gives the answer of another question.
 
-_ORDINARY = 0.5  # of a function's points are for the first kind of cases, which are ordinary
-_SOME = 0.25  # of the ordinary cases: below, the other kinds count less and less
-_NEARLY = 0.9  # a function with a kind that is wrong earns no more
-_SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
-_NEAR = 0.5  # of the share of wrong answers that come near the right ones
-_MAY_MISS = 0.01  # of the cases of a kind, by rounding
-_DIGITS = 6  # of a share
-_REFERENCE_SECONDS = 600
+_TRIES = 15  # to change one input and no other
+
+
+def _redrawn(choice: Choice, draw: RandomSource) -> Chosen:
+    """Another value, between the same bounds."""
+    if isinstance(choice.value, bool):
+        return not choice.value
+    if isinstance(choice.value, int):
+        return draw.whole(round(choice.low), round(choice.high))
+    if isinstance(choice.value, tuple):
+        return draw.direction()
+    return draw.fine(choice.low, choice.high)
+
+
+def _with_one_changed(kind: Group, choices: Sequence[Choice], draw: RandomSource) -> Inputs | None:
+    """None where the kind has no such case."""
+    values = [choice.value for choice in choices]
+    place = draw.whole(0, len(values) - 1)
+    values[place] = _redrawn(choices[place], draw)
+    try:
+        return kind.make(Replay(values))
+    except (InvalidChoice, ArithmeticError, ValueError, LookupError):
+        return None
+
+
+def _neighbour(kind: Group, choices: Sequence[Choice], inputs: Inputs, name: str, draw: RandomSource) -> Inputs | None:
+    """Differs in the input of that name and, where that can be, in no other."""
+    best: tuple[int, Inputs] | None = None
+    for _ in range(_TRIES):
+        other = _with_one_changed(kind, choices, draw)
+        if other is None or other.keys() != inputs.keys() or other[name] == inputs[name]:
+            continue
+        different = sum(other[one] != inputs[one] for one in inputs)
+        if best is None or different < best[0]:
+            best = different, other
+        if different == 1:
+            break
+    return None if best is None else best[1]
+
+
+def cases_asked_again(function: Function, kind: str, seed: str, amount: int) -> list[Case]:
+    """Three by three: a question, its neighbour, and the question once more. Each input is changed in its turn."""
+    ordinary = function.groups[0]
+    draw, turn = Recorder(seed), RandomSource(f"{seed}/neighbours")
+    found: list[Inputs] = []
+    for asked in range(MOST_TRIES):
+        draw.choices.clear()
+        inputs = ordinary.make(draw)
+        names = list(inputs)
+        other = _neighbour(ordinary, draw.choices, inputs, names[asked % len(names)], turn)
+        if other is not None:
+            found += [inputs, other, inputs]
+        if len(found) >= amount:
+            return [Case(function.name, kind, one) for one in found[:amount]]
+    raise GraderFault(f"{function.name}: the judge finds no questions that differ in one input")
 
 
 @lru_cache(maxsize=256)  # a class is asked the same questions
@@ -50,6 +98,18 @@ def _cases(step: str, function: str, amounts: tuple[tuple[str, int], ...], seed:
 def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case]:
     """The same seed makes the same cases on every machine."""
     return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
+
+
+# How a function's share comes about.
+
+_ORDINARY = 0.5  # of a function's points are for the first kind of cases, which are ordinary
+_SOME = 0.25  # of the ordinary cases: below, the other kinds count less and less
+_NEARLY = 0.9  # a function with a kind that is wrong earns no more
+_SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
+_NEAR = 0.5  # of the share of wrong answers that come near the right ones
+_MAY_MISS = 0.01  # of the cases of a kind, by rounding
+_DIGITS = 6  # of a share
+_REFERENCE_SECONDS = 600
 
 
 def reference_lines(ask: Ask, cases: Sequence[Case], name: str) -> list[str]:

@@ -170,7 +170,7 @@ def diagnosis_view(diagnosis: Diagnosis) -> dict[str, object]:
 def _test(test: TestResult) -> dict[str, object]:
     words = ("name", "message", "expression", "expanded", "location")
     texts = {word: clean(getattr(test, word), _TEXT) for word in words}
-    return {**texts, "passed": test.passed, "outcome": test.outcome}
+    return {**texts, "passed": test.passed, "outcome": test.outcome, "waits_for": clean(test.waits_for)}
 
 
 def _hidden(item: HiddenResult) -> dict[str, object]:
@@ -178,6 +178,7 @@ def _hidden(item: HiddenResult) -> dict[str, object]:
     return {
         "name": clean(item.name),
         "passed": item.share >= 1,
+        "waits_for": clean(item.waits_for),
         "percent": percent(item.share),
         "message": clean(item.message),
         "case": [

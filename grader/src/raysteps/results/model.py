@@ -29,6 +29,7 @@ class TestResult:
     location: str = ""
     outcome: Termination = "ok"
     weight: Amount = field(default=1.0, metadata=OPTIONAL)  # among the tests of the step
+    waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,7 @@ class HiddenResult:
     case: str = ""  # file with that input, for `replay`; relative to the folder of results.json
     seconds: Amount = 0.0
     outcome: Termination = "ok"
+    waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
 
     @property
     def passed(self) -> bool:

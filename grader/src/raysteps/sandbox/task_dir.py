@@ -1,6 +1,5 @@
 """A fresh folder on the host for one task: copies of what another user could not read, and outputs of tools."""
 
-import fcntl
 import os
 import shutil
 import stat
@@ -14,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.files import try_lock
 from raysteps.sandbox.namespaces import compiler_command
 from raysteps.sandbox.task import Input, Task, Word, read_regular
 
@@ -129,17 +129,9 @@ def _locked(folder: Path) -> Iterator[bool]:
     """Tells other graders that this one lives; false when another had told so before."""
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
     try:
-        yield _lock(handle)
+        yield try_lock(handle)
     finally:
         os.close(handle)
-
-
-def _lock(handle: int) -> bool:
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def sweep() -> None:

@@ -141,7 +141,7 @@ def _tests(items: list[TestResult]) -> State:
             "place": test.location,
         }
         for test in items
-        if not test.passed
+        if not test.passed and not test.waits_for
     ]
     return {"passed": passed, "all": all_, "failed": failed}
 
@@ -152,7 +152,7 @@ def _hidden(items: list[HiddenResult]) -> State:
     failed = [
         {key: getattr(item, key) for key in keys} | {"again": replay_command(item.case) if item.case else ""}
         for item in items
-        if not item.passed
+        if not item.passed and not item.waits_for
     ]
     return {"passed": passed, "all": all_, "failed": failed}
 

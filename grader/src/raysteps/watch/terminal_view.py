@@ -101,7 +101,7 @@ class TerminalView:
                 self.line(f"    {text}")
 
     def _tests(self, result: StepResult) -> None:
-        failed = [test for test in result.tests if not test.passed]
+        failed = [test for test in result.tests if not test.passed and not test.waits_for]
         for test in failed[:_MAX_FAILED]:
             self.line(f"  test  {test.name}", "red")
             if test.expression:
@@ -117,7 +117,7 @@ class TerminalView:
                 self.line(f"  picture  {image.name}: {image.message}", "red")
 
     def _hidden(self, result: StepResult) -> None:
-        missed = [item for item in result.hidden if not item.passed]
+        missed = [item for item in result.hidden if not item.passed and not item.waits_for]
         for item in missed[:_MAX_FAILED]:
             self.line(f"  hidden  {item.name}: {item.message}", "red")
             for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
