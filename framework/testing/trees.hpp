@@ -37,8 +37,8 @@ inline Node slab(const Box& box, int axis, int number, const SurfaceList& surfac
     return node;
 }
 
-/// Columns along z: eight slabs along x, and in each of them eight along y. What reaches through most of a slab stays in
-/// the slab's own list.
+/// Columns along z: eight slabs along x, and in each of them eight along y. What reaches through most of a slab stays
+/// in the slab's own list.
 inline Node columns_around(const SurfaceList& surfaces) {
     Node root{bounds_around(surfaces, 0, surfaces.size(), k_padding), {}, {}};
     for (int x = 0; x < 8 && !surfaces.empty(); ++x) {
