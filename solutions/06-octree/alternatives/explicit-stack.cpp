@@ -145,6 +145,7 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
         boxes.push_back({part->enter, &root});
     }
     std::optional<HitRecord> closest;
+    std::size_t order = 0;  // of the surface that was hit
     while (!boxes.empty()) {
         std::pop_heap(boxes.begin(), boxes.end(), LaterFirst());
         const Waiting next = boxes.back();
@@ -154,8 +155,10 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
         }
         for (const Surface* surface : next.node->surfaces) {
             const std::optional<HitRecord> hit = surface->hit(ray);
-            if (hit && (!closest || hit->distance < closest->distance)) {
+            const bool nearer = hit && (!closest || hit->distance < closest->distance);
+            if (nearer || (hit && hit->distance == closest->distance && surface->order() < order)) {
                 closest = hit;
+                order = surface->order();
             }
         }
         for (const Node& child : next.node->children) {

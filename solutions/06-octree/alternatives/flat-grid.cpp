@@ -152,9 +152,11 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
     }
     std::vector<std::pair<float, const Node*>> cells;
     add_cells(root, ray, cells);
+    cells.emplace_back(0.0F, &root);
     std::sort(cells.begin(), cells.end());
-    SurfaceList asked = root.surfaces;  // a large surface lies in many cells
-    std::optional<HitRecord> closest = closest_hit(root.surfaces, ray);
+    SurfaceList asked;  // a large surface lies in many cells
+    std::optional<HitRecord> closest;
+    std::size_t order = 0;  // of the surface that was hit
     for (const auto& [enter, cell] : cells) {
         if (closest && closest->distance < 0.999F * enter) {
             break;
@@ -165,8 +167,10 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
             }
             asked.push_back(surface);
             const std::optional<HitRecord> hit = surface->hit(ray);
-            if (hit && (!closest || hit->distance < closest->distance)) {
+            const bool nearer = hit && (!closest || hit->distance < closest->distance);
+            if (nearer || (hit && hit->distance == closest->distance && surface->order() < order)) {
                 closest = hit;
+                order = surface->order();
             }
         }
     }
