@@ -24,9 +24,9 @@ inline Box bounds_around(const SurfaceList& surfaces, std::size_t first, std::si
 /// Number `number` of eight slabs of the box, side by side along the axis, with the surfaces whose bounds touch it.
 inline Node slab(const Box& box, int axis, int number, const SurfaceList& surfaces) {
     Node node{box, {}, {}};
-    const float thickness = (box.max[axis] - box.min[axis]) / 8.0F;
-    node.box.min[axis] = box.min[axis] + thickness * static_cast<float>(number);
-    node.box.max[axis] = box.min[axis] + thickness * static_cast<float>(number + 1);
+    const glm::vec3 thickness = 0.125F * (box.max - box.min);
+    node.box.min[axis] = box.min[axis] + thickness[axis] * static_cast<float>(number);
+    node.box.max[axis] = box.min[axis] + thickness[axis] * static_cast<float>(number + 1);
     for (const Surface* surface : surfaces) {
         const Box bounds = surface->bounds();
         if (glm::all(glm::lessThanEqual(bounds.min, node.box.max)) &&
@@ -66,9 +66,11 @@ inline Bvh chain_of_leaves(const SurfaceList& surfaces, float padding = k_paddin
     const Box all = bounds_around(surfaces, 0, count, padding);
     const glm::vec3 size = all.max - all.min;
     const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
-    std::stable_sort(bvh.surfaces.begin(), bvh.surfaces.end(), [axis](const Surface* a, const Surface* b) {
-        return a->bounds().center()[axis] < b->bounds().center()[axis];
-    });
+    const auto lies_before = [axis](const Surface* one, const Surface* other) {
+        return one->bounds().center()[axis] < other->bounds().center()[axis];
+    };
+    SurfaceList& sorted = bvh.surfaces;
+    std::stable_sort(sorted.begin(), sorted.end(), lies_before);
     const std::size_t in_leaf = 3 + count / 40;
     const auto leaf = [&bvh, padding](std::size_t first, std::size_t end) {
         return BvhNode{bounds_around(bvh.surfaces, first, end, padding), static_cast<std::uint32_t>(first),

@@ -13,8 +13,9 @@ from functools import cache
 from itertools import pairwise
 from pathlib import PurePosixPath
 
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
+from raysteps.toolchain.fingerprint import fingerprint
 from tools.selftest import stamps
 
 _SOURCES, _TOOLS, _TESTS = "grader/src/", "tools/", "grader/tests/"

@@ -4,9 +4,9 @@ import pytest
 
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.functions import Case, functions_of
+from raysteps.judge.hidden_tests import spares_nothing, take_back, unspared
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.searches import WhoseTree, work_problem
-from raysteps.judge.spared_work import spares_nothing, take_back, unspared
 from raysteps.judge.surfaces import Sphere, Surfaces
 from raysteps.judge.worker import JudgedCase
 from raysteps.results.model import HiddenResult, ImageResult

@@ -9,6 +9,7 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.judge.functions import AGAIN
 from raysteps.judge.hidden_tests import make_cases, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import reference_answers
@@ -53,7 +54,7 @@ def test_overlap_answers_are_what_the_cases_were_made_for(project: Project, step
         out = _run(worker, "".join(case.line(i) + "\n" for i, case in enumerate(cases))).stdout
         answers = [line.split()[2] for line in out.splitlines() if line.startswith("done ")]
         for case, answer in zip(cases, answers, strict=True):
-            if not case.group.startswith("touching or"):
+            if not case.group.startswith("touching or") and case.group != AGAIN:
                 assert answer == ("0" if case.group == "far apart" else "1"), case.given()
 
 

@@ -8,8 +8,9 @@ from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
 from raysteps.progress.check import check_steps
+from raysteps.progress.standing import next_of, standings
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
-from raysteps.report.wording import replay_command
+from raysteps.report.wording import replay_command, watch_command
 from raysteps.results.model import Results
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -38,4 +39,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     else:
         tell(checked.kit, checked.results)
     print_files(console, out / "results.json", checked.page)
-    return exit_code(checked.results)
+    code = exit_code(checked.results)
+    following = next_of(standings(project)) if code == 0 else None
+    if following is not None:
+        console.print(f"Next: {watch_command(following.id)}")
+    return code

@@ -120,7 +120,12 @@ def _print(console: Console, file: CaseFile, judged: JudgedCase) -> int:
     for label, text in words:
         console.print(f"  {label:<9} {escape(shorten(text, LONGEST))}", highlight=False)
     if not verdict.problem:
-        console.print("[green]now right[/green]")
+        console.print("[green]now right[/green], asked by itself")
+        console.print(
+            "Is your code as it was? Then it answers otherwise after other questions: does the function keep something "
+            "from one call to the next, as in a `static` variable?",
+            style="dim",
+        )
         return 0
     before = f" (before: {file.problem})" if file.problem and file.problem != verdict.problem else ""
     console.print(f"[red]still wrong[/red]: {escape(verdict.problem + before)}")

@@ -1,6 +1,7 @@
 """Makes the stubs from the marked regions of solutions/."""
 
 import re
+from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
@@ -169,6 +170,14 @@ def unfinished_functions(source: str, step: Step) -> list[str]:
     called = [code[at : at + 6] for at, word in enumerate(code) if word == "RAYSTEPS_TODO"]
     left = {call[4] for call in called if len(call) == 6 and (call[1], call[3], call[5]) == ("(", ",", ")")}
     return [name for name in step.functions if f'"{name}"' in left]
+
+
+def called_functions(source: str, names: Collection[str]) -> set[str]:
+    """Those that the source calls by name, besides defining them once."""
+    code = tokens(source)
+    called = zip(["", *code], code, [*code[1:], ""], strict=False)
+    amounts = Counter(word for before, word, after in called if after == "(" and before != "::")
+    return {name for name in names if amounts[name] > 1}
 
 
 def same_code(one: str, other: str) -> bool:

@@ -34,8 +34,7 @@ class Diagnostician:
         pictures = self._pictures(mine) if not unfinished else {}
         questions = self._questions(result, unfinished)
         answers = listen(questions, self.ask, _MAX_SECONDS) if self.ask is not None else {}
-        right = {item.name for item in result.hidden if item.kind == "function" and item.passed} - questions.keys()
-        named, spoilt = self._mistakes(Evidence(questions, answers, pictures, right))
+        named, spoilt = self._mistakes(Evidence(questions, answers, pictures))
         open_ = {
             name: picture
             for name, picture in pictures.items()

@@ -141,13 +141,11 @@ class Picture:
 
 @dataclass(frozen=True)
 class Evidence:
-    """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out, `right` are
-    the functions in which the judge found nothing wrong."""
+    """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out."""
 
     questions: Mapping[str, Questions]
     answers: Answers
     pictures: Mapping[str, Picture]
-    right: Collection[str] = ()
 
     @property
     def is_wrong(self) -> bool:

@@ -47,7 +47,7 @@ class Match:
     """What a mistake has to do with what is wrong, by the name of a function or picture.
 
     `telling`: the pictures that are not of one colour, which may have any cause. `spoilt`: wrong pictures in which the
-    mistake shows. `against`: what the mistake spoils and is right. `excluded`: the function in which it sits is right.
+    mistake shows. `against`: what the mistake spoils and is right.
     """
 
     mutant: Mutant
@@ -56,7 +56,6 @@ class Match:
     telling: set[str] = field(default_factory=set)
     spoilt: set[str] = field(default_factory=set)
     against: list[str] = field(default_factory=list)
-    excluded: bool = False
 
     def explains(self, told: Collection[str] = ()) -> dict[str, float]:
         """With a score from 0 to 1. `told`: pictures that other mistakes spoil: they do not speak against it."""
@@ -124,8 +123,7 @@ def spoils(mistake: Pixels | None, picture: Picture) -> bool:
 
 def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) -> Match:
     """One mistake against everything that was seen."""
-    own = [said for said in fingerprint.answers.get(mutant.function, {}).values() if said.known]
-    found = Match(mutant, excluded=mutant.function in evidence.right and len(own) >= _FEWEST_CASES)
+    found = Match(mutant)
     for name, mine in evidence.answers.items():
         mistake = fingerprint.answers.get(name, {})
         if mine:
@@ -215,7 +213,7 @@ class _Open:
         """Above 0 for a mistake that can be named: by a function, or by pictures alone."""
         explained = self.explained_by(match)
         functions = explained.keys() & match.functions.keys()
-        if not explained or match.excluded or match.is_another() or not (functions or match.named_by_pictures()):
+        if not explained or match.is_another() or not (functions or match.named_by_pictures()):
             return 0.0
         worth = sum(score * (_PICTURE if name in match.pictures else 1.0) for name, score in explained.items())
         worth -= _AGAINST * min(len(match.against), _MOST_AGAINST)

@@ -28,14 +28,14 @@ from raysteps.grading.images import (
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
+from raysteps.grading.unit_tests import set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.compare import compare
 from raysteps.images.render import reference_picture
 from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
-from raysteps.judge.hidden_tests import run_hidden_tests
+from raysteps.judge.hidden_tests import run_hidden_tests, take_back, unspared, why_unspared
 from raysteps.judge.plan import read_plan
-from raysteps.judge.spared_work import take_back, unspared, why_unspared
 from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.settings import Settings
@@ -133,8 +133,6 @@ class HiddenStepGrader(StepGrader):
                 result.hidden = run_hidden_tests(
                     step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, seconds, examples
                 )
-                for item in result.hidden:
-                    item.waits_for = item.name if item.name in self._unfinished and not item.passed else ""
                 not_spared = unspared(result.images, result.hidden)
                 take_back(result.images, result.hidden)
                 spares = not why_unspared(result.hidden)
@@ -142,6 +140,7 @@ class HiddenStepGrader(StepGrader):
                     result.hidden.append(
                         _judge_scene(gallery, programs["raytrace"], step, scene, folder, not_spared, spares)
                     )
+            set_aside(result, step, kit.tests[step.id], self._work.source(step) or "")
             result.messages += sum_up(result)
             if not is_right(result):
                 self._unexplained = programs

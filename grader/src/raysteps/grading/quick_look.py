@@ -1,13 +1,13 @@
 """What can be told of a step within a second or two: whether it builds, its visible tests and its pictures."""
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
+from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.self_check import own_steps
@@ -46,7 +46,7 @@ class QuickLook:
             result.build_log = build_log(compiled.ran)
             if compiled.binary is None:
                 return _does_not_build(result, why_not_built(self.kit, self.step, compiled, source))
-            return self._run(build, compiled.binary, result, Path(folder), unfinished_functions(source, self.step))
+            return self._run(build, compiled.binary, result, Path(folder), source)
 
     def _not_started(self, result: StepResult) -> StepResult:
         """The reference's pictures are shown all the same: that is where it goes."""
@@ -72,9 +72,7 @@ class QuickLook:
             own = own_steps(work, self.step, compile_steps(work, earlier, pool, {}))
             return own | {self.step.number: binary}
 
-    def _run(
-        self, build: StudentBuild, binary: Path, result: StepResult, folder: Path, unfinished: Sequence[str]
-    ) -> StepResult:
+    def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path, source: str) -> StepResult:
         limits = self.kit.limits_of(self.step)
         binaries, alone = self._around(binary, folder), self.kit.has_reference
 
@@ -92,7 +90,7 @@ class QuickLook:
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
         gallery.hung_in(result.tests)
-        set_aside(result, self.kit.tests[self.step.id], unfinished)
+        set_aside(result, self.step, self.kit.tests[self.step.id], source)
         self.tell(result)
         for case in self.step.images:
             result.images.append(judge(gallery, raytrace, self.step, case))

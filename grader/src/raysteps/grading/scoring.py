@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from raysteps.common.text import count
+from raysteps.common.text import count, join_and
 from raysteps.course.manifest import Step
 
 if TYPE_CHECKING:  # `list` and `next` ask what a step is worth, and no result
-    from raysteps.results.model import Results, Status, StepResult
+    from raysteps.results.model import HiddenResult, ImageResult, Results, Status, StepResult, TestResult
 
 
 def max_points(step: Step, *, judged: bool) -> float:
@@ -59,17 +59,23 @@ def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
 
 
 def sum_up(result: StepResult) -> list[str]:
-    """What failed, in numbers, and the first crash or timeout."""
-    messages = []
-    failed = [test for test in result.tests if not test.passed]
-    if failed:
-        messages.append(f"{len(failed)} of {count(len(result.tests), 'test')} failed.")
-    wrong = [image for image in result.images if not image.passed]
-    if wrong:
-        messages.append(f"{len(wrong)} of {count(len(result.images), 'picture')} did not pass.")
-    missed = [item for item in result.hidden if not item.passed]
-    if missed:
-        messages.append(f"{len(missed)} of {count(len(result.hidden), 'hidden item')} lost points.")
+    """What failed, in numbers, what waits, and the first crash or timeout."""
+    kinds: tuple[tuple[str, str, Sequence[TestResult | ImageResult | HiddenResult]], ...] = (
+        ("test", "failed", result.tests),
+        ("picture", "did not pass", result.images),
+        ("hidden item", "lost points", result.hidden),
+    )
+    messages, waiting = [], []
+    for noun, verb, items in kinds:
+        failed = [item for item in items if not item.passed and not item.waits_for]
+        if failed:
+            messages.append(f"{len(failed)} of {count(len(items), noun)} {verb}.")
+        aside = sum(bool(item.waits_for) for item in items)
+        waiting += [count(aside, noun)] if aside else []
+    if waiting:
+        passed = sum(test.passed for test in result.tests)
+        right = "" if messages or not passed else f" All that is written is right: {count(passed, 'test')} passed."
+        messages.append(f"What waits for it: {join_and(waiting)}.{right}")
     outcomes = [(item.outcome, item.message) for items in (result.tests, result.images) for item in items]
     bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
     return messages + bad[:1]

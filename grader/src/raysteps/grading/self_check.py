@@ -13,6 +13,7 @@ from raysteps.course.manifest import Step
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
+from raysteps.grading.unit_tests import set_aside
 from raysteps.images.render import reference_image_path
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_results
@@ -45,6 +46,8 @@ class SelfCheckGrader(StepGrader):
             self._run_tests(programs["test"])
             for case in self.step.images:
                 result.images.append(judge(self._gallery, programs["raytrace"], self.step, case))
+            source = self._work.source(self.step) or ""
+            set_aside(result, self.step, self._work.kit.tests[self.step.id], source)
             result.messages += sum_up(result)
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)

@@ -16,7 +16,7 @@ from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points, test_weights
-from raysteps.grading.unit_tests import not_written_yet, run_tests, set_aside
+from raysteps.grading.unit_tests import not_written_yet, run_tests
 from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
 from raysteps.results.store import FOLDER as CASES
@@ -211,7 +211,6 @@ class StepGrader:
         weights = test_weights(self.step, tests)
         for test in self._result.tests:
             test.weight = weights[test.name]
-        set_aside(self._result, tests, self._unfinished)
         self._gallery.hung_in(self._result.tests)
 
 

@@ -3,11 +3,13 @@ are not written yet stand aside.
 """
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from raysteps.common.text import in_seconds, join_and
+from raysteps.course.manifest import Step
+from raysteps.course.stubs import called_functions, unfinished_functions
 from raysteps.images.render import ENDLESS, describe_exit
-from raysteps.results.model import StepResult, TestResult
+from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.sandbox.task import Output, Sandbox, TaskResult, Word
 from raysteps.toolchain.catch2 import TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
@@ -80,24 +82,44 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
     return results
 
 
+# What waits for functions that are not written yet.
+
+
 def not_written_yet(functions: Sequence[str]) -> str:
     """In words."""
     return f"Not written yet: {join_and(functions)}."
 
 
-def set_aside(result: StepResult, tests: Mapping[str, Sequence[str]], unfinished: Sequence[str]) -> None:
-    """Failed tests of functions that still hold a RAYSTEPS_TODO come last and say what they wait for. `tests`: the
+def _missing(step: Step, functions: Sequence[str], unfinished: Sequence[str], called: Collection[str]) -> str:
+    """The function for which these wait: one of them, or one before them that the source calls."""
+    first = min((step.functions.index(name) for name in functions), default=0)
+    needed = [*(name for name in unfinished if name in functions), *(n for n in step.functions[:first] if n in called)]
+    return needed[0] if needed else ""
+
+
+def set_aside(result: StepResult, step: Step, tests: Mapping[str, Sequence[str]], source: str) -> None:
+    """Where a RAYSTEPS_TODO is left, what failed says what it waits for, and such tests come last. `tests`: the
     functions of each."""
-    waiting = set()
+    unfinished = unfinished_functions(source, step)
+    called = called_functions(source, unfinished)
     for test in result.tests:
-        left = [name for name in tests[test.name] if name in unfinished and not test.passed]
-        if left:
-            test.waits_for, test.expression, test.expanded, test.location = left[0], "", "", ""
-            test.message = f"It waits for {join_and(left)}, not written yet."
-        waiting.update(left)
+        missing = "" if test.passed else _missing(step, tests[test.name], unfinished, called)
+        if missing:
+            test.waits_for, test.message = missing, f"It waits for {missing}, not written yet."
+            test.expression = test.expanded = test.location = ""
+    aside = [(test.waits_for, *tests[test.name]) for test in result.tests if test.waits_for]
+    waiting = [name for name in unfinished if any(name in names for names in aside)]
+    written = [name for name in unfinished if name not in waiting]
+    for item in result.hidden:
+        if item.kind == "function" and not item.passed:
+            item.waits_for = _missing(step, [item.name], unfinished, called)
+    pictures: list[ImageResult | HiddenResult] = [*result.images]
+    pictures += [item for item in result.hidden if item.kind == "picture"]
+    for picture in pictures:
+        if waiting and not picture.passed:
+            picture.waits_for, picture.message = waiting[0], f"It waits for {waiting[0]}, not written yet."
     result.tests.sort(key=lambda test: bool(test.waits_for))
     if waiting:
-        result.messages.append(not_written_yet([name for name in unfinished if name in waiting]))
-    written = [name for name in unfinished if name not in waiting]
+        result.messages.append(not_written_yet(waiting))
     if written:
         result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(written)}. The tests pass: delete that line.")

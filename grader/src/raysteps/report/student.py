@@ -19,7 +19,15 @@ from raysteps.report.page import (
     pixel_data,
     render_page,
 )
-from raysteps.report.wording import HOW_SURE, STATUS_WORDS, check_command, inspect_command, percent, replay_command
+from raysteps.report.wording import (
+    HOW_SURE,
+    STATUS_WORDS,
+    check_command,
+    inspect_command,
+    percent,
+    replay_command,
+    watch_command,
+)
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
 from raysteps.results.store import read_results
 
@@ -307,7 +315,7 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
         "name": name,
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
-        "beyond": {"number": beyond.number, "title": beyond.title, "check": check_command(beyond.id)}
+        "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}
         if beyond
         else None,
         "total": _total(results.total),

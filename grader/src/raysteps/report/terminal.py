@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.status import Status
 from rich.table import Table
 
-from raysteps.common.text import count, join_and, mean, number, size
+from raysteps.common.text import mean, number, size
 from raysteps.course.manifest import Step
 from raysteps.report.wording import HOW_SURE, percent
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
@@ -103,15 +103,6 @@ def short_path(path: Path) -> str:
         return str(path)
 
 
-def _print_waiting(console: Console, result: StepResult) -> None:
-    kinds = (("test", result.tests), ("hidden item", result.hidden))
-    amounts = [(sum(bool(item.waits_for) for item in items), noun) for noun, items in kinds]
-    said = [count(amount, noun) for amount, noun in amounts if amount]
-    if said:
-        verb = "waits" if sum(amount for amount, _ in amounts) == 1 else "wait"
-        console.print(f"  [dim]aside[/dim]    {join_and(said)} {verb} for what is not written yet")
-
-
 def print_details(console: Console, results: Results, steps: list[Step], out: Path, again: Again) -> None:
     """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
     case once more."""
@@ -129,13 +120,13 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         if result.tests and all(test.passed for test in result.tests):
             console.print(f"  [green]tests[/green]    all {len(result.tests)} passed")
         for image in result.images:
-            _print_image(console, image, out)
+            if not image.waits_for:
+                _print_image(console, image, out)
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
-        _print_waiting(console, result)
         if result.cumulative.message and result.tests:
             console.print(f"  together  {escape(result.cumulative.message)}")
 
@@ -200,6 +191,7 @@ def progress(console: Console, status: Status) -> ProgressCallback:
         if console.is_terminal:
             status.update(text)
         else:
-            print(f"raysteps: {text}", file=sys.stderr, flush=True)
+            sys.stderr.write(f"raysteps: {text}\n")  # in one piece: several threads say something
+            sys.stderr.flush()
 
     return say

@@ -16,6 +16,11 @@ def check_command(step_id: str) -> str:
     return f"{own_command()} check {step_id[:2]}"
 
 
+def watch_command(step_id: str) -> str:
+    """Works on a step."""
+    return f"{own_command()} watch {step_id[:2]}"
+
+
 def beside_reference(project: Project) -> tuple[str, ...]:
     """The words that show a pixel's record beside the reference's, where there is one."""
     return ("--against", "reference") if project.has_reference else ()

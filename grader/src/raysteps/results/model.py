@@ -78,6 +78,7 @@ class ImageResult:
     seconds: Amount = 0.0
     outcome: Termination = "ok"
     share: Share = field(default=0.0, metadata=OPTIONAL)  # of its points that were earned where it did not pass
+    waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
 
     @property
     def earned(self) -> float:

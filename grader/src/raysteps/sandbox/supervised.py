@@ -19,7 +19,7 @@ from raysteps.sandbox.beside import asking, readable
 from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, usage_of
 from raysteps.sandbox.namespaces import compiler_command, hidden_folders, top_folders, visible_folders
-from raysteps.sandbox.rlimits import address_space, threads_of_user
+from raysteps.sandbox.rlimits import address_space, cpu_seconds_of_a_process, threads_of_user
 from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
@@ -81,7 +81,7 @@ class SupervisedSandbox:
 
     def _limits(self, limits: Limits) -> dict[str, int]:
         others = 0 if self._lends_users or not _LINUX else threads_of_user(os.getuid())
-        seconds = math.ceil(limits.cpu_seconds) + 1
+        seconds = cpu_seconds_of_a_process(limits) if _LINUX else math.ceil(limits.cpu_seconds)
         bounds = {"RLIMIT_CORE": 0, "RLIMIT_FSIZE": limits.file_mb * _MEGABYTE, "RLIMIT_CPU": seconds}
         if _LINUX:
             bounds |= {"RLIMIT_AS": address_space(limits), "RLIMIT_NPROC": others + limits.processes}
