@@ -7,7 +7,7 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import make_stub, same_code, unfinished_functions, without_markers
+from raysteps.course.stubs import called_functions, make_stub, same_code, unfinished_functions, without_markers
 
 SOLUTION = """#include "a.hpp"
 
@@ -151,3 +151,12 @@ def test_no_source_takes_long_to_read(piece: str) -> None:
     start = time.thread_time()
     assert not same_code(piece * (1_000_000 // len(piece)), "int a;")
     assert time.thread_time() - start < 5
+
+
+def test_which_functions_are_called() -> None:
+    source = """
+    Ray shadow_ray(const HitRecord& hit) { RAYSTEPS_TODO("04-shadows", "shadow_ray"); return {}; }
+    bool is_lit(const HitRecord& hit) { return !scene.occluded(shadow_ray(hit), 1.0F); }  // is_lit(hit)
+    std::optional<HitRecord> Sphere::intersect(const Ray& ray) const { return std::nullopt; }
+    """
+    assert called_functions(source, ("shadow_ray", "is_lit", "Sphere::intersect")) == {"shadow_ray"}

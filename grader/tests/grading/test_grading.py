@@ -117,9 +117,13 @@ def test_what_is_not_written_yet_waits_aside(
     result = _grade(kit, make_submission("waiting", {steps[2].id: source}), tmp_path).steps[2]
     assert "Not written yet: specular." in result.messages
     failed = [test for test in result.tests if not test.passed]
-    assert {test.waits_for for test in failed if test.name.startswith("specular:")} == {"specular"}
+    assert {test.waits_for for test in failed} == {"specular"}, "and shade asks it"
     assert [bool(test.waits_for) for test in result.tests] == sorted(bool(test.waits_for) for test in result.tests)
-    assert [item.name for item in result.hidden if item.waits_for] == ["specular"]
+    assert {item.waits_for for items in (result.images, result.hidden) for item in items if not item.passed} == {
+        "specular"
+    }
+    assert any(message.startswith("What waits for it: ") for message in result.messages)
+    assert not any("failed" in message for message in result.messages)
 
 
 def test_todo_lines_above_finished_code_cost_nothing(
