@@ -9,7 +9,7 @@ import pytest
 from conftest import MakeSubmission, Sources
 
 from raysteps.course.manifest import Step
-from raysteps.course.mutants import read_mutants
+from raysteps.course.mutants import read_mutants, replaced_once
 from raysteps.exports.items import step_text
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import Results
@@ -26,8 +26,7 @@ _QUICK = ("02-intersection", "04-shadows")  # to learn the mistakes of a step ta
 def _source(case: dict[str, Any]) -> str:
     source = (_FOLDER / f"{case['step']}.cpp").read_text(encoding="utf-8")
     for find, replace in case["edits"]:
-        assert source.count(find) == 1, f"{case['name']}: {find!r} occurs {source.count(find)} times"
-        source = source.replace(find, replace)
+        source = replaced_once(source, find, replace, f"{case['name']}: {find!r}")
     return source
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from conftest import MakeSubmission
 
+from raysteps.course.mutants import replaced_once
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import StepResult
 from raysteps.results.settings import Settings
@@ -53,8 +54,7 @@ class Entry:
 def _changed(sources: dict[str, str], entry: dict[str, Any]) -> str:
     source = sources[entry["of"]]
     for edit in entry["edits"]:
-        assert source.count(edit["find"]) == 1, f"{entry['id']}: {edit['find']!r}"
-        source = source.replace(edit["find"], edit["replace"])
+        source = replaced_once(source, edit["find"], edit["replace"], f"{entry['id']}: {edit['find']!r}")
     return source
 
 

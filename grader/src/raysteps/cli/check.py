@@ -8,7 +8,6 @@ from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
 from raysteps.progress.check import check_steps
-from raysteps.progress.standing import next_of, standings
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
 from raysteps.results.model import Results
@@ -40,7 +39,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         tell(checked.kit, checked.results)
     print_files(console, out / "results.json", checked.page)
     code = exit_code(checked.results)
-    following = next_of(standings(project)) if code == 0 else None
-    if following is not None:
-        console.print(f"Next: {watch_command(following.id)}")
+    if code == 0 and checked.following is not None:
+        console.print(f"Next: {watch_command(checked.following.id)}")
     return code

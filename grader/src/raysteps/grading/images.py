@@ -88,6 +88,7 @@ def part_of_a_picture(
     scene: Path,
     args: tuple[str, ...],
     max_share: float | None,
+    reference: Pixels,
     rendered: Rendered,
     *,
     pixels_pass: bool,
@@ -95,7 +96,6 @@ def part_of_a_picture(
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
     pixels = MOST_OF_A_PICTURE
     if not pixels_pass and rendered.pixels is not None:
-        reference = reference_picture(kit, scene, args)
         pixels = part_right(rendered.pixels, reference, error_for_nothing(kit, step, scene, args))
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
 
@@ -134,7 +134,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
     result.outcome = "ok" if result.passed else "wrong"
     if not result.passed:
         result.share = part_of_a_picture(
-            gallery.kit, step, scene, case.args, case.max_share, rendered, pixels_pass=verdict.passed
+            gallery.kit, step, scene, case.args, case.max_share, reference, rendered, pixels_pass=verdict.passed
         )
     if rendered.pixels.shape == reference.shape:
         # In a students' kit there is nothing that a picture could carry out.

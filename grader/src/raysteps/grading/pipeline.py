@@ -73,7 +73,7 @@ def _judge_scene(
     result.outcome = "wrong"
     if spares or scene.max_share is None:
         result.share = part_of_a_picture(
-            gallery.kit, step, path, scene.args, scene.max_share, rendered, pixels_pass=verdict.passed
+            gallery.kit, step, path, scene.args, scene.max_share, reference, rendered, pixels_pass=verdict.passed
         )
     return result
 

@@ -56,7 +56,7 @@ def _result_alone(ran: TaskResult, name: str) -> TestResult:
     cases = _complete(ran, [name])
     if cases is not None:
         return _result(cases[0])
-    if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
+    if ran.hung:
         message = f"The test was stopped after {in_seconds(ran.outcome.seconds)}. {ENDLESS}"
         return TestResult(name, False, message, outcome="timeout")
     if ran.outcome.signal_name is not None or ran.stopped:
@@ -68,7 +68,7 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
     """All test cases in one process; when that ends badly, each in a process of its own."""
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, names)
-    limits = limits.after_a_timeout() if ran.outcome.timed_out or ran.stopped in ("wall", "cpu") else limits
+    limits = limits.after_a_timeout() if ran.hung else limits
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]

@@ -94,14 +94,10 @@ def _read(lines: Sequence[str], first: int, last: int) -> list[Reply]:
     return answers
 
 
-def _hung(ran: TaskResult) -> bool:
-    return ran.outcome.timed_out or ran.stopped in ("wall", "cpu")
-
-
 def _trouble(ran: TaskResult, *, in_a_line: bool) -> Reply:
     """Why the worker stopped in the middle."""
     outcome = ran.outcome
-    if _hung(ran):
+    if ran.hung:
         return Reply("", "timeout", f"stopped after {in_seconds(outcome.seconds)}")
     if ran.stopped == "memory":
         return Reply("", "crashed", "stopped for taking too much memory")
@@ -125,7 +121,7 @@ def _what_came(ran: TaskResult, cases: Sequence[Case], first: int) -> tuple[list
     # Cut off, perhaps at the end of a line: after the last case a worker says so. It may also have ended itself in
     # the next case, and will do so again when that is the first one.
     ended = f"end {len(cases) - first}" in lines[-1:]
-    was_cut = ran.outcome.code == 0 and not _hung(ran) and not ran.stopped and not ended
+    was_cut = ran.outcome.code == 0 and not ran.hung and not ran.stopped and not ended
     return replies, None if was_cut and replies else _trouble(ran, in_a_line=bool(rest))
 
 
@@ -142,7 +138,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         ran = ask(_stdin(cases, len(replies)), seconds)
         answers, trouble = _what_came(ran, cases, len(replies))
         used += ran.outcome.seconds
-        budget.spend(seconds if _hung(ran) else ran.cpu_seconds, hung=_hung(ran))
+        budget.spend(seconds if ran.hung else ran.cpu_seconds, hung=ran.hung)
         seconds = budget.next_run()
         replies += answers
         if len(replies) == len(cases):
@@ -153,7 +149,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         kind = cases[len(replies)].group
         replies.append(trouble or Reply("", "wrong", "the answer is too long"))
         endings[kind] += 1
-        hangs += _hung(ran)
+        hangs += ran.hung
         given_up = Reply("", replies[-1].outcome, "not asked any more after that", asked=False)
         answered = any(reply.outcome == "ok" for reply in replies)
         if hangs == _MAX_ENDINGS or endings.total() == (_MAX_RESTARTS if answered else _MAX_ENDINGS):
@@ -174,7 +170,7 @@ def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Re
     replies, trouble = _what_came(ran, cases, 0)
     if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
         replies = [*replies, trouble]
-    return Replies(replies[: len(cases)], ran.outcome.seconds if _hung(ran) else ran.cpu_seconds)
+    return Replies(replies[: len(cases)], ran.outcome.seconds if ran.hung else ran.cpu_seconds)
 
 
 # One case with what came of it.

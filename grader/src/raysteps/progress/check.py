@@ -29,6 +29,7 @@ class CheckResult:
     kit: BuiltKit
     results: Results
     page: Path | None
+    following: Step | None  # what comes next in the course
 
 
 Tell = Callable[[BuiltKit, Results], None]  # of results in which no mistake has its name yet
@@ -86,4 +87,4 @@ def check_steps(
             write_results(_with_steps(results, [*kept, *results.steps]), out)
         remember(project, results, submission.sources)
         following = next_of(standings(project))
-        return CheckResult(kit, results, try_student_page(out, kit.steps, say, following))
+        return CheckResult(kit, results, try_student_page(out, kit.steps, say, following), following)

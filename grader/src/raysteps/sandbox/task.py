@@ -109,6 +109,11 @@ class TaskResult:
     cpu_seconds: float
     stopped: LimitHit  # the limit that ended it, where known
 
+    @property
+    def hung(self) -> bool:
+        """Whether its time was over."""
+        return self.outcome.timed_out or self.stopped in ("wall", "cpu")
+
 
 class Sandbox(Protocol):
     """Something that runs tasks, from several threads at once."""
