@@ -8,7 +8,9 @@ elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     list(APPEND compile_flags -ferror-limit=20 -fno-caret-diagnostics)
 endif()
 if(RAYSTEPS_SEAL)
-    list(APPEND compile_flags -fPIC -fno-semantic-interposition)  # a step becomes a library that programs load
+    # A step becomes a library that programs load. Where one has a function of the step itself, it is the one that the
+    # step's other functions call.
+    list(APPEND compile_flags -fPIC -fsemantic-interposition)
 endif()
 # What CMake adds by itself on a Mac.
 set(system_flags "")
@@ -96,7 +98,7 @@ if(MSVC)
 endif()
 set(seal_json null)
 if(RAYSTEPS_SEAL)
-    set(seal_json "{\"nm\": \"${CMAKE_NM}\", \"readelf\": \"${CMAKE_READELF}\"}")
+    set(seal_json "{\"nm\": \"${CMAKE_NM}\", \"readelf\": \"${CMAKE_READELF}\", \"objcopy\": \"${CMAKE_OBJCOPY}\"}")
 endif()
 
 file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{

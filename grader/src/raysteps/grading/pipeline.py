@@ -28,7 +28,7 @@ from raysteps.grading.images import (
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
-from raysteps.grading.unit_tests import set_aside
+from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.compare import compare
 from raysteps.images.render import reference_picture
@@ -36,7 +36,7 @@ from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import run_hidden_tests, take_back, unspared, why_unspared
 from raysteps.judge.plan import read_plan
-from raysteps.judge.worker import ask_student, reference_answers, reference_unkept
+from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.settings import Settings
 from raysteps.results.store import write_results
@@ -91,7 +91,8 @@ class HiddenStepGrader(StepGrader):
         super().__init__(work, step, limits, compiled, judged=self._plan is not None)
         self._settings = settings
         self._ran = False
-        self._unexplained: Programs | None = None
+        self._unexplained = False
+        self._ask: Ask | None = None
         self.fault = ""  # of the grader, in this step
         if self._plan is not None:
             self.kinds = ("test", "raytrace", "worker")
@@ -110,7 +111,7 @@ class HiddenStepGrader(StepGrader):
             step, most = self.step, self._result.max
             what = reason_and_place(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
             self.fault = f"{step.id}: {shorten(printable(what), 300)}"
-            self._ran, self._unexplained = False, None
+            self._ran, self._unexplained = False, False
             self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
 
     def grade(self) -> StepResult:
@@ -121,11 +122,15 @@ class HiddenStepGrader(StepGrader):
                 return self._result
             step, plan, result, kit, gallery = self.step, self._plan, self._result, self._work.kit, self._gallery
             self._run_tests(programs["test"])
+            binary = self._compiled[step.id].binary
+            completed = None if binary is None else self._completed(binary)
+            if completed is not None:
+                self._run_tests_again(completed["test"])
             for case in step.images:
                 result.images.append(judge(gallery, programs["raytrace"], step, case))
             if plan is not None:
                 seed, folder = self._settings.seed, self._work.folder / step.number
-                ask = ask_student(gallery.sandbox, programs["worker"], gallery.limits)
+                ask = self._ask = self._asked_of(programs["worker"], completed)
                 examples = None
                 if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
                     examples = Examples(ask, lambda cases, _: reference_unkept(kit, cases), gallery.out, self._work.say)
@@ -140,26 +145,60 @@ class HiddenStepGrader(StepGrader):
                     result.hidden.append(
                         _judge_scene(gallery, programs["raytrace"], step, scene, folder, not_spared, spares)
                     )
-            set_aside(result, step, kit.tests[step.id], self._work.source(step) or "")
+            set_aside(result, step, kit.tests[step.id], self._work.source(step) or "", replaced=completed is not None)
             result.messages += sum_up(result)
-            if not is_right(result):
-                self._unexplained = programs
+            self._unexplained = not is_right(result)
             self._ran = True
         return self._result
+
+    # A function that is not written costs its own points only: for all others, the reference's takes its place.
+
+    def _completed(self, binary: Path) -> Programs | None:
+        """The programs of the tests and of the judge with the reference's functions in place of those that are not
+        written. None where nothing or everything is written, or where steps are no libraries."""
+        step, unfinished = self.step, self._unfinished
+        names = self._work.kit.linker_names(step, unfinished)
+        if self._plan is None or not names or len(unfinished) == len(step.functions):
+            return None
+        programs: Programs = {}
+        for kind in ("test", "worker"):
+            program, _ = self._build.program(kind, step, {step.number: binary}, self._limits, replaced=names)
+            if program is None:
+                return None
+            programs[kind] = program
+        return programs
+
+    def _run_tests_again(self, program: Program) -> None:
+        """Those of functions that are written."""
+        tests = self._work.kit.tests[self.step.id]
+        own = [test for test in self._result.tests if not set(tests[test.name]) & set(self._unfinished)]
+        if all(test.passed for test in own):
+            return
+        again = {test.name: test for test in run_tests(self._work.sandbox, program, list(tests), self._limits)}
+        own_names = {test.name for test in own}
+        self._result.tests = [
+            replace(again[test.name], weight=test.weight) if test.name in own_names else test
+            for test in self._result.tests
+        ]
+
+    def _asked_of(self, worker: Program, completed: Programs | None) -> Ask:
+        gallery = self._gallery
+        ask = ask_student(gallery.sandbox, worker, gallery.limits)
+        if completed is None:
+            return ask
+        written = [name for name in self.step.functions if name not in self._unfinished]
+        return ask_some(ask, ask_student(gallery.sandbox, completed["worker"], gallery.limits), written)
 
     @property
     def has_to_learn(self) -> bool:
         """Whether it takes a while to say why the step is wrong: the known mistakes must be learned before."""
-        return self._unexplained is not None and not are_learned(self._work.kit, self.step)
+        return self._unexplained and not are_learned(self._work.kit, self.step)
 
     def explain(self) -> None:
         """In words why it is not right. Whatever a student's program says, it costs no grade."""
-        programs, self._unexplained = self._unexplained, None
-        if programs is None:
+        if not self._unexplained:
             return
-        worker = programs.get("worker")
-        ask = ask_student(self._gallery.sandbox, worker, self._gallery.limits) if worker is not None else None
-        doctor = Diagnostician(self._work.kit, self.step, self._plan, ask, self._work.say)
+        doctor = Diagnostician(self._work.kit, self.step, self._plan, self._ask, self._work.say)
         try:
             self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade

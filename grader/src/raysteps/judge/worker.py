@@ -2,7 +2,7 @@
 
 import hashlib
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -201,13 +201,23 @@ ANSWERS_KB = 8192  # a tree of many boxes is a long answer
 _REFERENCE_LIMITS = Limits(wall_seconds=300, cpu_seconds=300, output_kb=ANSWERS_KB)
 
 
-def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Callable[[bytes, float], TaskResult]:
+def ask_student(sandbox: Sandbox, worker: Program, limits: StepLimits) -> Ask:
     """The student's functions, asked in a process that knows no answer: cases, and how many seconds it may take."""
 
     def ask(cases: bytes, seconds: float) -> TaskResult:
         return sandbox.run(worker.task((), replace(limits.of_program(seconds), output_kb=ANSWERS_KB), cases))
 
     return ask
+
+
+def ask_some(ask: Ask, others: Ask, functions: Collection[str]) -> Ask:
+    """These functions are asked by `others`. All cases of a question are of one function."""
+
+    def route(cases: bytes, seconds: float) -> TaskResult:
+        words = cases.split(maxsplit=2)
+        return (others if len(words) > 1 and words[1].decode() in functions else ask)(cases, seconds)
+
+    return route
 
 
 def reference_unkept(kit: BuiltKit, cases: bytes) -> TaskResult:

@@ -12,7 +12,7 @@ from raysteps.common.process import run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgramLinker
+from raysteps.toolchain.kit_artifacts import NOTHING, BuiltKit, Kind, ProgramLinker, Replaced
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
 
@@ -209,20 +209,28 @@ class StudentBuild:
         return tuple(shown.get(name, name) for name in names)
 
     def program(
-        self, kind: Kind, step: Step, binaries: Mapping[str, Path], limits: StepLimits, *, together: bool = False
+        self,
+        kind: Kind,
+        step: Step,
+        binaries: Mapping[str, Path],
+        limits: StepLimits,
+        *,
+        together: bool = False,
+        replaced: Replaced = NOTHING,
     ) -> tuple[Program | None, TaskResult | None]:
         """The kit's program with these binaries, by step; none, and what the linker said, when they do not fit. All
-        other steps are the reference's; those up to this one are loaded like the student's if `together`."""
+        other steps are the reference's; those up to this one are loaded like the student's if `together`. Where the
+        step's other functions call one of the `replaced`, it is the reference's, too."""
         own = [other for other in self._kit.steps if other.number in binaries]
         boxes = self._kit.boxes(own) if self._kit.interpreter is not None else None
         if boxes is not None:
-            return self._boxed(boxes, kind, own, binaries), None
+            return self._boxed(boxes, kind, own, binaries, replaced), None
         all_binaries = list(binaries.values())
         if together:
             missing = [one for one in self._kit.steps if one.index <= step.index and one.number not in binaries]
             all_binaries += [self._kit.reference_step(other) for other in missing]
         if self._kit.interpreter is not None:
-            program = self._kit.program(kind, step, self._folder, together=together)
+            program = self._kit.program(kind, step, self._folder, together=together, replaced=replaced)
             return Program((*self._loader(f"{kind}-{step.number}", all_binaries), Input(program, kind))), None
         parts = [*all_binaries, *self._kit.rest(kind, step, together=together)]
         output = Output(executable(Path("program")).name)
@@ -237,10 +245,12 @@ class StudentBuild:
         path.chmod(0o755)
         return Program((Input(path, kind),)), None
 
-    def _boxed(self, boxes: ProgramLinker, kind: Kind, own: list[Step], binaries: Mapping[str, Path]) -> Program:
+    def _boxed(
+        self, boxes: ProgramLinker, kind: Kind, own: list[Step], binaries: Mapping[str, Path], replaced: Replaced
+    ) -> Program:
         numbers = [step.number for step in own]
-        box = boxes.box(numbers, self._folder)
-        home = boxes.home(f"test-{numbers[-1]}" if kind == "test" else kind, numbers, self._folder)
+        box = boxes.box(numbers, self._folder, replaced)
+        home = boxes.home(f"test-{numbers[-1]}" if kind == "test" else kind, numbers, self._folder, replaced)
         loader = self._loader(box.name, [binaries[number] for number in numbers])
         return Program((*loader, Input(box, "box")), home)
 

@@ -1,19 +1,20 @@
 """The kit as it grades: framework, references and tests, built once and only read from then on."""
 
 import errno
+import hashlib
 import json
 import shutil
 import tempfile
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
-from raysteps.toolchain.link import Description, library_name, link
+from raysteps.toolchain.link import Description, library_name, link, without_names
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
@@ -23,6 +24,15 @@ Tests = Mapping[str, Mapping[str, Sequence[str]]]  # by step: its visible tests,
 # Links what is needed of a kit when it is needed: programs that ask steps in another process, and the boxes that these
 # are in. Nothing of a student's is in the first, and nothing of a reference's in the second. And programs that load
 # steps themselves, for code that nothing has to be kept from.
+
+
+Replaced: TypeAlias = frozenset[str]  # linker names of functions of one step
+NOTHING: Replaced = frozenset()
+
+
+def _but(replaced: Replaced) -> str:
+    """At the end of a name: what is not in it."""
+    return f"-but-{hashlib.sha256(' '.join(sorted(replaced)).encode()).hexdigest()[:16]}" if replaced else ""
 
 
 class ProgramLinker:
@@ -57,33 +67,36 @@ class ProgramLinker:
     def _all_parts(self, kind: str) -> list[str]:
         return (self._folder / "rest" / f"{kind}.txt").read_text("utf-8").splitlines()
 
-    def home(self, kind: str, own: Sequence[str], folder: Path) -> Path:
-        """The program that asks the steps `own`; all others are the reference's. `kind` is as in rest/KIND.txt. Linked
-        into `folder` where the kit may not be written to."""
-        return self._linked(f"{kind}-beside-{'-'.join(own)}", self._home_parts(kind, own), folder)
+    def home(self, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
+        """The program that asks the steps `own`; all others are the reference's, and so are the `replaced` functions of
+        the last. `kind` is as in rest/KIND.txt. Linked into `folder` where the kit may not be written to."""
+        name = f"{kind}-beside-{'-'.join(own)}{_but(replaced)}"
+        return self._linked(name, self._home_parts(kind, own, folder, replaced), folder)
 
-    def _home_parts(self, kind: str, own: Sequence[str]) -> list[str | Path]:
+    def _home_parts(self, kind: str, own: Sequence[str], folder: Path, replaced: Replaced) -> list[str | Path]:
         parts = self._remote
-        objects = self._without(own, kind)
-        objects += [self._part(parts.stand_ins[number]) for number in own]
+        objects = [*self._without(own, kind), *self._reference_of(own[-1], folder, replaced)]
+        objects += [self._shown(self._part(parts.stand_ins[number]), replaced, folder) for number in own]
         # Of a later step a box learns nothing, whatever it asks.
-        objects += [
-            self._part(path) for number, path in parts.services.items() if number < own[-1] and number not in own
-        ]
+        asked = [number for number in parts.services if number < own[-1] and number not in own]
+        asked += own[-1:] if replaced else []
+        objects += [self._part(parts.services[number]) for number in asked]
         objects += [*(self._part(path) for path in parts.wire), self._part(parts.home)]
         return [*objects, *(self._folder / line for line in self._all_parts("libraries"))]
 
-    def box(self, own: Sequence[str], folder: Path) -> Path:
-        """The box of these steps, which lacks their libraries."""
-        return self._linked(f"box-{'-'.join(own)}", self._box_parts(own), folder)
+    def box(self, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
+        """The box of these steps, which lacks their libraries. What calls a `replaced` function in it asks home."""
+        return self._linked(f"box-{'-'.join(own)}{_but(replaced)}", self._box_parts(own, folder, replaced), folder)
 
-    def _box_parts(self, own: Sequence[str]) -> list[str | Path]:
+    def _box_parts(self, own: Sequence[str], folder: Path, replaced: Replaced) -> list[str | Path]:
         parts = self._remote
         objects: list[str | Path] = [self._part(parts.box), *(self._part(path) for path in parts.wire)]
         objects += [self._part(parts.services[number]) for number in own]
         objects += [
             self._part(path) for number, path in parts.stand_ins.items() if number < own[-1] and number not in own
         ]
+        if replaced:
+            objects.append(self._shown(self._part(parts.stand_ins[own[-1]]), self._others(own[-1], replaced), folder))
         objects += [self._part(path) for number, path in parts.later.items() if number > own[-1]]
         return [*objects, *self._loading(own, self.core)]
 
@@ -93,17 +106,34 @@ class ProgramLinker:
         words += [self._folder / "placeholders" / library_name(number) for number in own]
         return [*words, f"-Wl,--dynamic-list={self._folder / 'steps' / f'{own[-1]}.dynamic'}"]
 
-    def alone(self, name: str, kind: str, own: Sequence[str], folder: Path) -> Path:
-        """The program of that name that loads the steps `own`; all others are the reference's."""
-        objects = self._without(own, kind)
+    def alone(self, name: str, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
+        """The program of that name that loads the steps `own`; all others are the reference's, and so are the
+        `replaced` functions of the last."""
+        objects = [*self._without(own, kind), *self._reference_of(own[-1], folder, replaced)]
         *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
-        return self._linked(name, [*objects, *libraries, *self._loading(own, core)], folder)
+        return self._linked(name + _but(replaced), [*objects, *libraries, *self._loading(own, core)], folder)
 
     def _without(self, own: Sequence[str], kind: str) -> list[str | Path]:
         """The program's objects and all references but these steps'."""
         objects: list[str | Path] = [self._folder / line for line in self._all_parts(kind)]
         references = (self._folder / "parts" / "references").iterdir()
         return objects + [path for path in references if path.stem not in own]
+
+    def _others(self, number: str, replaced: Replaced) -> Replaced:
+        """The functions of a step that are not replaced."""
+        return frozenset(json.loads((self._folder / "steps" / f"{number}.names.json").read_text("utf-8"))) - replaced
+
+    def _reference_of(self, number: str, folder: Path, replaced: Replaced) -> list[Path]:
+        """What the reference has of a step that is handed in: the replaced functions."""
+        path = self._folder / "parts" / "references" / f"{number}.o"
+        return [self._shown(path, self._others(number, replaced), folder)] if replaced else []
+
+    def _shown(self, path: Path, hidden: Replaced, folder: Path) -> Path:
+        """The object, or a copy of it that does not show these names."""
+        tools = self._description.seal
+        if not hidden or tools is None:
+            return path
+        return without_names(tools, path, hidden, folder / f"{path.parent.name}-{path.stem}{_but(hidden)}.o")
 
     def _linked(self, name: str, parts: list[str | Path], folder: Path) -> Path:
         """Under its name once it is whole: several may want it at the same time."""
@@ -169,6 +199,11 @@ class BuiltKit:
         names: dict[str, str] = json.loads(path.read_text("utf-8")) if path.is_file() else {}
         return names
 
+    def linker_names(self, step: Step, functions: Collection[str]) -> Replaced:
+        """Of these functions of the step, as step.toml calls them."""
+        shown = self.functions(step).items()
+        return frozenset(name for name, text in shown if text.split("(")[0].removeprefix("raysteps::") in functions)
+
     def exports(self, step: Step) -> Path:
         """The linker's version script with the names of the functions."""
         return self.folder / "steps" / f"{step.number}.map"
@@ -195,15 +230,17 @@ class BuiltKit:
         linker = self._linker() if self.boxed else None
         return linker if linker is not None and all(linker.can_be_asked(step.number) for step in steps) else None
 
-    def program(self, kind: Kind, step: Step, folder: Path, *, together: bool = False) -> Path:
+    def program(
+        self, kind: Kind, step: Step, folder: Path, *, together: bool = False, replaced: Replaced = NOTHING
+    ) -> Path:
         """A program that lacks the student's library of this step (`together`: of all up to it). Linked into `folder`
         where the kit lacks it and may not be written to."""
         name = self._program_name(kind, step, together=together)
         linker = self._linker()
-        if linker is None or (self.folder / "bin" / name).is_file():
+        if linker is None or ((self.folder / "bin" / name).is_file() and not replaced):
             return self.folder / "bin" / name
         own = [other.number for other in self.steps if other.index <= step.index] if together else [step.number]
-        return linker.alone(name, f"test-{step.number}" if kind == "test" else kind, own, folder)
+        return linker.alone(name, f"test-{step.number}" if kind == "test" else kind, own, folder, replaced)
 
     @staticmethod
     def _program_name(kind: Kind, step: Step, *, together: bool) -> str:

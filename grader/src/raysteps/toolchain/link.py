@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -23,6 +23,7 @@ class SealTools:
 
     nm: str
     readelf: str
+    objcopy: str
 
 
 def _words(values: list[object]) -> list[str]:
@@ -105,7 +106,7 @@ def read_description(path: Path) -> Description:
             compile_flags=_words(table["compile_flags"]),
             system_includes=_paths(table["system_includes"]),
             link_flags=_words(table["link_flags"]),
-            seal=None if seal is None else SealTools(str(seal["nm"]), str(seal["readelf"])),
+            seal=None if seal is None else SealTools(*(str(seal[tool]) for tool in ("nm", "readelf", "objcopy"))),
             steps={number: Path(object_file) for number, object_file in table["steps"].items()},
             libraries={name: Path(library) for name, library in table["libraries"].items()},
             catch2=_paths(table["catch2"]),
@@ -159,6 +160,12 @@ def _run(words: Sequence[str | Path]) -> str:
 def link(description: Description, objects: Sequence[str | Path], program: Path) -> None:
     """A program, or with the right words among the objects a library."""
     _run(link_words(description, objects, program))
+
+
+def without_names(tools: SealTools, path: Path, names: Iterable[str], target: Path) -> Path:
+    """A copy of an object that shows none of these names: whoever asks for them gets them from elsewhere."""
+    _run([tools.objcopy, *(f"--localize-symbol={name}" for name in sorted(names)), path, target])
+    return target
 
 
 def version_script(names: Sequence[str]) -> bytes:

@@ -1,0 +1,103 @@
+"""A function that is not written costs its own points only: the others are judged with the reference's in its place."""
+
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from machine_code import reference_code
+
+from raysteps.course.manifest import Step
+from raysteps.course.stubs import make_stub
+from raysteps.grading.pipeline import grade_submission
+from raysteps.results.model import StepResult
+from raysteps.results.settings import Settings
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.load import Submission
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+_SEED = 20261123
+# A call, a call of a member, a call of a virtual one, by a search and by a builder; and two in a row.
+_IN_A_BOX = (("03", "mirror"), ("04", "shadow_ray"), ("06", "Box::clip"), ("06", "Sphere::overlaps"), ("08", "refract"))
+
+
+@pytest.fixture(autouse=True)
+def _closed_steps(kit: BuiltKit) -> None:
+    if kit.description.seal is None:
+        pytest.skip("steps are libraries on Linux only")
+
+
+def _without(kit: BuiltKit, step: Step, function: str, old: str = "", new: str = "") -> str:
+    """The solution with a function as the stub has it, and a change."""
+    solution = (kit.project.solutions / step.path).read_text(encoding="utf-8")
+    source = make_stub(solution, step, [name for name in step.functions if name != function])
+    assert old in source
+    return source.replace(old, new)
+
+
+def _graded(kit: BuiltKit, step: Step, source: str, folder: Path) -> StepResult:
+    submission = Submission("half", {step.id: source.encode()}, {})
+    settings = Settings(seed=_SEED, only=(step.id,), feedback="diagnosis")
+    return grade_submission(kit, submission, settings, LimitsOnly(), folder).steps[0]
+
+
+def _assert_costs_itself_only(kit: BuiltKit, step: Step, function: str, result: StepResult) -> None:
+    shares = {item.name: item.share for item in result.hidden if item.kind == "function"}
+    assert shares == {name: 0.0 if name == function else 1.0 for name in step.functions}, f"seed {_SEED}"
+    failed = [test.name for test in result.tests if not test.passed]
+    tests = kit.tests[step.id]
+    assert failed, "a stub passes no test of its own"
+    assert [name for name in failed if function not in tests[name]] == []
+    assert 0 < result.points < result.max
+
+
+@pytest.mark.parametrize(("number", "function"), _IN_A_BOX)
+def test_it_costs_its_own_points_only(kit: BuiltKit, number: str, function: str, tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == number)
+    result = _graded(kit, step, _without(kit, step, function), tmp_path)
+    _assert_costs_itself_only(kit, step, function, result)
+    assert f"Not written yet: {function}." in result.messages
+    assert "Your other functions are tried with the reference's in place of what is not written." in result.messages
+
+
+@pytest.mark.slow
+def test_so_does_every_function_of_every_step(kit: BuiltKit, tmp_path: Path) -> None:
+    """Without boxes, which are several times as slow."""
+    own = kit.in_one_process()
+    jobs = [(step, name) for step in kit.steps for name in step.functions]
+
+    def grade(job: tuple[Step, str]) -> StepResult:
+        step, function = job
+        name = f"{step.number}-{function.replace('::', '-')}"
+        return _graded(own, step, _without(kit, step, function), tmp_path / name)
+
+    with ThreadPoolExecutor(2) as pool:
+        results = list(pool.map(grade, jobs))
+    assert len(results) > 2 * len(kit.steps)
+    for (step, function), result in zip(jobs, results, strict=True):
+        _assert_costs_itself_only(kit, step, function, result)
+
+
+def test_what_is_wrong_is_wrong_all_the_same(kit: BuiltKit, tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == "04")
+    call = "const Ray ray = shadow_ray(hit, light);"
+    result = _graded(kit, step, _without(kit, step, "shadow_ray", call, f"{call}\n    return true;"), tmp_path)
+    judged = next(item for item in result.hidden if item.name == "is_lit")
+    assert not judged.passed
+    assert not judged.waits_for, "nothing is missing that it needs"
+    failed = [test for test in result.tests if not test.passed and not test.waits_for]
+    assert failed
+    assert {name for test in failed for name in kit.tests[step.id][test.name]} == {"is_lit"}
+
+
+def test_such_a_box_holds_no_reference(kit: BuiltKit, tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == "04")
+    linker = kit.boxes([step])
+    assert linker is not None
+    names = kit.linker_names(step, ["shadow_ray"])
+    assert len(names) == 1
+    pieces = reference_code(kit)
+    assert any(name.startswith("04 ") for name in pieces)
+    home = linker.home("worker", ["04"], tmp_path, names).read_bytes()
+    assert any(piece in home for name, piece in pieces.items() if "shadow_ray" in name), "what is looked for is there"
+    box = linker.box(["04"], tmp_path, names).read_bytes()
+    assert [name for name, piece in pieces.items() if piece in box] == []
