@@ -155,11 +155,11 @@ def test_a_student_kit_without_a_judge_has_no_hidden_part(steps: list[Step], tmp
     result = passed_step(step, tmp_path)
     assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "hidden", "together"]
     assert rest_of(result, parts_of(result, step)) == 0
-    result.max, result.points, result.hidden = 9.75, 9.75, []
+    result.max, result.points, result.hidden = 9.8, 9.8, []
     assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "together"]
     assert rest_of(result, parts_of(result, step)) == 0
     result.points = 9.0
-    assert rest_of(result, parts_of(result, step)) == -0.75
+    assert rest_of(result, parts_of(result, step)) == -0.8
 
 
 def test_the_command_makes_the_page_of_a_folder(

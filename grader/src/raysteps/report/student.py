@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from raysteps.common.files import write_if_changed
-from raysteps.common.text import clean, count, mean, number, size
+from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
 from raysteps.report.page import (
@@ -21,14 +21,16 @@ from raysteps.report.page import (
 )
 from raysteps.report.wording import (
     HOW_SURE,
-    STATUS_WORDS,
+    SaidOnce,
     check_command,
     inspect_command,
     percent,
     replay_command,
+    total_words,
     watch_command,
 )
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
+from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.results.store import read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
@@ -108,7 +110,7 @@ def make_album(results: Results, folder: Path, room: int) -> dict[Place, ShownIm
 
 # How the points of a step come about.
 
-_NEAR = 0.011  # points: a step's are rounded once, its parts each by itself
+_NEAR = 0.11  # points: a step's are whole tenths, and with a mistake at least one less than all
 
 
 @dataclass(frozen=True)
@@ -142,17 +144,25 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     ]
     if result.max < step.points - _NEAR:
         found = [part for part in found if part[0] != "hidden"]
+    found = [part for part in found if part[2] > 0]
+    exact = [step.points * weight * share for _, (_, share), weight in found]
+    explained = result.points if abs(result.points - sum(exact)) <= _NEAR else sum(exact)
+    most = _in_tenths(result.max, [weight for _, _, weight in found])
     return [
-        Part(name, said, share, weight * 100, step.points * weight, step.points * weight * share)
-        for name, (said, share), weight in found
-        if weight > 0
+        Part(name, said, share, weight * 100, whole, earned)
+        for (name, (said, share), weight), whole, earned in zip(found, most, _in_tenths(explained, exact), strict=True)
     ]
+
+
+def _in_tenths(total: float, weights: Sequence[float]) -> list[float]:
+    """Shares of the total, rounded so that what is shown adds up."""
+    return [part / 10 for part in apportion(round(total * 10), weights)]
 
 
 def rest_of(result: StepResult, parts: Sequence[Part]) -> float:
     """Points that the parts do not account for, as when an older kit weighed them otherwise."""
     rest = result.points - sum(part.earned for part in parts)
-    return round(float(rest), 2) if parts and abs(rest) > _NEAR else 0.0
+    return round(float(rest), 1) if parts and abs(rest) > _NEAR else 0.0
 
 
 # One step of the results, made ready for a page. Whatever a student's program may have said is cleaned.
@@ -175,10 +185,18 @@ def diagnosis_view(diagnosis: Diagnosis) -> dict[str, object]:
     }
 
 
-def _test(test: TestResult) -> dict[str, object]:
-    words = ("name", "message", "expression", "expanded", "location")
+def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
+    words = ("name", "expression", "expanded", "location")
     texts = {word: clean(getattr(test, word), _TEXT) for word in words}
-    return {**texts, "passed": test.passed, "outcome": test.outcome, "waits_for": clean(test.waits_for)}
+    ended = in_words(test.outcome) if test.outcome in ("crashed", "timeout") else ""
+    message = once(clean(test.message, _TEXT)) if ended else clean(test.message, _TEXT)
+    return {
+        **texts,
+        "message": message,
+        "passed": test.passed,
+        "ended": ended,
+        "waits_for": clean(test.waits_for),
+    }
 
 
 def _hidden(item: HiddenResult) -> dict[str, object]:
@@ -191,7 +209,7 @@ def _hidden(item: HiddenResult) -> dict[str, object]:
         "message": clean(item.message),
         "case": [
             (label, clean(text, _TEXT))
-            for label, text in (("Given", item.given), ("Expected", item.expected), ("Actual", item.actual))
+            for label, text in (("Given", item.given), ("Expected", item.expected), ("Got", item.actual))
             if text
         ],
         "again": replay_command(clean(item.case)) if item.case else "",
@@ -213,7 +231,7 @@ def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     ]
 
 
-def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str, object]:
+def _image(image: ImageResult, step: Step | None, shown: ShownImage, once: SaidOnce) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
     if wrong is not None:
@@ -224,7 +242,7 @@ def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str
         "name": clean(image.name),
         "scene": clean(image.scene),
         "passed": image.passed,
-        "message": clean(image.message),
+        "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
         "facts": facts,
         "shown": shown,
         "files": [clean(name) for name in (image.mine, image.reference) if name],
@@ -244,23 +262,27 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
 
 def step_view(result: StepResult, step: Step | None, album: Mapping[Place, ShownImage]) -> dict[str, object]:
     """All that the page says of a step."""
-    words, tone, sign = STATUS_WORDS[result.status]
+    status = STATUS_WORDS[result.status]
     parts = parts_of(result, step)
-    images = [_image(image, step, album[(result.id, image.name)]) for image in result.images]
+    messages = [clean(message) for message in result.messages]
+    once = SaidOnce(messages)
+    tests = [_test(test, once) for test in result.tests]
+    images = [_image(image, step, album[(result.id, image.name)], once) for image in result.images]
     return {
         "id": result.id,
         "number": result.id[:2],
         "title": step.title if step is not None else result.id[3:].replace("-", " "),
-        "status": {"id": result.status, "words": words, "tone": tone, "sign": sign},
-        "points": number(result.points),
-        "max": number(result.max),
+        "status": {"id": result.status, "words": status.words, "tone": status.tone, "sign": status.sign},
+        "points": tenths(result.points),
+        "max": tenths(result.max),
         "share": result.points / result.max if result.max else 0.0,
+        "worth": tenths(step.points) if step is not None else "",
         "bonus": result.bonus,
         "parts": parts,
         "rest": rest_of(result, parts),
-        "messages": [clean(message) for message in result.messages],
+        "messages": messages,
         "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.diagnoses],
-        "tests": [_test(test) for test in result.tests],
+        "tests": tests,
         "hidden": [_hidden(item) for item in result.hidden],
         "images": images,
         "build_log": clean(result.build_log, _LOG),
@@ -285,16 +307,18 @@ def _next(steps: Sequence[StepResult]) -> StepResult | None:
 def _total(total: Total) -> dict[str, object]:
     bonus = total.bonus
     return {
-        "points": number(total.points),
-        "max": number(total.max),
-        "share": min(1.0, total.points / total.max) if total.max else 0.0,
-        "bonus": number(bonus.points) if bonus.points else "",
-        "bonus_max": number(bonus.max) if bonus.max else "",
+        "words": total_words(total),
+        "points": tenths(total.points),
+        "max": tenths(total.max or bonus.max),
+        "is_bonus": not total.max,
+        "share": min(1.0, total.points / (total.max or bonus.max)) if total.max or bonus.max else 0.0,
+        "bonus": tenths(bonus.points) if bonus.points and total.max else "",
+        "bonus_max": tenths(bonus.max) if bonus.max and total.max else "",
     }
 
 
 def _sums(parts: Sequence[Part]) -> dict[str, float]:
-    return {name: sum(part.earned for part in parts if part.name == name) for name in _PARTS}
+    return {name: round(sum(part.earned for part in parts if part.name == name), 1) for name in _PARTS}
 
 
 def student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> str:
@@ -322,6 +346,7 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
         "columns": _PARTS,
         "sums": _sums(parts),
         "number": number,
+        "tenths": tenths,
         "left_out": sum(shown.left_out for shown in album.values()),
         "facts": {
             "kit": clean(results.kit, 200),
