@@ -4,11 +4,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from raysteps.common.files import write_if_changed
 from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
+from raysteps.report.attempts import OwnProgress, chart_of
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
     COMPARE_STYLES,
@@ -22,6 +24,7 @@ from raysteps.report.page import (
 from raysteps.report.wording import (
     HOW_SURE,
     SaidOnce,
+    after_the_last,
     check_command,
     inspect_command,
     percent,
@@ -231,7 +234,7 @@ def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     ]
 
 
-def _image(image: ImageResult, step: Step | None, shown: ShownImage, once: SaidOnce) -> dict[str, object]:
+def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, once: SaidOnce) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
     if wrong is not None:
@@ -239,11 +242,13 @@ def _image(image: ImageResult, step: Step | None, shown: ShownImage, once: SaidO
     if share is not None and image.max_share is not None:
         facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")
     return {
+        "at": at,
         "name": clean(image.name),
         "scene": clean(image.scene),
         "passed": image.passed,
         "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
         "facts": facts,
+        "wrong_share": wrong,
         "shown": shown,
         "files": [clean(name) for name in (image.mine, image.reference) if name],
         "inspect": inspect_command(image.name, step),
@@ -267,7 +272,10 @@ def step_view(result: StepResult, step: Step | None, album: Mapping[Place, Shown
     messages = [clean(message) for message in result.messages]
     once = SaidOnce(messages)
     tests = [_test(test, once) for test in result.tests]
-    images = [_image(image, step, album[(result.id, image.name)], once) for image in result.images]
+    images = [
+        _image(image, f"picture-{result.id[:2]}-{at}", step, album[(result.id, image.name)], once)
+        for at, image in enumerate(result.images)
+    ]
     return {
         "id": result.id,
         "number": result.id[:2],
@@ -293,6 +301,7 @@ def step_view(result: StepResult, step: Step | None, album: Mapping[Place, Shown
 
 
 REPORT = "report.html"
+_NO_PROGRESS = OwnProgress()
 _MAX = 4_900_000  # bytes: a page that can be sent by mail
 _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
@@ -302,6 +311,41 @@ def _next(steps: Sequence[StepResult]) -> StepResult | None:
     """The first step that is not solved; a bonus only when nothing else is left."""
     unsolved = [step for step in steps if step.status != "passed"]
     return next((step for step in unsolved if not step.bonus), unsolved[0] if unsolved else None)
+
+
+@dataclass(frozen=True)
+class OwnPicture:
+    """One of the student's pictures, in the list above all steps."""
+
+    at: str  # the id of its place in the step
+    number: str
+    title: str
+    name: str
+    passed: bool
+    message: str
+
+
+def _own_pictures(
+    results: Results, views: Mapping[str, Mapping[str, Any]], following: StepResult | None
+) -> list[OwnPicture]:
+    """Those of the next thing to do come first, then what else is wrong; what is right goes back from the last step."""
+    found = [
+        (step, image)
+        for step in reversed(results.steps)
+        for image in views[step.id]["images"]
+        if image["shown"].pictures.get("mine") is not None
+    ]
+    found.sort(key=lambda pair: (pair[1]["passed"], pair[0] is not following))
+    return [
+        OwnPicture(image["at"], step.id[:2], views[step.id]["title"], image["name"], image["passed"], image["message"])
+        for step, image in found
+    ]
+
+
+def _walk(results: Results, own: Sequence[OwnPicture]) -> list[OwnPicture]:
+    """The last picture of each step, in their order."""
+    last = {picture.number: picture for picture in reversed(own)}
+    return [last[step.id[:2]] for step in results.steps if step.id[:2] in last]
 
 
 def _total(total: Total) -> dict[str, object]:
@@ -321,20 +365,36 @@ def _sums(parts: Sequence[Part]) -> dict[str, float]:
     return {name: round(sum(part.earned for part in parts if part.name == name), 1) for name in _PARTS}
 
 
-def student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> str:
+def student_page(
+    results: Results,
+    folder: Path,
+    steps: Sequence[Step],
+    following: Step | None = None,
+    progress: OwnProgress = _NO_PROGRESS,
+) -> str:
     """The page of results whose pictures lie in the folder. It shows what the results hold, and no more. `following`:
     the step to do when those on the page are right."""
-    text = _page(results, make_album(results, folder, _ROOM), steps, following)
+    text = _page(results, make_album(results, folder, _ROOM), steps, following, progress)
     excess = len(text.encode()) - _MAX
-    return text if excess <= 0 else _page(results, make_album(results, folder, _ROOM - excess), steps, following)
+    if excess > 0:
+        text = _page(results, make_album(results, folder, _ROOM - excess), steps, following, progress)
+    return text
 
 
-def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[Step], beyond: Step | None) -> str:
+def _page(
+    results: Results,
+    album: Mapping[Place, ShownImage],
+    steps: Sequence[Step],
+    beyond: Step | None,
+    progress: OwnProgress,
+) -> str:
     known = {step.id: step for step in steps}
     views = {result.id: step_view(result, known.get(result.id), album) for result in results.steps}
     parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
     following = _next(results.steps)
     name = clean(results.submission, 200)
+    own = _own_pictures(results, views, following)
+    is_perfect = following is None and beyond is None and bool(results.steps)
     context = {
         "name": name,
         "steps": list(views.values()),
@@ -342,6 +402,12 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}
         if beyond
         else None,
+        "own": own,
+        "changed": progress.changed,
+        "chart": chart_of(progress.attempts) if progress.attempts else None,
+        "walk": _walk(results, own) if is_perfect else [],
+        "is_perfect": is_perfect,
+        "try_next": after_the_last(),
         "total": _total(results.total),
         "columns": _PARTS,
         "sums": _sums(parts),
@@ -358,19 +424,29 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 
-def write_student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> Path:
+def write_student_page(
+    results: Results,
+    folder: Path,
+    steps: Sequence[Step],
+    following: Step | None = None,
+    progress: OwnProgress = _NO_PROGRESS,
+) -> Path:
     """Writes FOLDER/report.html."""
     path = folder / REPORT
-    write_if_changed(path, student_page(results, folder, steps, following).encode())
+    write_if_changed(path, student_page(results, folder, steps, following, progress).encode())
     return path
 
 
 def try_student_page(
-    folder: Path, steps: Sequence[Step], say: Callable[[str], None], following: Step | None = None
+    folder: Path,
+    steps: Sequence[Step],
+    say: Callable[[str], None],
+    following: Step | None = None,
+    progress: OwnProgress = _NO_PROGRESS,
 ) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
-        return write_student_page(read_results(folder / "results.json"), folder, steps, following)
+        return write_student_page(read_results(folder / "results.json"), folder, steps, following, progress)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {error!r}")
         return None

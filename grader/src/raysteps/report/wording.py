@@ -17,6 +17,15 @@ def check_command(step_id: str) -> str:
     return f"{own_command()} check {step_id[:2]}"
 
 
+def after_the_last() -> list[tuple[str, str]]:
+    """What to try when every step is right: a command, and what it does."""
+    return [
+        (f"{own_command()} finale", "draws a large picture with all that you have written"),
+        (f"{own_command()} gallery --mine", "shows every scene, step by step, beside the reference's"),
+        (f"{own_command()} view", "lets you walk through a scene in a window"),
+    ]
+
+
 def watch_command(step_id: str) -> str:
     """Works on a step."""
     return f"{own_command()} watch {step_id[:2]}"
