@@ -106,7 +106,9 @@ def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[S
     party = page.get_by_role("region", name="Every step is right")
     assert party.locator("figure img").count() == len(steps)
     assert party.locator("figure img").first.bounding_box()["width"] > 300  # type: ignore[index]
-    assert "surfaces tested per ray" in party.inner_text()
+    work = party.get_by_role("region", name="Work beside the reference").locator("tbody tr")
+    assert work.count() == sum(case.max_share is not None for step in steps for case in step.images)
+    assert work.first.locator("td").all_inner_texts() == ["4.9", "4.9"]
     assert_accessible(page)
 
 

@@ -220,6 +220,13 @@ def _hidden(item: HiddenResult) -> dict[str, object]:
     }
 
 
+def _tests_per_ray(image: ImageResult) -> tuple[str, str] | None:
+    """Of surfaces and boxes together: yours and the reference's."""
+    if image.work is None or image.reference_work is None:
+        return None
+    return mean(image.work.tests_per_ray), mean(image.reference_work.tests_per_ray)
+
+
 def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     """What the picture cost: what was counted, mine and the reference's."""
     mine, reference = image.work, image.reference_work
@@ -253,6 +260,7 @@ def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, on
         "files": [clean(name) for name in (image.mine, image.reference) if name],
         "inspect": inspect_command(image.name, step),
         "work": _work(image),
+        "tests_per_ray": _tests_per_ray(image),
     }
 
 
