@@ -28,7 +28,7 @@ public:
     }
 
     [[nodiscard]] std::string describe() const override {
-        return "is expected to be " + text(expected_) + " within " + Catch::Detail::stringify(tolerance_);
+        return "is expected to be " + text(expected_) + " within " + text(tolerance_);
     }
 
 private:

@@ -18,6 +18,12 @@ inline std::string text(const glm::vec3& v) {
     return out.str();
 }
 
+inline std::string text(float value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
 inline std::string text(const Ray& ray) { return "ray from " + text(ray.origin) + " along " + text(ray.direction); }
 
 inline std::string text(const Box& box) { return "box from " + text(box.min) + " to " + text(box.max); }

@@ -323,7 +323,7 @@ def test_how_to_repeat_a_test_is_not_why_it_failed(case: Case, steps: list[Step]
     cell = _comment(case, document)
     assert "RAYSTEPS_SEED" not in cell
     assert f"  - test {failed[0].name}: the ray comes from inside<br>" in cell
-    assert f"  - test {failed[1].name}: expected: a == b, actual: 1 == 2<br>".replace("=", "&#61;") in cell.replace(
+    assert f"  - test {failed[1].name}: expected: a == b, got: 1 == 2<br>".replace("=", "&#61;") in cell.replace(
         "=", "&#61;"
     )
 
@@ -336,7 +336,7 @@ def test_one_reason_for_all_steps_is_said_once(case: Case, steps: list[Step]) ->
     document.total.points = 0.0
     cell = _comment(case, document)
     assert cell.count("is no zip") == 1
-    assert cell.count("not-started") == len(steps)
+    assert cell.count("not started") == len(steps)
 
 
 def test_what_a_worksheet_without_names_and_comments_says(case: Case, capsys: pytest.CaptureFixture[str]) -> None:

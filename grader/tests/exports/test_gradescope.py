@@ -38,15 +38,15 @@ def test_numbers_and_names(steps: list[Step]) -> None:
     assert len({test["number"] for test in tests}) == len(tests)
     names = [test["name"] for test in tests]
     assert "02 Intersection: test test 0" in names
-    assert "07 Tone mapping: does-not-build" in names
-    assert "08 Refraction (bonus): not-started" in names
+    assert "07 Tone mapping: does not build" in names
+    assert "08 Refraction (bonus): not started" in names
 
 
 def test_a_failed_test_says_what_was_expected(steps: list[Step]) -> None:
     tests = _converted(mixed(steps), steps)["tests"]
     failed = next(test for test in tests if test["number"] == "2.7")
     assert failed["status"] == "failed"
-    assert failed["output"] == "is wrong\nexpected: a == b\nactual: 1 == 2\nsee a.cpp:7"
+    assert failed["output"] == "is wrong\nexpected: a == b\ngot: 1 == 2\nsee a.cpp:7"
 
 
 def test_visible_entries_of_hidden_checks_show_no_input(steps: list[Step]) -> None:
@@ -61,7 +61,7 @@ def test_hidden_entries_tell_all_and_the_rest_tells_no_points(steps: list[Step],
     results = _converted(made, steps, hidden=hidden)
     entries = [test for test in results["tests"] if test["visibility"] == hidden]
     assert len(entries) == 3 * (len(steps) - 2), "one step does not build, and one was not started"
-    assert any("input: secret input\nexpected: secret answer\nactual: its answer" in test["output"] for test in entries)
+    assert any("input: secret input\nexpected: secret answer\ngot: its answer" in test["output"] for test in entries)
     shown = json.dumps([results["output"], [test for test in results["tests"] if test["visibility"] == "visible"]])
     assert "secret" not in shown
     assert str(made.total.points) not in results["output"]

@@ -5,8 +5,9 @@ import random
 import pytest
 from export_documents import mixed, step_result
 
+from raysteps.common.text import apportion
 from raysteps.course.manifest import Step
-from raysteps.exports.items import apportion, entries_of
+from raysteps.exports.items import entries_of
 from raysteps.results.model import StepResult
 
 pytestmark = pytest.mark.portable

@@ -144,7 +144,7 @@ def test_my_pictures_hang_beside_the_reference_and_a_missing_one_leaves_a_note(
 ) -> None:
     page = open_page(with_mine)
     page.click("[data-go='2']")
-    page.click("text=reference and mine")
+    page.click("text=reference and yours")
     assert _shown(page) == [[20, 0, 0], [20, 0, 200]]
     assert page.inner_text("#note") == "Unfinished: shade."
     page.click("#next")

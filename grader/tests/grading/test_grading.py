@@ -40,6 +40,7 @@ def test_the_complete_sample_gets_everything(kit: BuiltKit, project: Project, tm
     assert set(_status(results).values()) == {"passed"}
     assert _points(results) == 120
     assert all(step.cumulative.passed for step in results.steps)
+    assert {image.share for step in results.steps for image in step.images} == {1.0}
 
 
 def test_the_stubs_get_nothing(

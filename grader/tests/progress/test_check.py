@@ -11,6 +11,7 @@ from course_fakes import checked, small_project, write_own
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.progress import check
+from raysteps.report.attempts import read_attempts
 from raysteps.report.student import REPORT
 from raysteps.results.model import Results
 from raysteps.results.store import read_results, write_results
@@ -85,3 +86,17 @@ def test_what_was_found_before_outlives_a_check_that_fails(course: Project, monk
     with pytest.raises(KeyboardInterrupt):
         _check(course, 2)
     assert [result.id[:2] for result in read_results(course.build / "check" / "results.json").steps] == ["01"]
+
+
+def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: Project) -> None:
+    _check(course, 1)
+    assert "How it went" not in _page(course)
+    _check(course, 2)
+    assert "from 6.5 of " in _page(course)
+    assert [attempt.points for attempt in read_attempts(course.build / "check")] == [6.5, 13]
+    first = read_steps(course)[0]
+    write_own(course, first, _CODE.replace("42", "43"))
+    _check(course, 2)
+    assert _page(course).count("Changed since it was checked") == 1
+    _check(course, 1)
+    assert "Changed since it was checked" not in _page(course)

@@ -65,7 +65,7 @@ def test_what_the_last_check_said(course: Project, steps: list[Step]) -> None:
     write_own(course, steps[3], _CODE)
     assert _words(course)[:5] == [
         "passed",
-        "partial, 12.5 of 20",
+        "partly right, 12.5 of 20",
         "does not build, 0 of 15",
         "not checked yet",
         "not started",

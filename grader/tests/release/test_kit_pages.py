@@ -150,7 +150,7 @@ def test_a_mark_without_its_partner_is_refused(text: str) -> None:
 def test_a_printed_check_shows_the_points_that_students_see(steps: list[Step]) -> None:
     shown = "03-phong-shading Phong shading: passed, 15 of 15\n  tests    all 12 passed\n  hidden   all 8 passed\n"
     assert as_printed(shown, steps[2]) == (
-        "03-phong-shading Phong shading: passed, 9.75 of 9.75\n  tests    all 12 passed\n"
+        "03-phong-shading Phong shading: passed, 9.8 of 9.8\n  tests    all 12 passed\n"
     )
 
 

@@ -7,6 +7,7 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 from class_documents import STEPS, document, many, missing, result, student, submission
 from playwright.sync_api import Page
 
+from raysteps.common.text import tenths
 from raysteps.report.class_page import write_class_report
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
@@ -170,4 +171,4 @@ def test_a_thousand_students_fit_into_a_small_page_and_sort(open_page: OpenPage,
     totals = page.eval_on_selector_all(
         ".class-table tbody tr", "all => all.map(one => Number(one.querySelector('.total').textContent))"
     )
-    assert totals == sorted((round(one.points or 0, 2) for one in facts.submissions), reverse=True)
+    assert totals == sorted((float(tenths(one.points or 0)) for one in facts.submissions), reverse=True)

@@ -1,17 +1,24 @@
 """report.html: what it says, what it keeps to itself, and that it is safe to open."""
 
+import io
 import json
+import re
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling
 from page_results import NASTY, document_of, idle_step, of_older_kit, passed_step, wrong_step
+from rich.console import Console
 
 from raysteps.cli import app as cli
 from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
+from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
-from raysteps.results.model import Results
+from raysteps.report.terminal import print_details
+from raysteps.report.wording import total_words
+from raysteps.results.model import Results, TestResult
 from raysteps.results.settings import Feedback
 from raysteps.results.store import write_results
 
@@ -92,8 +99,17 @@ def test_its_pictures_are_compared_and_a_pixel_has_its_command(
 def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
     document = document_of([passed_step(step, tmp_path) for step in steps])
     page = open_page(write_student_page(document, tmp_path, steps))
-    assert "every step is right" in page.get_by_role("region", name="Next thing to do").inner_text()
+    todo = page.get_by_role("region", name="Next thing to do")
+    assert "every step is right" in todo.inner_text()
+    assert todo.locator("code").first.inner_text() == "./raysteps finale"
     assert "20 of them bonus" in page.locator(".score").inner_text()
+    party = page.get_by_role("region", name="Every step is right")
+    assert party.locator("figure img").count() == len(steps)
+    assert party.locator("figure img").first.bounding_box()["width"] > 300  # type: ignore[index]
+    work = party.get_by_role("region", name="Work beside the reference").locator("tbody tr")
+    assert work.count() == sum(case.max_share is not None for step in steps for case in step.images)
+    assert work.first.locator("td").all_inner_texts() == ["4.9", "4.9"]
+    assert_accessible(page)
 
 
 @pytest.mark.parametrize(
@@ -155,11 +171,11 @@ def test_a_student_kit_without_a_judge_has_no_hidden_part(steps: list[Step], tmp
     result = passed_step(step, tmp_path)
     assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "hidden", "together"]
     assert rest_of(result, parts_of(result, step)) == 0
-    result.max, result.points, result.hidden = 9.75, 9.75, []
+    result.max, result.points, result.hidden = 9.8, 9.8, []
     assert [part.name for part in parts_of(result, step)] == ["tests", "pictures", "together"]
     assert rest_of(result, parts_of(result, step)) == 0
     result.points = 9.0
-    assert rest_of(result, parts_of(result, step)) == -0.75
+    assert rest_of(result, parts_of(result, step)) == -0.8
 
 
 def test_the_command_makes_the_page_of_a_folder(
@@ -181,3 +197,112 @@ def test_trouble_with_the_page_is_told_and_costs_nothing(steps: list[Step], tmp_
     assert try_student_page(tmp_path, steps, told.append) is None
     assert len(told) == 1
     assert not (tmp_path / "report.html").exists()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1400, 900), (390, 844)])
+def test_the_first_screen_shows_the_picture_of_the_next_thing_to_do(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path, width: int, height: int
+) -> None:
+    page = open_page(write_student_page(_mixed(steps, tmp_path), tmp_path, steps), width=width, height=height)
+    viewer = page.get_by_role("region", name="Your pictures")
+    viewer.locator(".compare-count:has-text('differ')").wait_for()
+    box = viewer.locator(".compare-stage").bounding_box()
+    assert box is not None
+    assert box["y"] + box["height"] <= height
+    assert box["width"] > 0.5 * width
+    assert viewer.locator("strong").inner_text().startswith("03 Phong shading: ")
+    assert "99% of the pixels are wrong" in viewer.locator(".viewer-said").inner_text()
+    assert_no_sideways_scrolling(page)
+
+
+def test_the_list_of_pictures_is_walked_by_keys_and_begins_with_what_is_wrong(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    page = open_page(write_student_page(_mixed(steps, tmp_path), tmp_path, steps))
+    viewer = page.get_by_role("region", name="Your pictures")
+    links = viewer.get_by_role("navigation").get_by_role("link")
+    assert links.count() == sum(len(step.images) for step in steps if step.number in ("01", "02", "03", "08"))
+    signs = [text.split()[0] for text in links.all_inner_texts()]
+    assert signs == sorted(signs, reverse=True)  # the crosses stand before the ticks
+    assert links.nth(0).get_attribute("aria-current") == "true"
+    viewer.get_by_role("button", name="Blink").click()
+    title = viewer.locator("strong").inner_text()
+    page.keyboard.press("n")
+    assert viewer.locator("strong").inner_text() != title
+    assert links.nth(1).get_attribute("aria-current") == "true"
+    viewer.locator(".compare-count:has-text('differ')").wait_for()
+    assert viewer.get_by_role("button", name="Blink").get_attribute("aria-pressed") == "true"
+    links.last.click()
+    viewer.locator(".compare-count.same").wait_for()
+    assert_accessible(page)
+
+
+def test_how_it_went_is_drawn_and_said_and_what_changed_is_marked(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    document = _mixed(steps, tmp_path)
+    note_attempt(tmp_path, document_of([passed_step(steps[0], tmp_path)]), [steps[0].id], _at(1))
+    note_attempt(tmp_path, document, [steps[2].id], _at(2))
+    progress = OwnProgress(read_attempts(tmp_path), frozenset({steps[2].id}))
+    page = open_page(write_student_page(document, tmp_path, steps, progress=progress), width=390)
+    chart = page.get_by_role("img", name="Points over time: from 10 of 10 points on 2026-01-01 12:00 to")
+    assert chart.locator("circle").count() == 2
+    page.get_by_text("check by check").click()
+    rows = page.locator(".attempts li")
+    assert "2026-01-02 12:00" in rows.first.inner_text()
+    assert rows.get_by_role("img", name="yours of 03 ").count() == 1
+    assert "Changed since it was checked" in page.locator("#step-03").inner_text()
+    assert page.locator(".changed").count() == 1
+    assert_accessible(page)
+    assert_no_sideways_scrolling(page)
+    text = student_page(document, tmp_path, steps)
+    assert "How it went" not in text
+    assert "Changed since it was checked" not in text
+
+
+def _at(day: int, hour: int = 12) -> datetime:
+    return datetime(2026, 1, day, hour, tzinfo=UTC)
+
+
+def test_the_history_stays_small_and_keeps_its_beginning(steps: list[Step], tmp_path: Path) -> None:
+    document = document_of([wrong_step(steps[0], tmp_path, (120, 160))])
+    for hour in range(24 * 3):
+        document.total.points = hour
+        note_attempt(tmp_path, document, [steps[0].id], _at(1 + hour // 24, hour % 24))
+    kept = read_attempts(tmp_path)
+    assert len(kept) == 40
+    assert (kept[0].points, kept[-1].points) == (0, 71)
+    assert [attempt.at for attempt in kept] == sorted(attempt.at for attempt in kept)
+    assert (tmp_path / "history.json").stat().st_size < 1_000_000
+    note_attempt(tmp_path, document, [steps[0].id], _at(4))
+    assert read_attempts(tmp_path) == kept  # nothing has changed
+    (tmp_path / "history.json").write_text('{"schema": "raysteps/history/v1", "attempts": [{"at": "<b>"}]}')
+    assert read_attempts(tmp_path) == []
+
+
+def test_a_crash_is_told_once_for_a_step(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
+    result = wrong_step(steps[0], tmp_path)
+    sentence = "The program crashed in the middle of the test (SIGSEGV)."
+    result.tests = [TestResult(f"test {at}", False, sentence, outcome="crashed") for at in range(5)]
+    result.messages = ["5 of 5 tests failed.", sentence]
+    page = open_page(write_student_page(document_of([result]), tmp_path, steps))
+    step = page.locator("#step-01").inner_text()
+    assert step.count(sentence) == 1
+    assert step.count("crashed") == 6
+    told = Console(file=io.StringIO(), width=200)
+    print_details(told, document_of([result]), steps, tmp_path, str)
+    printed = told.file.getvalue()  # type: ignore[attr-defined]
+    assert printed.count(sentence) == 1
+    assert "test 3: crashed" in printed
+
+
+def test_sums_read_naturally(steps: list[Step], tmp_path: Path) -> None:
+    bonus = document_of([wrong_step(step, tmp_path) for step in steps if step.bonus])
+    assert re.fullmatch(r"[0-9.]+ of 20 bonus points of the visible part", total_words(bonus.total, visible_only=True))
+    regular = document_of([passed_step(step, tmp_path) for step in steps])
+    assert total_words(regular.total) == "120 of 100 points, 20 of them bonus"
+    for results in (bonus, _mixed(steps, tmp_path)):
+        for result in results.steps:
+            parts = parts_of(result, next(step for step in steps if step.id == result.id))
+            assert sum(round(part.earned * 10) for part in parts) == pytest.approx(result.points * 10, abs=1)
+            assert sum(round(part.most * 10) for part in parts) == round(result.max * 10)

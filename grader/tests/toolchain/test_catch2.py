@@ -1,5 +1,7 @@
 """Catch2's XML, both generations, complete or not."""
 
+from xml.sax.saxutils import unescape
+
 import pytest
 
 from raysteps.toolchain.catch2 import Failure, parse_report
@@ -27,7 +29,7 @@ def test_complete_reports(text: str) -> None:
     assert good.passed
     assert not bad.passed
     assert bad.failure is not None
-    assert (bad.failure.expression, bad.failure.expanded) == ("a == b", "1 == 2")
+    assert (bad.failure.expected, bad.failure.got) == ("a = 2", "a = 1")
     assert (bad.failure.location, bad.failure.notes) == ("a_test.cpp:9", "inner\nthe ray goes up")
 
 
@@ -37,7 +39,7 @@ def test_sections_without_end_hold_nothing_up() -> None:
     outcomes = parse_report(VERSION_3.replace('<Section name="inner">', f'{deep}<Section name="inner">').encode())
     assert outcomes is not None
     assert outcomes[1].failure is not None
-    assert outcomes[1].failure.expression == "a == b"
+    assert outcomes[1].failure.expected == "a = 2"
 
 
 @pytest.mark.parametrize(
@@ -70,16 +72,63 @@ def _expression(original: str, expanded: str, success: str = "false") -> str:
 
 
 @pytest.mark.parametrize(
-    ("original", "expanded", "expected", "actual"),
+    ("original", "expanded", "expected", "got"),
     [
-        ("!(is_lit(scene, hit, light))", "!true", "is_lit(scene, hit, light) is false", "true"),
-        ("is_lit(scene, hit, light)", "false", "is_lit(scene, hit, light)", "false"),
-        ("!(a) == !(b)", "true == false", "!(a) == !(b)", "true == false"),
+        (
+            "!(is_lit(scene, hit, light))",
+            "!true",
+            "is_lit(scene, hit, light) = false",
+            "is_lit(scene, hit, light) = true",
+        ),
+        ("is_lit(scene, hit)", "false", "is_lit(scene, hit) = true", "is_lit(scene, hit) = false"),
+        ("!(a) == !(b)", "true == false", "!(a) = false", "!(a) = true"),
+        ("dark == 0", "384 (0x180) == 0", "dark = 0", "dark = 384"),
+        ("part-&gt;enter == about(4.0)", "3.5f == Approx( 4.0 )", "part-&gt;enter = about 4.0", "part-&gt;enter = 3.5"),
+        (
+            "f(a &lt; b, {c, d}) &lt;= k_off",
+            "0.25f &lt;= 0.001f",
+            "f(a &lt; b, {c, d}) &lt;= 0.001",
+            "f(a &lt; b, {c, d}) = 0.25",
+        ),
+        (
+            "frame.up, IsNear({0.0F, -1.0F, 0.0F})",
+            "(0, 1, 0) is expected to be (0, -1, 0) within 0.0001",
+            "frame.up = (0, -1, 0) within 0.0001",
+            "frame.up = (0, 1, 0)",
+        ),
+        (
+            "mirror(d, n), IsUnitLength()",
+            "(2, 0, 0) is expected to have length 1",
+            "mirror(d, n) has length 1",
+            "mirror(d, n) = (2, 0, 0)",
+        ),
+        ("a &lt; b", "something else", "a &lt; b", "something else"),
+        ("list == other", "{ 1, 2 } == { 1, 3 }", "list = { 1, 3 }", "list = { 1, 2 }"),
     ],
 )
-def test_nobody_has_to_read_a_double_negation(original: str, expanded: str, expected: str, actual: str) -> None:
+def test_what_was_expected_and_what_came_have_a_name(original: str, expanded: str, expected: str, got: str) -> None:
     failure = _failing(_expression(original, expanded))
-    assert (failure.expression, failure.expanded) == (expected, actual)
+    assert (failure.expected, failure.got) == (unescape(expected), unescape(got))
+
+
+def test_trouble_inside_a_test_is_told_in_words() -> None:
+    thrown = _failing(
+        _expression("shade(hit)", "shade(hit)").replace(
+            "</Expression>", "<Exception> out of range </Exception></Expression>"
+        )
+    )
+    assert (thrown.expected, thrown.got) == ("shade(hit)", "threw: out of range")
+    outside = _failing("<Exception>vector::at</Exception>")
+    assert (outside.expected, outside.got) == ("the test comes to its end", "threw: vector::at")
+    failed = _failing("<Info>a ray</Info><Failure>it went the other way</Failure>")
+    assert (failed.expected, failed.got, failed.notes) == ("", "", "a ray\nit went the other way")
+
+
+@pytest.mark.parametrize("sign", ["(", ")", ", ", " == ", "{(", " is expected to ", "9", "9.", " (0x"])
+def test_values_of_any_shape_are_read_in_one_go(sign: str) -> None:
+    """What a student's function gave is written out whole; it is cut before it is looked at."""
+    failure = _failing(_expression(sign * 50_000, sign * 50_000))
+    assert len(failure.expected) + len(failure.got) < 10_000
 
 
 def test_sections_around_a_failure_say_what_it_is_about() -> None:

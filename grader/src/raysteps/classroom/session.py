@@ -17,7 +17,7 @@ from raysteps.classroom.jobs import GAVE_UP, Answer, Job
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
-from raysteps.common.text import number
+from raysteps.report.wording import total_words
 from raysteps.results.settings import Settings
 from raysteps.results.store import stored_results
 from raysteps.submission.load import Submission
@@ -135,11 +135,7 @@ class Session:
             self.recorded.add(answer.name)
             write_submission(self.database, self.plan.options.out, answer.name)
             total = answer.results.total if answer.results is not None else None
-            points = (
-                f"{number(total.points)} of {number(total.max)} points"
-                if total
-                else f"FAULT: {first_line(answer.fault)}"
-            )
+            points = total_words(total) if total else f"FAULT: {first_line(answer.fault)}"
             self.meter.count(answer.name, points)
 
     def grade(self, runner: Runner) -> bool:

@@ -12,9 +12,10 @@ from rich.table import Table
 
 from raysteps.classroom.class_files import SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
-from raysteps.common.text import count, number, printable, shorten
+from raysteps.common.text import count, number, printable, shorten, tenths
 from raysteps.report.class_page import FILE as CLASS_PAGE
 from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent, StepPoints
+from raysteps.results.statuses import Status, in_words
 
 # Shows how far a class is: a bar on a terminal, lines elsewhere.
 
@@ -92,24 +93,25 @@ class ProgressMeter:
             self.say(f"{self._done} of {self._total}: {name}: {what}" + (f"; {left}" if left else ""))
 
 
-_MARKS = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
+_MARKS: dict[Status, str] = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
+_SIGNS = {str(status): mark for status, mark in _MARKS.items()}
 _MAX_MISTAKES = 10
-_LEGEND = "b does not build, c crashed, t took too long, - not started"
+_LEGEND = ", ".join(f"{mark} {in_words(status)}" for status, mark in _MARKS.items())
 
 
 def _cell(step: StepPoints | None) -> str:
     if step is None:
         return ""
-    mark = _MARKS.get(step.status, "")
-    points = "-" if mark == "-" else number(step.points) + (f" {mark}" if mark else "")
+    mark = _SIGNS.get(step.status, "")
+    shown = "-" if mark == "-" else tenths(step.points) + (f" {mark}" if mark else "")
     color = "green" if step.status == "passed" else "dim" if mark == "-" else "yellow" if step.points else "red"
-    return f"[{color}]{points}[/{color}]"
+    return f"[{color}]{shown}[/{color}]"
 
 
 def _total(one: GradedSubmission) -> str:
     if one.points is None:
         return f"[red]{one.status}[/red]"
-    return number(one.points)
+    return tenths(one.points)
 
 
 def _is_late(document: ClassResults) -> bool:
@@ -166,7 +168,12 @@ def _mean(document: ClassResults) -> str:
     """How the class stands, and what that counts."""
     facts = document.statistics
     lateness = " after lateness" if document.late_policy is not None else ""
-    points = f"mean {_points(facts.mean)}, median {_points(facts.median)} points{lateness}"
+    bonus = sum(step.points for step in document.steps if step.bonus)
+    regular = sum(step.points for step in document.steps if not step.bonus)
+    on_top = f", and {number(bonus)} of bonus on top" if bonus else ""
+    points = (
+        f"mean {_points(facts.mean)}, median {_points(facts.median)} points{lateness}, of {number(regular)}{on_top}"
+    )
     unread = len(document.unreadable)
     others = f"; without the {unread} from which nothing could be taken" if unread else ""
     return f"{count(facts.graded, 'submission')} graded: {points}{others}"

@@ -19,6 +19,7 @@ from raysteps.course.settings import read_course
 from raysteps.grading.pipeline import grade_submission
 from raysteps.grading.scoring import exit_code
 from raysteps.grading.step import clear
+from raysteps.grading.withhold import withhold
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
@@ -102,10 +103,12 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
+    feedback = options.settings.feedback
+    told = results if feedback == "full" else withhold(results, feedback)  # the terminal may be the student's, too
     if options.details:
-        print_details(console, results, kit.steps, out, again)
+        print_details(console, told, kit.steps, out, again)
         console.print()
-    print_table(console, results)
+    print_table(console, told)
     print_isolation(console, results)
     print_files(console, out / "results.json", page)
     return results

@@ -116,7 +116,7 @@ def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> Jud
 def _print(console: Console, file: CaseFile, judged: JudgedCase) -> int:
     verdict = judged.verdict
     console.print(f"[bold]{escape(file.step)}[/bold] {escape(file.function)}, a case of '{escape(file.kind)}'")
-    words = (("given", judged.case.given()), ("expected", verdict.expected), ("actual", verdict.actual))
+    words = (("given", judged.case.given()), ("expected", verdict.expected), ("got", verdict.actual))
     for label, text in words:
         console.print(f"  {label:<9} {escape(shorten(text, LONGEST))}", highlight=False)
     if not verdict.problem:

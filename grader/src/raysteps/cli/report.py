@@ -9,6 +9,9 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError, reason
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
+from raysteps.progress.check import own_progress
+from raysteps.progress.standing import standings
+from raysteps.report.attempts import OwnProgress
 from raysteps.report.student import write_student_page
 from raysteps.report.terminal import short_path
 from raysteps.results.store import read_results
@@ -32,9 +35,16 @@ def _student_page(project: Project, place: Path) -> Path:
     path = place / RESULTS if place.is_dir() else place
     results = read_results(path)
     try:
-        return write_student_page(results, path.parent, read_steps(project))
+        return write_student_page(results, path.parent, read_steps(project), progress=_own(project, path.parent))
     except OSError as error:
         raise UsageError(f"{path.parent}: the report cannot be written there: {reason(error)}") from error
+
+
+def _own(project: Project, folder: Path) -> OwnProgress:
+    """What `check` keeps beside its own report; of others nothing is known."""
+    if folder.resolve() != (project.build / "check").resolve():
+        return OwnProgress()
+    return own_progress(folder, standings(project))
 
 
 def _class_page(place: Path) -> Path | None:

@@ -1,5 +1,6 @@
 """Small helpers for text."""
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -31,6 +32,22 @@ def join_and(words: Sequence[str]) -> str:
 def number(value: float) -> str:
     """12 rather than 12.0, 12.5 rather than 12.50."""
     return f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def tenths(value: float) -> str:
+    """Whole, or with one decimal, and never more than there are: `10`, `7.5`."""
+    return number(math.floor(value * 10 + 1e-6) / 10)
+
+
+def apportion(total: int, weights: Sequence[float]) -> list[int]:
+    """Whole numbers that sum to the total, as near to the weights as can be: the largest remainders are rounded up."""
+    whole = sum(weights)
+    exact = [total * weight / whole if whole else 0.0 for weight in weights]
+    parts = [int(value) for value in exact]
+    order = sorted(range(len(parts)), key=lambda index: parts[index] - exact[index])
+    for index in order[: total - sum(parts)]:
+        parts[index] += 1
+    return parts
 
 
 def in_seconds(amount: float) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 from raysteps.classroom.entry_names import folded, platform_identity
 from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import join_and, number
+from raysteps.common.text import join_and, number, tenths
 from raysteps.course.manifest import Step
 from raysteps.exports.items import as_html, summary
 from raysteps.results.model import Results
@@ -233,5 +233,5 @@ def moodle_cell(results: Results | None, graded: GradedStudent, steps: Mapping[s
         return None
     lines = [summary(results, steps, checks=True)]
     if graded.points is not None and graded.in_time is not None and graded.points != graded.in_time:
-        lines.insert(0, f"{number(graded.in_time)} points, {number(graded.points)} after lateness.")
+        lines.insert(0, f"{tenths(graded.in_time)} points, {number(graded.points)} after lateness.")
     return escape_formula(_plain_signs(as_html("\n".join(lines), _LIMIT)))

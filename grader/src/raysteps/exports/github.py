@@ -7,9 +7,9 @@ from datetime import UTC, datetime
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import clean
+from raysteps.common.text import apportion, clean
 from raysteps.course.manifest import Step
-from raysteps.exports.items import apportion, harmless_log, one_line, step_text, title
+from raysteps.exports.items import harmless_log, one_line, step_text, title
 from raysteps.results.model import Results
 
 _FIELDS = {

@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from raysteps.common.text import clean, count, number, shorten
+from raysteps.common.text import apportion, clean, count, shorten, tenths
 from raysteps.course.manifest import Step
+from raysteps.report.wording import total_words
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integration, Results, StepResult, TestResult
+from raysteps.results.statuses import in_words
 
 # Makes text that came from a student's program safe to show somewhere else.
 
@@ -58,7 +60,7 @@ def _test(test: TestResult, weight: float) -> Item:
     text = _lines(
         ("", test.message),
         ("expected: ", test.expression),
-        ("actual: ", test.expanded),
+        ("got: ", test.expanded),
         ("see ", test.location),
     )
     name = one_line(test.name)
@@ -77,7 +79,7 @@ def _picture(image: ImageResult, weight: float) -> Item:
 def _hidden(hidden: HiddenResult, weight: float) -> Item:
     groups = [f"{one_line(group.name)}: {group.right} of {count(group.cases, 'case')} right" for group in hidden.groups]
     text = "\n".join([*filter(None, [clean(hidden.message)]), *groups])
-    inputs = _lines(("input: ", hidden.given), ("expected: ", hidden.expected), ("actual: ", hidden.actual))
+    inputs = _lines(("input: ", hidden.given), ("expected: ", hidden.expected), ("got: ", hidden.actual))
     share = float(hidden.share)
     return Item("hidden", one_line(hidden.name), weight, share, text or ("passed" if share >= 1 else "wrong"), inputs)
 
@@ -141,17 +143,6 @@ class Entry:
     most: float
 
 
-def apportion(total: int, weights: Sequence[float]) -> list[int]:
-    """Whole numbers that sum to the total, as near to the weights as can be: the largest remainders are rounded up."""
-    whole = sum(weights)
-    exact = [total * weight / whole for weight in weights]
-    parts = [int(value) for value in exact]
-    order = sorted(range(len(parts)), key=lambda index: parts[index] - exact[index])
-    for index in order[: total - sum(parts)]:
-        parts[index] += 1
-    return parts
-
-
 def _hundredths(points: float) -> int:
     return round(points * 100)
 
@@ -165,7 +156,7 @@ def _rest(result: StepResult, items: list[Item], earned: int, lost: int) -> list
         return []
     share = earned / (earned + lost) if earned + lost else 0.0
     if not items:
-        return [Item("step", result.status, 1.0, share, step_text(result))]
+        return [Item("step", in_words(result.status), 1.0, share, step_text(result))]
     if all_wrong != all_right:
         share = 1.0 if all_wrong else 0.0
     return [Item("step", "the rest", 1.0, share, "Points that no single check accounts for.")]
@@ -196,14 +187,6 @@ def title(result: StepResult, steps: Mapping[str, Step]) -> str:
     return f"{result.id[:2]} {name}" + (" (bonus)" if result.bonus else "")
 
 
-def total_line(results: Results) -> str:
-    """`85.5 of 100 points, 5 of them bonus`."""
-    total = results.total
-    bonus = total.bonus.points
-    of_them = f", {number(bonus)} of them bonus" if bonus else ""
-    return f"{number(total.points)} of {number(total.max)} points{of_them}"
-
-
 def _visible(result: StepResult) -> str:
     parts = []
     kinds: tuple[tuple[Sequence[TestResult | ImageResult], str], ...] = (
@@ -213,7 +196,7 @@ def _visible(result: StepResult) -> str:
     for items, noun in kinds:
         if items:
             parts.append(f"{sum(item.passed for item in items)} of {count(len(items), noun)} passed")
-    return ", ".join(parts) or result.status
+    return ", ".join(parts) or in_words(result.status)
 
 
 def _failed_checks(result: StepResult, step: Step | None) -> list[str]:
@@ -237,13 +220,13 @@ def _same_for_all(results: Results) -> str:
 def summary(results: Results, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
     """One line per step with what there is to say about it, on request with the checks that failed; without points,
     nothing that hidden checks decide."""
-    lines = [f"{total_line(results)}."] if points else []
+    lines = [f"{total_words(results.total)}."] if points else []
     same = _same_for_all(results)
     lines += same.splitlines()
     for result in results.steps:
         name = one_line(title(result, steps))
         if points:
-            lines.append(f"{name}: {number(result.points)} of {number(result.max)}, {result.status}")
+            lines.append(f"{name}: {tenths(result.points)} of {tenths(result.max)}, {in_words(result.status)}")
         else:
             lines.append(f"{name}: {_visible(result)}")
         if not same and (points or result.status in ("not-started", "does-not-build")):

@@ -132,6 +132,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
         if result.passed and problem:
             result.passed, result.message = False, problem
     result.outcome = "ok" if result.passed else "wrong"
+    result.share = 1.0
     if not result.passed:
         result.share = part_of_a_picture(
             gallery.kit, step, scene, case.args, case.max_share, reference, rendered, pixels_pass=verdict.passed

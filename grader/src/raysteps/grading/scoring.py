@@ -10,13 +10,14 @@ from raysteps.common.text import count, join_and
 from raysteps.course.manifest import Step
 
 if TYPE_CHECKING:  # `list` and `next` ask what a step is worth, and no result
-    from raysteps.results.model import HiddenResult, ImageResult, Results, Status, StepResult, TestResult
+    from raysteps.results.model import HiddenResult, ImageResult, Results, StepResult, TestResult
+    from raysteps.results.statuses import Status
 
 
 def max_points(step: Step, *, judged: bool) -> float:
     """What the step is worth: without the judge's plan, as in a student's kit, the visible part."""
     share = 1.0 if judged else 1.0 - step.weight_hidden
-    return round(step.points * share, 2)
+    return round(step.points * share, 1)
 
 
 def test_weights(step: Step, tests: Mapping[str, Sequence[str]]) -> dict[str, float]:
@@ -38,7 +39,7 @@ def is_right(result: StepResult) -> bool:
     return bool(passed) and all(passed)
 
 
-_LEAST_LOSS = 0.01  # points: a step with a mistake never has all of them
+_LEAST = 0.1  # points: what a step has is a multiple of it, and with a mistake so much less than all
 
 
 def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
@@ -50,7 +51,7 @@ def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
     outcomes = {item.outcome for items in (result.tests, result.images, result.hidden) for item in items}
     if is_right(result) and result.cumulative.passed:
         return "passed", result.max
-    points = min(round(points, 2), round(result.max - _LEAST_LOSS, 2))
+    points = min(round(points, 1), round(result.max - _LEAST, 1))
     if "crashed" in outcomes:
         return "crashed", points
     if "timeout" in outcomes:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from raysteps.common.text import in_seconds, join_and
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import called_functions, unfinished_functions
-from raysteps.images.render import ENDLESS, describe_exit
+from raysteps.images.render import ENDLESS
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.sandbox.task import Output, Sandbox, TaskResult, Word
 from raysteps.toolchain.catch2 import TestOutcome, parse_report
@@ -16,6 +16,7 @@ from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
 _MAX_HANGS = 6  # tests that are waited for; a clock would say something else each time
+_FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
@@ -45,8 +46,8 @@ def _result(case: TestOutcome) -> TestResult:
         case.name,
         False,
         failure.notes,
-        failure.expression,
-        failure.expanded,
+        failure.expected,
+        failure.got,
         failure.location,
         "wrong",
     )
@@ -59,9 +60,17 @@ def _result_alone(ran: TaskResult, name: str) -> TestResult:
     if ran.hung:
         message = f"The test was stopped after {in_seconds(ran.outcome.seconds)}. {ENDLESS}"
         return TestResult(name, False, message, outcome="timeout")
-    if ran.outcome.signal_name is not None or ran.stopped:
-        return TestResult(name, False, describe_exit(ran, "The test's report")[1], outcome="crashed")
-    return TestResult(name, False, "The program ended before the test was over.", outcome="crashed")
+    return TestResult(name, False, _why_cut_short(ran), outcome="crashed")
+
+
+def _why_cut_short(ran: TaskResult) -> str:
+    """What ended the program in the middle of a test, and how to find it."""
+    if ran.stopped == "memory":
+        return "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
+    words = ran.outcome.signal_words
+    if words is not None:
+        return f"The program crashed in the middle of the test ({words}). {_FIND_THE_LINE}"
+    return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {_FIND_THE_LINE}"
 
 
 def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: StepLimits) -> list[TestResult]:

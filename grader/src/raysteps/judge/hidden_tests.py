@@ -209,10 +209,11 @@ def take_back(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> 
     for image in images:
         if not why or image.max_share is None:
             continue
-        image.share = 0.0
         few = (image.share_tested or 0) < _TOO_GOOD * image.max_share
         if image.passed and (few or every_one):
             image.passed, image.outcome, image.message = False, "wrong", why
+        if not image.passed:
+            image.share = 0.0
 
 
 def _is_above(image: ImageResult) -> bool:

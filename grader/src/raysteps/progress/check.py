@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from functools import partial
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.self_check import self_check
 from raysteps.grading.step import clear
-from raysteps.progress.standing import next_of, remember, standings
+from raysteps.progress.standing import Kind, Standing, next_of, remember, standings
+from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import try_student_page
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results, write_results
@@ -31,6 +33,8 @@ class CheckResult:
     page: Path | None
     following: Step | None  # what comes next in the course
 
+
+_NEWER: tuple[Kind, ...] = ("changed", "missing", "unreadable")  # than what was checked
 
 Tell = Callable[[BuiltKit, Results], None]  # of results in which no mistake has its name yet
 
@@ -86,5 +90,15 @@ def check_steps(
         if kept:
             write_results(_with_steps(results, [*kept, *results.steps]), out)
         remember(project, results, submission.sources)
-        following = next_of(standings(project))
-        return CheckResult(kit, results, try_student_page(out, kit.steps, say, following), following)
+        whole = _with_steps(results, [*kept, *results.steps]) if kept else results
+        note_attempt(out, whole, [step.id for step in chosen], datetime.now().astimezone())
+        found = standings(project)
+        following = next_of(found)
+        page = try_student_page(out, kit.steps, say, following, own_progress(out, found))
+        return CheckResult(kit, results, page, following)
+
+
+def own_progress(folder: Path, found: Sequence[Standing]) -> OwnProgress:
+    """What the report of one's own steps in that folder shows beside their results."""
+    changed = frozenset(standing.step.id for standing in found if standing.kind in _NEWER)
+    return OwnProgress(read_attempts(folder), changed)

@@ -15,11 +15,12 @@ from rich.table import Table
 
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
-from raysteps.common.text import join_and, number
+from raysteps.common.text import join_and, tenths
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
 from raysteps.grading.scoring import max_points
+from raysteps.results.statuses import in_words
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
 
@@ -104,15 +105,15 @@ class Standing:
             case "unreadable":
                 return "the file cannot be read as text"
             case "not-started":
-                return "not started"
+                return in_words("not-started")
             case "unchecked":
                 return "not checked yet"
         assert self.last is not None
-        status = self.last.status.replace("-", " ")
-        points = f"{number(self.last.points)} of {number(self.last.max)}"
+        status = in_words(self.last.status)
+        points = f"{tenths(self.last.points)} of {tenths(self.last.max)}"
         if self.kind == "changed":
             return f"changed since the last check ({status}, {points})"
-        return "passed" if self.is_done else ", ".join(filter(None, (status, points, self.last.summary)))
+        return in_words("passed") if self.is_done else ", ".join(filter(None, (status, points, self.last.summary)))
 
 
 def own_source(project: Project, step: Step) -> bytes | None:
@@ -177,7 +178,7 @@ _OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your 
 
 
 def _points(project: Project, step: Step) -> str:
-    return number(max_points(step, judged=project.has_reference))
+    return tenths(max_points(step, judged=project.has_reference))
 
 
 def _color(standing: Standing) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from raysteps.common.text import count, number, printable, shorten
+from raysteps.common.text import count, printable, shorten, tenths
 from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent
 
 Weight = Literal["bad", "warn", "note"]
@@ -37,7 +37,7 @@ def _first_line(text: str) -> str:
 
 
 def _points(value: float | None) -> str:
-    return "no points" if value is None else number(value)
+    return "no points" if value is None else tenths(value)
 
 
 class _Finder:

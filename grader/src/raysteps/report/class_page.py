@@ -8,7 +8,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from raysteps.common.files import write_bytes
-from raysteps.common.text import number, printable
+from raysteps.common.text import number, printable, tenths
 from raysteps.report.class_attention import CommonMistake, common_mistakes, groups, marks
 from raysteps.report.class_statistics import (
     StepFigures,
@@ -21,14 +21,14 @@ from raysteps.report.class_statistics import (
     total_bars,
 )
 from raysteps.report.page import render_page
-from raysteps.report.wording import STATUS_WORDS
 from raysteps.results.class_model import ClassResults, GradedSubmission, StepPoints
+from raysteps.results.statuses import STATUS_WORDS
 
 # The table of a class: what each row shows, and what it is sorted and found by.
 
 Link = Callable[[str], str | None]
 
-STATUSES = {str(status): words for status, (words, _, _) in STATUS_WORDS.items()}
+STATUSES = {str(status): found.words for status, found in STATUS_WORDS.items()}
 _NO_POINTS = {"fault": "fault", "not-graded": "not graded"}
 
 
@@ -86,11 +86,11 @@ def _cell(result: StepPoints | None) -> Cell | None:
     if result is None:
         return None
     words = STATUSES.get(result.status, printable(result.status))
-    return Cell(result.status, words, number(result.points))
+    return Cell(result.status, words, tenths(result.points))
 
 
 def _points(value: float | None, status: str) -> str:
-    return _NO_POINTS.get(status, "") if value is None else number(value)
+    return _NO_POINTS.get(status, "") if value is None else tenths(value)
 
 
 def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link: Link) -> list[Row]:

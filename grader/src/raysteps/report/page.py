@@ -149,6 +149,8 @@ COMPARE_SCRIPTS = (
     "compare-pixels",
     "compare-camera",
     "compare-paint",
+    "compare-tone",
+    "compare-histogram",
     "compare-views",
     "compare-controls",
     "compare-words",

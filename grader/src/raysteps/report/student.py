@@ -4,11 +4,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from raysteps.common.files import write_if_changed
-from raysteps.common.text import clean, count, mean, number, size
+from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
+from raysteps.report.attempts import OwnProgress, chart_of
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
     COMPARE_STYLES,
@@ -21,14 +23,17 @@ from raysteps.report.page import (
 )
 from raysteps.report.wording import (
     HOW_SURE,
-    STATUS_WORDS,
+    SaidOnce,
+    after_the_last,
     check_command,
     inspect_command,
     percent,
     replay_command,
+    total_words,
     watch_command,
 )
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
+from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.results.store import read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
@@ -108,7 +113,7 @@ def make_album(results: Results, folder: Path, room: int) -> dict[Place, ShownIm
 
 # How the points of a step come about.
 
-_NEAR = 0.011  # points: a step's are rounded once, its parts each by itself
+_NEAR = 0.11  # points: a step's are whole tenths, and with a mistake at least one less than all
 
 
 @dataclass(frozen=True)
@@ -142,17 +147,25 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     ]
     if result.max < step.points - _NEAR:
         found = [part for part in found if part[0] != "hidden"]
+    found = [part for part in found if part[2] > 0]
+    exact = [step.points * weight * share for _, (_, share), weight in found]
+    explained = result.points if abs(result.points - sum(exact)) <= _NEAR else sum(exact)
+    most = _in_tenths(result.max, [weight for _, _, weight in found])
     return [
-        Part(name, said, share, weight * 100, step.points * weight, step.points * weight * share)
-        for name, (said, share), weight in found
-        if weight > 0
+        Part(name, said, share, weight * 100, whole, earned)
+        for (name, (said, share), weight), whole, earned in zip(found, most, _in_tenths(explained, exact), strict=True)
     ]
+
+
+def _in_tenths(total: float, weights: Sequence[float]) -> list[float]:
+    """Shares of the total, rounded so that what is shown adds up."""
+    return [part / 10 for part in apportion(round(total * 10), weights)]
 
 
 def rest_of(result: StepResult, parts: Sequence[Part]) -> float:
     """Points that the parts do not account for, as when an older kit weighed them otherwise."""
     rest = result.points - sum(part.earned for part in parts)
-    return round(float(rest), 2) if parts and abs(rest) > _NEAR else 0.0
+    return round(float(rest), 1) if parts and abs(rest) > _NEAR else 0.0
 
 
 # One step of the results, made ready for a page. Whatever a student's program may have said is cleaned.
@@ -175,10 +188,18 @@ def diagnosis_view(diagnosis: Diagnosis) -> dict[str, object]:
     }
 
 
-def _test(test: TestResult) -> dict[str, object]:
-    words = ("name", "message", "expression", "expanded", "location")
+def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
+    words = ("name", "expression", "expanded", "location")
     texts = {word: clean(getattr(test, word), _TEXT) for word in words}
-    return {**texts, "passed": test.passed, "outcome": test.outcome, "waits_for": clean(test.waits_for)}
+    ended = in_words(test.outcome) if test.outcome in ("crashed", "timeout") else ""
+    message = once(clean(test.message, _TEXT)) if ended else clean(test.message, _TEXT)
+    return {
+        **texts,
+        "message": message,
+        "passed": test.passed,
+        "ended": ended,
+        "waits_for": clean(test.waits_for),
+    }
 
 
 def _hidden(item: HiddenResult) -> dict[str, object]:
@@ -191,12 +212,19 @@ def _hidden(item: HiddenResult) -> dict[str, object]:
         "message": clean(item.message),
         "case": [
             (label, clean(text, _TEXT))
-            for label, text in (("Given", item.given), ("Expected", item.expected), ("Actual", item.actual))
+            for label, text in (("Given", item.given), ("Expected", item.expected), ("Got", item.actual))
             if text
         ],
         "again": replay_command(clean(item.case)) if item.case else "",
         "groups": [group for group in groups if group.right < group.cases],
     }
+
+
+def _tests_per_ray(image: ImageResult) -> tuple[str, str] | None:
+    """Of surfaces and boxes together: yours and the reference's."""
+    if image.work is None or image.reference_work is None:
+        return None
+    return mean(image.work.tests_per_ray), mean(image.reference_work.tests_per_ray)
 
 
 def _work(image: ImageResult) -> list[tuple[str, str, str]]:
@@ -213,7 +241,7 @@ def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     ]
 
 
-def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str, object]:
+def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, once: SaidOnce) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
     if wrong is not None:
@@ -221,15 +249,18 @@ def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str
     if share is not None and image.max_share is not None:
         facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")
     return {
+        "at": at,
         "name": clean(image.name),
         "scene": clean(image.scene),
         "passed": image.passed,
-        "message": clean(image.message),
+        "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
         "facts": facts,
+        "wrong_share": wrong,
         "shown": shown,
         "files": [clean(name) for name in (image.mine, image.reference) if name],
         "inspect": inspect_command(image.name, step),
         "work": _work(image),
+        "tests_per_ray": _tests_per_ray(image),
     }
 
 
@@ -244,23 +275,30 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
 
 def step_view(result: StepResult, step: Step | None, album: Mapping[Place, ShownImage]) -> dict[str, object]:
     """All that the page says of a step."""
-    words, tone, sign = STATUS_WORDS[result.status]
+    status = STATUS_WORDS[result.status]
     parts = parts_of(result, step)
-    images = [_image(image, step, album[(result.id, image.name)]) for image in result.images]
+    messages = [clean(message) for message in result.messages]
+    once = SaidOnce(messages)
+    tests = [_test(test, once) for test in result.tests]
+    images = [
+        _image(image, f"picture-{result.id[:2]}-{at}", step, album[(result.id, image.name)], once)
+        for at, image in enumerate(result.images)
+    ]
     return {
         "id": result.id,
         "number": result.id[:2],
         "title": step.title if step is not None else result.id[3:].replace("-", " "),
-        "status": {"id": result.status, "words": words, "tone": tone, "sign": sign},
-        "points": number(result.points),
-        "max": number(result.max),
+        "status": {"id": result.status, "words": status.words, "tone": status.tone, "sign": status.sign},
+        "points": tenths(result.points),
+        "max": tenths(result.max),
         "share": result.points / result.max if result.max else 0.0,
+        "worth": tenths(step.points) if step is not None else "",
         "bonus": result.bonus,
         "parts": parts,
         "rest": rest_of(result, parts),
-        "messages": [clean(message) for message in result.messages],
+        "messages": messages,
         "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.diagnoses],
-        "tests": [_test(test) for test in result.tests],
+        "tests": tests,
         "hidden": [_hidden(item) for item in result.hidden],
         "images": images,
         "build_log": clean(result.build_log, _LOG),
@@ -271,6 +309,7 @@ def step_view(result: StepResult, step: Step | None, album: Mapping[Place, Shown
 
 
 REPORT = "report.html"
+_NO_PROGRESS = OwnProgress()
 _MAX = 4_900_000  # bytes: a page that can be sent by mail
 _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
@@ -282,35 +321,88 @@ def _next(steps: Sequence[StepResult]) -> StepResult | None:
     return next((step for step in unsolved if not step.bonus), unsolved[0] if unsolved else None)
 
 
+@dataclass(frozen=True)
+class OwnPicture:
+    """One of the student's pictures, in the list above all steps."""
+
+    at: str  # the id of its place in the step
+    number: str
+    title: str
+    name: str
+    passed: bool
+    message: str
+
+
+def _own_pictures(
+    results: Results, views: Mapping[str, Mapping[str, Any]], following: StepResult | None
+) -> list[OwnPicture]:
+    """Those of the next thing to do come first, then what else is wrong; what is right goes back from the last step."""
+    found = [
+        (step, image)
+        for step in reversed(results.steps)
+        for image in views[step.id]["images"]
+        if image["shown"].pictures.get("mine") is not None
+    ]
+    found.sort(key=lambda pair: (pair[1]["passed"], pair[0] is not following))
+    return [
+        OwnPicture(image["at"], step.id[:2], views[step.id]["title"], image["name"], image["passed"], image["message"])
+        for step, image in found
+    ]
+
+
+def _walk(results: Results, own: Sequence[OwnPicture]) -> list[OwnPicture]:
+    """The last picture of each step, in their order."""
+    last = {picture.number: picture for picture in reversed(own)}
+    return [last[step.id[:2]] for step in results.steps if step.id[:2] in last]
+
+
 def _total(total: Total) -> dict[str, object]:
     bonus = total.bonus
     return {
-        "points": number(total.points),
-        "max": number(total.max),
-        "share": min(1.0, total.points / total.max) if total.max else 0.0,
-        "bonus": number(bonus.points) if bonus.points else "",
-        "bonus_max": number(bonus.max) if bonus.max else "",
+        "words": total_words(total),
+        "points": tenths(total.points),
+        "max": tenths(total.max or bonus.max),
+        "is_bonus": not total.max,
+        "share": min(1.0, total.points / (total.max or bonus.max)) if total.max or bonus.max else 0.0,
+        "bonus": tenths(bonus.points) if bonus.points and total.max else "",
+        "bonus_max": tenths(bonus.max) if bonus.max and total.max else "",
     }
 
 
 def _sums(parts: Sequence[Part]) -> dict[str, float]:
-    return {name: sum(part.earned for part in parts if part.name == name) for name in _PARTS}
+    return {name: round(sum(part.earned for part in parts if part.name == name), 1) for name in _PARTS}
 
 
-def student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> str:
+def student_page(
+    results: Results,
+    folder: Path,
+    steps: Sequence[Step],
+    following: Step | None = None,
+    progress: OwnProgress = _NO_PROGRESS,
+) -> str:
     """The page of results whose pictures lie in the folder. It shows what the results hold, and no more. `following`:
     the step to do when those on the page are right."""
-    text = _page(results, make_album(results, folder, _ROOM), steps, following)
+    text = _page(results, make_album(results, folder, _ROOM), steps, following, progress)
     excess = len(text.encode()) - _MAX
-    return text if excess <= 0 else _page(results, make_album(results, folder, _ROOM - excess), steps, following)
+    if excess > 0:
+        text = _page(results, make_album(results, folder, _ROOM - excess), steps, following, progress)
+    return text
 
 
-def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[Step], beyond: Step | None) -> str:
+def _page(
+    results: Results,
+    album: Mapping[Place, ShownImage],
+    steps: Sequence[Step],
+    beyond: Step | None,
+    progress: OwnProgress,
+) -> str:
     known = {step.id: step for step in steps}
     views = {result.id: step_view(result, known.get(result.id), album) for result in results.steps}
     parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
     following = _next(results.steps)
     name = clean(results.submission, 200)
+    own = _own_pictures(results, views, following)
+    is_perfect = following is None and beyond is None and bool(results.steps)
     context = {
         "name": name,
         "steps": list(views.values()),
@@ -318,10 +410,17 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}
         if beyond
         else None,
+        "own": own,
+        "changed": progress.changed,
+        "chart": chart_of(progress.attempts) if progress.attempts else None,
+        "walk": _walk(results, own) if is_perfect else [],
+        "is_perfect": is_perfect,
+        "try_next": after_the_last(),
         "total": _total(results.total),
         "columns": _PARTS,
         "sums": _sums(parts),
         "number": number,
+        "tenths": tenths,
         "left_out": sum(shown.left_out for shown in album.values()),
         "facts": {
             "kit": clean(results.kit, 200),
@@ -333,19 +432,29 @@ def _page(results: Results, album: Mapping[Place, ShownImage], steps: Sequence[S
     return render_page("student", f"Raysteps: {name}", context, scripts, styles)
 
 
-def write_student_page(results: Results, folder: Path, steps: Sequence[Step], following: Step | None = None) -> Path:
+def write_student_page(
+    results: Results,
+    folder: Path,
+    steps: Sequence[Step],
+    following: Step | None = None,
+    progress: OwnProgress = _NO_PROGRESS,
+) -> Path:
     """Writes FOLDER/report.html."""
     path = folder / REPORT
-    write_if_changed(path, student_page(results, folder, steps, following).encode())
+    write_if_changed(path, student_page(results, folder, steps, following, progress).encode())
     return path
 
 
 def try_student_page(
-    folder: Path, steps: Sequence[Step], say: Callable[[str], None], following: Step | None = None
+    folder: Path,
+    steps: Sequence[Step],
+    say: Callable[[str], None],
+    following: Step | None = None,
+    progress: OwnProgress = _NO_PROGRESS,
 ) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
-        return write_student_page(read_results(folder / "results.json"), folder, steps, following)
+        return write_student_page(read_results(folder / "results.json"), folder, steps, following, progress)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {error!r}")
         return None

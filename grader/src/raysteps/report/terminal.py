@@ -9,10 +9,11 @@ from rich.markup import escape
 from rich.status import Status
 from rich.table import Table
 
-from raysteps.common.text import mean, number, size
+from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, percent
+from raysteps.report.wording import HOW_SURE, SaidOnce, percent, total_words
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
+from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
@@ -24,11 +25,11 @@ _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 
 def _status(result: StepResult) -> str:
     color = _COLORS.get(result.status, "red")
-    return f"[{color}]{result.status}[/{color}]"
+    return f"[{color}]{STATUS_WORDS[result.status].words}[/{color}]"
 
 
 def _points(result: StepResult) -> str:
-    return f"{number(result.points)} of {number(result.max)}" + (" bonus" if result.bonus else "")
+    return f"{tenths(result.points)} of {tenths(result.max)}" + (" bonus" if result.bonus else "")
 
 
 def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
@@ -44,13 +45,20 @@ def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
             console.print(f"             {label:<9} {escape(text)}")
 
 
-def _print_test(console: Console, test: TestResult) -> None:
-    console.print(f"  [red]test[/red]     {escape(test.name)}")
+def _ended(item: TestResult | ImageResult) -> str:
+    """What became of a program that did not come to its end."""
+    return in_words(item.outcome) if item.outcome in ("crashed", "timeout") else ""
+
+
+def _print_test(console: Console, test: TestResult, once: SaidOnce) -> None:
+    ended = _ended(test)
+    console.print(f"  [red]test[/red]     {escape(test.name)}{f': {ended}' if ended else ''}")
     if test.expression:
         console.print(f"             expected  {escape(test.expression)}")
-        console.print(f"             actual    {escape(test.expanded)}")
-    if test.message:
-        for line in test.message.splitlines():
+        console.print(f"             got       {escape(test.expanded)}")
+    message = once(test.message) if ended else test.message
+    if message:
+        for line in message.splitlines():
             console.print(f"             {escape(line)}")
     if test.location:
         console.print(f"             [dim]{escape(test.location)}[/dim]")
@@ -70,12 +78,15 @@ def _work_lines(mine: Work, reference: Work) -> list[str]:
     ]
 
 
-def _print_image(console: Console, image: ImageResult, out: Path) -> None:
+def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce) -> None:
     color = "green" if image.passed else "red"
-    share = "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
+    ended = _ended(image)
+    share = f": {ended}" if ended else "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
     console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
     if not image.passed:
-        console.print(f"             {escape(image.message)}")
+        message = once(image.message) if ended else image.message
+        if message:
+            console.print(f"             {escape(message)}")
         if image.difference or image.mine:
             shown = out / (image.difference or image.mine or "")
             console.print(f"             see {escape(short_path(shown))}")
@@ -88,7 +99,7 @@ def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
     if item.message:
         console.print(f"             {escape(item.message)}")
-    for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
+    for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):
         if text:
             console.print(f"             {label:<9} {escape(text)}")
     if item.case:
@@ -112,16 +123,17 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for message in result.messages:
             for line in message.splitlines():
                 console.print(f"  {escape(line)}")
+        once = SaidOnce(result.messages)
         for diagnosis in result.diagnoses:
             _print_diagnosis(console, diagnosis)
         for test in result.tests:
             if not test.passed and not test.waits_for:
-                _print_test(console, test)
+                _print_test(console, test, once)
         if result.tests and all(test.passed for test in result.tests):
             console.print(f"  [green]tests[/green]    all {len(result.tests)} passed")
         for image in result.images:
             if not image.waits_for:
-                _print_image(console, image, out)
+                _print_image(console, image, out, once)
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)
@@ -161,10 +173,7 @@ def print_table(console: Console, results: Results, *, visible_only: bool = Fals
         table.add_row(*row[: len(table.columns)])
     console.print(table)
     console.print(_VISIBLE if visible_only else _TOGETHER, style="dim", soft_wrap=True)
-    total = results.total
-    bonus = f", {number(total.bonus.points)} of them bonus" if total.bonus.points else ""
-    kind = "points of the visible part, of" if visible_only else "points of"
-    console.print(f"{number(total.points)} {kind} {number(total.max)}{bonus}")
+    console.print(total_words(results.total, visible_only=visible_only))
 
 
 def print_isolation(console: Console, results: Results) -> None:

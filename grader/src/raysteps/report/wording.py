@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 from raysteps.common import platform as systems
 from raysteps.common.platform import own_command
+from raysteps.common.text import tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project, here
-from raysteps.results.model import Status
+from raysteps.results.model import Total
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
@@ -14,6 +15,15 @@ _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arg
 def check_command(step_id: str) -> str:
     """Checks one's own step."""
     return f"{own_command()} check {step_id[:2]}"
+
+
+def after_the_last() -> list[tuple[str, str]]:
+    """What to try when every step is right: a command, and what it does."""
+    return [
+        (f"{own_command()} finale", "draws a large picture with all that you have written"),
+        (f"{own_command()} gallery --mine", "shows every scene, step by step, beside the reference's"),
+        (f"{own_command()} view", "lets you walk through a scene in a window"),
+    ]
 
 
 def watch_command(step_id: str) -> str:
@@ -55,18 +65,31 @@ def inspect_command(name: str, step: Step | None) -> str | None:
 
 # Words that every view of a result shares, on pages and in the terminal.
 
-STATUS_WORDS: dict[Status, tuple[str, str, str]] = {  # in words, its tone, its sign
-    "passed": ("passed", "good", "✓"),
-    "partial": ("partly right", "warn", "◐"),
-    "failed": ("failed", "bad", "✗"),
-    "not-started": ("not started", "none", "○"),
-    "does-not-build": ("does not build", "bad", "✗"),
-    "crashed": ("crashed", "bad", "✗"),
-    "timeout": ("took too long", "bad", "✗"),
-}
 HOW_SURE = {"mistake": "most likely", "transformation": "it looks as if", "finding": "look here"}  # of a diagnosis
 
 
 def percent(share: float) -> str:
     """100 % only where nothing is missing."""
     return f"{min(share * 100, 100 if share >= 1 else 99.9):.3g} %"
+
+
+class SaidOnce:
+    """Of a sentence that many checks of a step have in common, such as how its program crashed: nothing after the
+    first time."""
+
+    def __init__(self, said: Sequence[str] = ()) -> None:
+        self._said = set(said)
+
+    def __call__(self, text: str) -> str:
+        is_new = text not in self._said
+        self._said.add(text)
+        return text if is_new else ""
+
+
+def total_words(total: Total, *, visible_only: bool = False) -> str:
+    """`85.5 of 100 points, 5 of them bonus`; of a bonus alone `6 of 10 bonus points`."""
+    of_what = " of the visible part" if visible_only else ""
+    if not total.max:
+        return f"{tenths(total.points)} of {tenths(total.bonus.max)} bonus points{of_what}"
+    bonus = f", {tenths(total.bonus.points)} of them bonus" if total.bonus.points else ""
+    return f"{tenths(total.points)} of {tenths(total.max)} points{of_what}{bonus}"

@@ -9,9 +9,9 @@ from msgspec import Meta
 
 from raysteps import __version__
 from raysteps.common.documents import OPTIONAL, Amount, Count, Share, Text
+from raysteps.results.statuses import Status
 from raysteps.sandbox.task import Isolation
 
-Status = Literal["passed", "partial", "failed", "not-started", "does-not-build", "crashed", "timeout"]
 Termination = Literal["ok", "wrong", "crashed", "timeout"]
 
 
@@ -77,7 +77,7 @@ class ImageResult:
     difference: str | None = None
     seconds: Amount = 0.0
     outcome: Termination = "ok"
-    share: Share = field(default=0.0, metadata=OPTIONAL)  # of its points that were earned where it did not pass
+    share: Share = field(default=0.0, metadata=OPTIONAL)  # of its points; 0 where it passed in older kits
     waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
 
     @property

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 from raysteps.common.text import join_and
 from raysteps.results.model import ImageResult, StepResult
+from raysteps.results.statuses import in_words
 
 _DIGITS = 6  # the same on every machine, whatever its logarithm does in the last place
-_NO_PICTURES = {"not-started": "not started", "does-not-build": "does not build"}
+_NO_PICTURES = ("not-started", "does-not-build")
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,7 @@ def work_ratio_of(result: StepResult, expected: Sequence[str] = ()) -> WorkRatio
     """Of one step. `expected` are the pictures that count and must be there; else all that have a
     max_share."""
     if result.status in _NO_PICTURES:
-        return NoWorkRatio(_NO_PICTURES[result.status])
+        return NoWorkRatio(in_words(result.status))
     problem = _wrong(result.images)
     if problem:
         return NoWorkRatio(problem)

@@ -2,6 +2,7 @@
 
 import re
 import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -22,8 +23,8 @@ _MAX_NOTES = 8000  # characters
 class Failure:
     """What a failed test case says."""
 
-    expression: str
-    expanded: str
+    expected: str
+    got: str
     location: str
     notes: str
 
@@ -50,20 +51,76 @@ def _location(element: Element) -> str:
     return shorten(" ".join(printable(place).split()), 200)
 
 
+# What was expected and what came instead, as a person says it: `frame.up = (0, 1, 0)`. Values may hold what a student's
+# function gave, so each text is read once, from left to right.
+
+_BINARY = re.compile(r"[()\[\]{}]|,\s|\s(?:==|!=|<=|>=|<|>)\s")
 _NEGATED = re.compile(r"!\((?P<asked>.+)\)", re.DOTALL)
+_FLOAT = re.compile(r"(?<![\w.])(\d[\d.]{0,40}(?:e[-+]\d{1,4})?)f(?!\w)")  # as Catch2 writes 0.5f
+_HEX = re.compile(r" \(0x[0-9a-f]{1,16}\)")
+_ABOUT = re.compile(r"Approx\( (?P<value>[-+.\w]{1,40}) \)")
+_MATCHED = " is expected to "  # of the matchers in framework/testing
+_VERBS = {"be ": "= ", "have ": "has ", "point ": "points "}
+
+
+def _value(text: str) -> str:
+    """Without what only Catch2 and C++ need."""
+    return _HEX.sub("", _FLOAT.sub(r"\1", _ABOUT.sub(r"about \g<value>", text.strip())))
+
+
+def _marks(text: str) -> Iterator[re.Match[str]]:
+    """The commas and comparisons that stand in no brackets."""
+    depth = 0
+    for found in _BINARY.finditer(text):
+        if found[0] in "([{":
+            depth += 1
+        elif found[0] in ")]}":
+            depth -= 1
+        elif depth == 0:
+            yield found
+
+
+def _split(text: str) -> tuple[str, str, str] | None:
+    """What stands left of the comparison, the comparison, and what stands right of it."""
+    found = next((mark for mark in _marks(text) if mark[0][0] != ","), None)
+    return (text[: found.start()], found[0].strip(), text[found.end() :]) if found is not None else None
+
+
+def _of_matcher(original: str, expanded: str) -> tuple[str, str] | None:
+    got, marked, wanted = expanded.rpartition(_MATCHED)
+    if not marked:
+        return None
+    commas = [mark for mark in _marks(original) if mark[0][0] == ","]
+    name = original[: commas[-1].start()].strip() if commas else original
+    for verb, said in _VERBS.items():
+        if wanted.startswith(verb):
+            wanted = said + wanted.removeprefix(verb)
+    return f"{name} {_value(wanted)}", f"{name} = {_value(got)}"
 
 
 def _compared(element: Element) -> tuple[str, str]:
-    """What was asked for, and what came instead; `!(f())` and `!true` as people say it."""
+    """What was expected, and what came instead, by the name that the test has for it."""
     original, expanded = _text(element.find("Original")), _text(element.find("Expanded"))
-    asked = _NEGATED.fullmatch(original)
-    if asked is not None and expanded in ("!true", "!(true)"):
-        return f"{asked['asked']} is false", "true"
-    return original, expanded
+    matched = _of_matcher(original, expanded)
+    if matched is not None:
+        return matched
+    asked, values = _split(original), _split(expanded)
+    if asked is not None and values is not None and asked[1] == values[1]:
+        sign = "=" if asked[1] == "==" else asked[1]
+        return f"{asked[0]} {sign} {_value(values[2])}", f"{asked[0]} = {_value(values[0])}"
+    negated = _NEGATED.fullmatch(original)
+    if negated is not None and expanded in ("!true", "!(true)"):
+        return f"{negated['asked']} = false", f"{negated['asked']} = true"
+    if expanded in ("false", "true"):
+        return f"{original} = {'true' if expanded == 'false' else 'false'}", f"{original} = {expanded}"
+    return original, _value(expanded)
 
 
 def _joined(notes: list[str]) -> str:
     return shorten("\n".join(notes), _MAX_NOTES)
+
+
+_TROUBLE = {"Exception": "threw", "FatalErrorCondition": "crashed"}
 
 
 def _failure(element: Element, notes: list[str]) -> Failure | None:
@@ -72,12 +129,15 @@ def _failure(element: Element, notes: list[str]) -> Failure | None:
         problem = element.find("Exception")
         if problem is None:
             problem = element.find("FatalErrorCondition")
-        original, expanded = _compared(element)
-        return Failure(
-            original, expanded if problem is None else f"threw: {_text(problem)}", _location(element), _joined(notes)
-        )
-    if element.tag in ("Failure", "Exception", "FatalErrorCondition"):
-        return Failure(element.tag, _text(element), _location(element), _joined(notes))
+        expected, got = _compared(element)
+        if problem is not None:
+            expected, got = _text(element.find("Original")), f"{_TROUBLE[problem.tag]}: {_text(problem)}"
+        return Failure(expected, got, _location(element), _joined(notes))
+    if element.tag == "Failure":
+        return Failure("", "", _location(element), _joined([*notes, _text(element)]))
+    if element.tag in _TROUBLE:
+        got = f"{_TROUBLE[element.tag]}: {_text(element)}"
+        return Failure("the test comes to its end", got, _location(element), _joined(notes))
     return None
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from raysteps.common.text import count, number
+from raysteps.common.text import count, tenths
 from raysteps.course.manifest import Step
 from raysteps.progress.hints import Hint
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
@@ -86,8 +86,8 @@ def verdict(view: StepView) -> tuple[Tone, str]:
     if not view.complete:
         return "plain", tally(result) or "It builds"
     if view.is_done:
-        return "good", f"Passed: {number(result.points)} of {number(result.max)} points."
+        return "good", f"Passed: {tenths(result.points)} of {tenths(result.max)} points."
     if view.full:
         tone: Tone = "warn" if result.points else "bad"
-        return tone, f"{number(result.points)} of {number(result.max)} points: {tally(result)}."
+        return tone, f"{tenths(result.points)} of {tenths(result.max)} points: {tally(result)}."
     return ("good" if view.status == "passed" else "bad"), f"{tally(result)}."

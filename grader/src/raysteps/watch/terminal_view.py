@@ -106,7 +106,7 @@ class TerminalView:
             self.line(f"  test  {test.name}", "red")
             if test.expression:
                 self.line(f"    expected  {test.expression}")
-                self.line(f"    actual    {test.expanded}")
+                self.line(f"    got       {test.expanded}")
             for line in test.message.splitlines()[:3]:
                 self.line(f"    {line}")
         self._more(len(failed), "test")
@@ -120,7 +120,7 @@ class TerminalView:
         missed = [item for item in result.hidden if not item.passed and not item.waits_for]
         for item in missed[:_MAX_FAILED]:
             self.line(f"  hidden  {item.name}: {item.message}", "red")
-            for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
+            for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):
                 if text:
                     self.line(f"    {label:<9} {text}")
             if item.case:

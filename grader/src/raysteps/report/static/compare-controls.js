@@ -27,6 +27,7 @@ const compareKeys = [
   ["← →", "move the divider when it has the focus, else the cursor from pixel to pixel (↑ ↓ too)"],
   ["Shift + arrows", "move the picture; so does dragging"],
   ["+ − 0", "zoom in, zoom out, fit; so does the wheel after a click on the picture, or with Ctrl"],
+  ["100 %", "one pixel of the picture on one CSS pixel"],
   ["1 … 5", "slider, blink, side by side, difference, FLIP"],
   ["F W", "first and worst wrong pixel"],
   ["Enter", "keep the pixel under the cursor; so does a click"],
@@ -74,7 +75,8 @@ function makeControls(label, names, act) {
       act.view(id),
     ),
   );
-  ui.zoom = make("output", { class: "compare-zoom" }, "1×");
+  const whole = "100 % shows one pixel of the picture on one CSS pixel";
+  ui.zoom = make("output", { class: "compare-zoom", title: whole }, "100 %");
   const bar = make(
     "div",
     { class: "compare-bar" },
@@ -144,6 +146,7 @@ function makeControls(label, names, act) {
     make("span", {}, "1 different"),
   );
 
+  ui.tone = makeToneControls(act);
   ui.count = make("p", { class: "compare-count" }, "The pictures are read when they are seen.");
   ui.first = makeButton("First wrong pixel", { disabled: true }, () => act.go("first"));
   ui.worst = makeButton("Worst pixel", { disabled: true }, () => act.go("worst"));
@@ -153,6 +156,7 @@ function makeControls(label, names, act) {
   ui.copy = makeButton("Copy", {}, () => {});
   makeCopyButton(ui.copy, ui.command);
   ui.inspect = make("div", { class: "compare-command", hidden: true }, ui.command, ui.copy);
+  ui.histogram = makeHistogram();
   ui.say = make("p", { role: "status", class: "hidden-text" });
   const panel = make(
     "div",
@@ -161,6 +165,8 @@ function makeControls(label, names, act) {
     make("div", { class: "compare-group" }, ui.first, ui.worst),
     readout,
     ui.inspect,
+    ui.tone.root,
+    ui.histogram.root,
     makeHelp(),
     ui.say,
   );

@@ -3,6 +3,9 @@
 /** A stage is narrow below so many CSS pixels. */
 const compareNarrow = 520;
 
+/** So wide, in CSS pixels, are the frame of a small pixel and half of the divider's handle. */
+const [compareMark, compareDivider] = [24, 16];
+
 /** One comparison at work: what is looked at, and what the reader does with it. */
 class CompareDesk {
   #shared;
@@ -23,7 +26,10 @@ class CompareDesk {
     this.view = "slider";
     this.split = 0.5;
     this.blinkMine = false;
+    this.tone = plainTone();
     this.seen = false;
+    /** @type {number | null} the share of wrong pixels that a grader counted */
+    this.counted = null;
     this.#shared = shared;
     const act = this.#actions();
     this.ui = makeControls(label, names, act);
@@ -34,6 +40,7 @@ class CompareDesk {
         event.preventDefault();
       }
     });
+    tellTone(this.ui, this.tone);
     this.#tellView();
   }
 
@@ -60,6 +67,7 @@ class CompareDesk {
       blinks: () => this.view === "blink",
       play: () => this.#play(!this.#playing),
       swap: () => this.#swap(),
+      tone: (change) => this.#shade(change),
       rate: (rate) => {
         this.#rate = rate;
         this.#play(true);
@@ -95,7 +103,7 @@ class CompareDesk {
   /** Takes the pictures when they were read. */
   take(pair) {
     this.pair = pair;
-    tellPair(this.ui, pair, this.names);
+    tellPair(this.ui, pair, this.names, this.counted);
     const impossible = this.ui.views.some(({ dataset, disabled }) => disabled && dataset.view === this.view);
     this.choose(!pair.comparable ? "side" : impossible ? "slider" : this.view);
   }
@@ -132,6 +140,7 @@ class CompareDesk {
   }
 
   #draw() {
+    this.#placeDivider(this.split);
     const { canvas, names } = this.ui;
     const size = this.#size;
     canvas.width = Math.round(size.width * devicePixelRatio);
@@ -151,7 +160,7 @@ class CompareDesk {
       paintFrame(context, pane, this.marks.cursor, "cursor");
     }
     const { pane } = all[0];
-    this.ui.zoom.textContent = `${pane.zoom < 10 ? Number(pane.zoom.toFixed(1)) : Math.round(pane.zoom)}×`;
+    this.ui.zoom.textContent = `${Math.round(pane.scale * 100)} %`;
     this.ui.stage.classList.toggle("zoomed", this.#shared.zoom > 1);
     this.ui.stage.classList.toggle("stacked", all.length > 1 && all[1].pane.box.top > 0);
   }
@@ -169,8 +178,36 @@ class CompareDesk {
     this.#splitTo(this.split);
   }
 
+  #shade(change) {
+    Object.assign(this.tone, change);
+    tellTone(this.ui, this.tone);
+    this.refresh();
+  }
+
   #splitTo(split) {
-    this.split = Math.min(1, Math.max(0, split));
+    this.#placeDivider(Math.min(1, Math.max(0, split)));
+    this.refresh();
+  }
+
+  /** The divider jumps over the pixel that was chosen, so that it never hides it. */
+  #besidePixel(split) {
+    const pixel = this.marks?.cursor ?? this.marks?.kept;
+    const [shown] = pixel && this.view === "slider" ? this.#shown : [];
+    if (!shown?.pane.shows(pixel)) {
+      return split;
+    }
+    const { width } = this.#size;
+    const middle = shown.pane.left + (pixel.x + 0.5) * shown.pane.scale;
+    const room = Math.max(shown.pane.scale, compareMark) / 2 + compareDivider;
+    const [left, right] = [(middle - room) / width, (middle + room) / width];
+    if (split <= left || split >= right) {
+      return split;
+    }
+    return (split > this.split && right <= 1) || left < 0 ? Math.min(1, right) : left;
+  }
+
+  #placeDivider(wanted) {
+    this.split = this.#besidePixel(wanted);
     const percent = Math.round(this.split * 100);
     this.ui.divider.style.left = `${this.split * 100}%`;
     this.ui.divider.setAttribute("aria-valuenow", String(percent));
@@ -178,7 +215,6 @@ class CompareDesk {
       "aria-valuetext",
       `${percent} % ${this.names.reference}, ${100 - percent} % ${this.names.mine}`,
     );
-    this.refresh();
   }
 
   #zoomAt(factor, left, top) {

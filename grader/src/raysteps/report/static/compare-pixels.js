@@ -60,6 +60,8 @@ class PicturePair {
     this.width = Math.max(reference?.width ?? 0, mine?.width ?? 0);
     this.height = Math.max(reference?.height ?? 0, mine?.height ?? 0);
     this.wrong = 0;
+    /** @type {number[]} how many pixels have a channel that is so far off, from 0 to 255 */
+    this.gaps = new Array(256).fill(0);
     /** @type {{x: number, y: number} | null} */
     this.first = null;
     /** @type {{x: number, y: number} | null} */
@@ -73,6 +75,7 @@ class PicturePair {
     let largest = 0;
     for (let at = 0; at < this.width * this.height; ++at) {
       const gap = this.#gap(at * 4);
+      this.gaps[gap] += 1;
       if (gap > compareTolerance) {
         const place = { x: at % this.width, y: Math.floor(at / this.width) };
         this.wrong += 1;

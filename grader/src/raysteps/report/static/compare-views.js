@@ -15,12 +15,13 @@ const compareViews = [
  */
 
 /** @returns {Layer | null} a picture as it is, with its colours as numbers */
-function pictureLayer(raster) {
-  return raster && { raster, numbers: (x, y) => PicturePair.colour(raster, x, y) };
+function pictureLayer(raster, tone) {
+  return raster && { raster: tonedRaster(raster, tone), numbers: (x, y) => PicturePair.colour(raster, x, y) };
 }
 
-function differenceLayer(pair) {
-  return { raster: pair.differenceRaster, numbers: (x, y) => pair.difference(x, y).map(signedWords) };
+function differenceLayer(pair, tone) {
+  const raster = tonedRaster(pair.differenceRaster, tone);
+  return { raster, numbers: (x, y) => pair.difference(x, y).map(signedWords) };
 }
 
 function flipLayer(pair) {
@@ -55,7 +56,7 @@ function halves(whole, stacked) {
  * @param {{reference: string, mine: string}} names
  * @param {{width: number, height: number}} size
  * @param {SharedView} shared
- * @param {{split: number, blinkMine: boolean}} state `split` is the divider's place, from 0 to 1
+ * @param {{split: number, blinkMine: boolean, tone: Tone}} state `split` is the divider's place, from 0 to 1
  * @returns {Shown[]}
  */
 function shownIn(view, pair, names, size, shared, state) {
@@ -65,7 +66,7 @@ function shownIn(view, pair, names, size, shared, state) {
     const picture = raster ?? { width: pair.width || 4, height: pair.height || 3 };
     return {
       pane: new Pane(box, picture, shared),
-      layer: pictureLayer(raster),
+      layer: pictureLayer(raster, state.tone),
       clip,
       name: raster ? names[role] : `${names[role]}: no picture`,
       at,
@@ -83,7 +84,7 @@ function shownIn(view, pair, names, size, shared, state) {
     case "blink":
       return [show(state.blinkMine ? "mine" : "reference", whole, whole, state.blinkMine ? "right" : "left")];
     case "difference":
-      return single(differenceLayer(pair), "difference × 8");
+      return single(differenceLayer(pair, state.tone), "difference × 8");
     case "flip":
       return single(flipLayer(pair), "FLIP: what a person sees differ");
     default: {

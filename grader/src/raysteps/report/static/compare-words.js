@@ -58,7 +58,7 @@ function sizeWords(raster) {
 }
 
 /** What is there, what cannot be shown, and how much differs. */
-function tellPair(ui, pair, names) {
+function tellPair(ui, pair, names, counted) {
   for (const button of ui.views) {
     const { id, needsBoth } = compareViews.find((view) => view.id === button.dataset.view);
     button.disabled = (needsBoth && !pair.comparable) || (id === "flip" && !pair.flip);
@@ -69,9 +69,10 @@ function tellPair(ui, pair, names) {
   }
   ui.first.disabled = ui.worst.disabled = !pair.wrong;
   tellPixel(ui.cells, pair, null);
+  tellHistogram(ui.histogram, pair.gaps);
   ui.count.classList.toggle("same", pair.comparable && !pair.wrong);
   ui.count.classList.toggle("trouble", !pair.comparable);
-  ui.count.textContent = pair.comparable ? countWords(pair) : troubleWords(pair, names);
+  ui.count.textContent = pair.comparable ? countWords(pair) + coarseWords(pair, counted) : troubleWords(pair, names);
 }
 
 function countWords({ wrong, width, height }) {
@@ -79,6 +80,12 @@ function countWords({ wrong, width, height }) {
   return wrong
     ? `${wrong} of ${width * height} pixels differ (${share < 0.01 ? "under 0.01" : share.toFixed(2)} %) by more than ${compareTolerance} of 255.`
     : `No difference: no pixel is more than ${compareTolerance} of 255 away.`;
+}
+
+/** A grader shows a picture that is grossly wrong with fewer pixels and colours than it had. */
+function coarseWords({ wrong, width, height }, counted) {
+  const isCoarse = counted !== null && Math.abs(wrong / (width * height) - counted) > 0.002;
+  return isCoarse ? ` The picture is shown coarser than it was: in it ${(100 * counted).toFixed(2)} % were wrong.` : "";
 }
 
 /** Why there is nothing to compare. */

@@ -89,6 +89,7 @@ class ComparePictures extends HTMLElement {
       this.#shared,
       this.getAttribute("inspect"),
     );
+    this.#desk.counted = this.hasAttribute("wrong-share") ? Number(this.getAttribute("wrong-share")) : null;
     this.#desk.marks.onPixel = ({ x, y }) => this.#tell(x, y);
     const sized = this.#image("reference") ?? this.#image("mine");
     this.append(this.#desk.ui.root);

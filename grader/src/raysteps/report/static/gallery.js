@@ -72,7 +72,7 @@ class Gallery {
     const step = own ? this.walk.right : this.walk[which];
     const { number, title } = this.data.steps[step];
     const shots = own && which === "right" ? this.scene.mine : this.scene.reference;
-    return { shot: shots[step], name: own ? (which === "right" ? "mine" : "reference") : `${number} ${title}` };
+    return { shot: shots[step], name: own ? (which === "right" ? "yours" : "reference") : `${number} ${title}` };
   }
 
   show() {

@@ -54,7 +54,7 @@ function watchTest(test) {
   const message = test.message ? [make("p", { class: "watch-lines" }, test.message)] : [];
   const facts = [
     ["expected", test.expected, true],
-    ["actual", test.actual, true],
+    ["got", test.actual, true],
     ["where", test.place, true],
   ];
   return watchPanel("bad", watchName(test.name), ...watchFacts(facts), ...message);
@@ -64,7 +64,7 @@ function watchHidden(item) {
   const facts = [
     ["given", item.given, true],
     ["expected", item.expected, true],
-    ["actual", item.actual, true],
+    ["got", item.actual, true],
     ["again", item.again, true],
   ];
   return watchPanel("bad", watchName(item.name), make("p", {}, item.message), ...watchFacts(facts));

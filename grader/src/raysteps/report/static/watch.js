@@ -23,7 +23,7 @@ class WatchPictures {
     }
   }
 
-  /** Where there is no picture of mine, the reference shows where it goes. */
+  /** Where there is no picture of the student's own, the reference shows where it goes. */
   #showOne(picture, step) {
     const known = this.#shown.get(picture.name) ?? this.#add(picture, step);
     known.words.textContent =
@@ -46,7 +46,11 @@ class WatchPictures {
     if (picture.mine) {
       const one = (src, name) => src && { src, name, alt: `${picture.name}: ${name}` };
       const flip = one(picture.flip, "FLIP map");
-      known.view.setPictures({ reference: one(picture.reference, "reference"), mine: one(picture.mine, "mine"), flip });
+      known.view.setPictures({
+        reference: one(picture.reference, "reference"),
+        mine: one(picture.mine, "yours"),
+        flip,
+      });
     } else if (picture.reference) {
       known.goal.src = picture.reference;
     }
