@@ -8,7 +8,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli.render import build_program, whose
+from raysteps.cli.render import build_program, refuse_no_scene, whose
 from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
 from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
@@ -99,8 +99,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         raise UsageError("a students' kit has no reference to inspect; pictures made with it lie in reference/")
     if arguments.against and arguments.impl == "reference":
         raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
-    if not Path(arguments.scene).is_file():
-        raise UsageError(f"{arguments.scene}: expected a scene, found no file of that name")
+    refuse_no_scene([arguments.scene])
     if arguments.impl == "mine":
         _say_unfinished(project, options)
 

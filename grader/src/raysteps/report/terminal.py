@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.status import Status
 from rich.table import Table
+from rich.text import Text
 
 from raysteps.common.text import mean, number, size
 from raysteps.course.manifest import Step
@@ -31,27 +32,48 @@ def _points(result: StepResult) -> str:
     return f"{number(result.points)} of {number(result.max)}" + (" bonus" if result.bonus else "")
 
 
+_INDENT = 13
+_LABEL = 10
+
+
+def _print_hanging(console: Console, head: str, text: str) -> None:
+    """The text behind its head, which is markup; what does not fit on the line stands below the text's beginning."""
+    first = Text.from_markup(head)
+    lines = Text(text).wrap(console, max(console.width - first.cell_len, 20)) or [Text()]
+    for line in lines:
+        line.rstrip()
+        console.print(first + line, soft_wrap=True)
+        first = Text(" " * first.cell_len)
+
+
+def _print_labelled(console: Console, label: str, text: str) -> None:
+    _print_hanging(console, " " * _INDENT + f"{label:<{_LABEL}}", text)
+
+
+def _print_below(console: Console, text: str) -> None:
+    _print_hanging(console, " " * _INDENT, text)
+
+
 def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
     """The word before it says how sure one can be."""
     word = HOW_SURE[diagnosis.kind]
     seen = ", ".join(diagnosis.seen_in) if diagnosis.kind != "finding" else ""
     where = f" (seen in {seen})" if seen else ""
-    console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
+    _print_hanging(console, f"  [bold yellow]{word}[/bold yellow]  ", diagnosis.title + where)
     for other in diagnosis.alike:
-        console.print(f"             or  {escape(other)}")
+        _print_hanging(console, " " * _INDENT + "or  ", other)
     for label, text in (("you see", diagnosis.sees), ("cause", diagnosis.cause), ("hint", diagnosis.hint)):
         if text:
-            console.print(f"             {label:<9} {escape(text)}")
+            _print_labelled(console, label, text)
 
 
 def _print_test(console: Console, test: TestResult) -> None:
-    console.print(f"  [red]test[/red]     {escape(test.name)}")
+    _print_hanging(console, "  [red]test[/red]     ", test.name)
     if test.expression:
-        console.print(f"             expected  {escape(test.expression)}")
-        console.print(f"             actual    {escape(test.expanded)}")
-    if test.message:
-        for line in test.message.splitlines():
-            console.print(f"             {escape(line)}")
+        _print_labelled(console, "expected", test.expression)
+        _print_labelled(console, "actual", test.expanded)
+    for line in test.message.splitlines():
+        _print_below(console, line)
     if test.location:
         console.print(f"             [dim]{escape(test.location)}[/dim]")
 
@@ -75,7 +97,7 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
     share = "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
     console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
     if not image.passed:
-        console.print(f"             {escape(image.message)}")
+        _print_below(console, image.message)
         if image.difference or image.mine:
             shown = out / (image.difference or image.mine or "")
             console.print(f"             see {escape(short_path(shown))}")
@@ -87,10 +109,10 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
 def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
     if item.message:
-        console.print(f"             {escape(item.message)}")
+        _print_below(console, item.message)
     for label, text in (("given", item.given), ("expected", item.expected), ("actual", item.actual)):
         if text:
-            console.print(f"             {label:<9} {escape(text)}")
+            _print_labelled(console, label, text)
     if item.case:
         console.print(f"             {'again':<9} {escape(again(item.case))}", soft_wrap=True)
 
@@ -111,7 +133,7 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
         for message in result.messages:
             for line in message.splitlines():
-                console.print(f"  {escape(line)}")
+                _print_hanging(console, "  ", line)
         for diagnosis in result.diagnoses:
             _print_diagnosis(console, diagnosis)
         for test in result.tests:
@@ -128,7 +150,7 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
         if result.cumulative.message and result.tests:
-            console.print(f"  together  {escape(result.cumulative.message)}")
+            _print_hanging(console, "  together  ", result.cumulative.message)
 
 
 def print_diagnoses(console: Console, results: Results) -> None:
