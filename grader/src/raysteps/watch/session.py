@@ -178,7 +178,7 @@ def _what_changed(name: str, owner: Owner) -> str:
     return f"{name} changed, the kit is built again" if owner == "kit" else f"{name} saved"
 
 
-_IDLE_SECONDS = 2.0  # after a look, until the full check begins by itself
+_IDLE_SECONDS = 0.5  # after a look, until the full check begins by itself; a save stops it
 _TICK_SECONDS = 0.2
 
 
