@@ -12,7 +12,8 @@ from rich.text import Text
 
 from raysteps.common.text import mean, number, size
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, percent
+from raysteps.report.wording import HOW_SURE, percent, typed
+from raysteps.report.worst_pixel import inspect_worst
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
@@ -125,12 +126,16 @@ def short_path(path: Path) -> str:
         return str(path)
 
 
-def print_details(console: Console, results: Results, steps: list[Step], out: Path, again: Again) -> None:
+def print_details(
+    console: Console, results: Results, steps: list[Step], out: Path, again: Again, *, inspects: bool = False
+) -> None:
     """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
-    case once more."""
-    titles = {step.id: step.title for step in steps}
+    case once more; `inspects`: the steps are those in the repository, so that `inspect` sees what they do."""
+    known = {step.id: step for step in steps}
     for result in results.steps:
-        console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
+        console.print(
+            f"\n[bold]{result.id}[/bold] {escape(known[result.id].title)}: {_status(result)}, {_points(result)}"
+        )
         for message in result.messages:
             for line in message.splitlines():
                 _print_hanging(console, "  ", line)
@@ -144,6 +149,9 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for image in result.images:
             if not image.waits_for:
                 _print_image(console, image, out)
+                worst = inspect_worst(known[result.id], image, out) if inspects else None
+                if worst is not None:
+                    console.print(f"{' ' * _INDENT}{'inspect':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)

@@ -11,11 +11,11 @@ from pathlib import Path
 from raysteps.common.errors import RaystepsError, reason_and_place
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.images.compare import gaps, read_png, widest
 from raysteps.progress.hints import Hints, no_other
 from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.progress.standing import next_of, own_source, print_list, shown, standings
-from raysteps.report.wording import inspect_words, typed
+from raysteps.report.wording import typed
+from raysteps.report.worst_pixel import inspect_worst
 from raysteps.submission.entries import RejectedFile
 from raysteps.watch.edits import edited_functions
 from raysteps.watch.events import (
@@ -38,33 +38,13 @@ from raysteps.watch.runner import Runner
 from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
 
-# The pixel that is most wrong, and the command that looks into it.
-
-
-def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
-    """The column and the row; none where the pictures cannot be compared or are the same."""
-    try:
-        one, other = read_png(mine), read_png(reference)
-    except OSError:
-        return None
-    if one.shape != other.shape:
-        return None
-    gap = gaps(one, other)
-    return widest(gap) if gap.any() else None
-
 
 def command_of_worst(view: StepView) -> list[str] | None:
     """Of the first picture that is wrong."""
     if view.result is None or view.out is None:
         return None
-    cases = {case.name: case for case in view.step.images}
-    for image in view.result.images:
-        if image.passed or not image.mine or not image.reference or image.name not in cases:
-            continue
-        worst = worst_pixel(view.out / image.mine, view.out / image.reference)
-        if worst is not None:
-            return inspect_words(cases[image.name], *worst)
-    return None
+    found = (inspect_worst(view.step, image, view.out) for image in view.result.images)
+    return next(filter(None, found), None)
 
 
 # What the keys do.
