@@ -44,6 +44,7 @@ void write_hit(TextLines& out, const HitTrace& trace, int level) {
                  (hit.front_face ? "outside" : "inside"));
     out.line(level + 1, "position " + brief(hit.position) + "  normal " + brief(hit.normal));
     out.line(level + 1, fill_words(hit.fill));
+    out.line(level + 1, "v " + brief(-hit.ray_direction) + ", ray_direction turned round");
 }
 
 std::string verdict(const LightRecord& light) {
@@ -71,6 +72,7 @@ void write_light(TextLines& out, const PixelRecord& record, const LightRecord& l
     }
     out.line(level + 1, "l.n " + brief(light.l_n) + "  r.v " + brief(light.r_v) + "  diffuse " + brief(light.diffuse) +
                             "  specular " + brief(light.specular) + (light.lit ? "" : "  (not added)"));
+    out.line(level + 1, "r " + brief(light.mirrored) + ", the light mirrored at the normal");
 }
 
 std::string color_words(const RayNode& node) {

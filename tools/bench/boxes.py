@@ -80,7 +80,7 @@ def boxes(project: Project, scenes: list[Path], size: str, console: Console) -> 
     """Measures, prints one table and writes build/bench/boxes.json."""
     missing = [str(scene) for scene in scenes if not scene.is_file()]
     if missing:
-        raise UsageError(f"{missing[0]}: there is no such scene")
+        raise UsageError(f"{missing[0]}: is not there; expected a scene")
     program = build_kit(project).reference("raytrace")
     every = [generated(project, kind, factor) for kind, factor in _DEFAULTS] + scenes
     rows: list[BoxesRow] = []

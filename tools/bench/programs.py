@@ -85,10 +85,14 @@ def _look_again(tree: BuildTree) -> None:
         run(["cmake", tree.folder], seconds=_CONFIGURE_SECONDS)
 
 
+def _say_how_far(far: str) -> None:
+    print(f"raysteps: building the benchmarks: {far}", file=sys.stderr, flush=True)
+
+
 def _built(tree: BuildTree, name: str) -> Programs:
     with tree.locked():
         _look_again(tree)
-        outcome = tree.build(["raysteps-bench", "raytrace-reference"])
+        outcome = tree.build(["raysteps-bench", "raytrace-reference"], _say_how_far)
     if outcome.code != 0:
         raise GraderFault("the benchmarks do not build:\n" + what_failed(outcome))
     return Programs(name, tree.program("raysteps-bench"), tree.program("raytrace-reference"), machine(tree))
@@ -183,7 +187,7 @@ def checked(scenes: list[Path]) -> list[Path]:
     """Scenes that somebody named. Two of one name could not be told apart in a table."""
     for scene in scenes:
         if not scene.is_file():
-            raise UsageError(f"{scene}: there is no such scene")
+            raise UsageError(f"{scene}: is not there; expected a scene")
     names = [scene.stem for scene in scenes]
     twice = [name for name in names if names.count(name) > 1]
     if twice:

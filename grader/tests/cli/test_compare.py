@@ -46,8 +46,8 @@ _EXPECTED = "; expected a picture as `./raysteps render` writes it, .png or .ppm
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
-        ("none.png", None, "there is no such file"),
-        ("none.ppm", None, "there is no such file"),
+        ("none.png", None, "is not there"),
+        ("none.ppm", None, "is not there"),
         (".", None, "is a folder"),
         ("text.png", b"no picture", "is no PNG, or only a part of one"),
         ("text.ppm", b"no picture", "the picture is not a binary PPM with 8-bit channels"),

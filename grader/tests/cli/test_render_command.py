@@ -1,5 +1,7 @@
 """The arguments of `render`."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -46,6 +48,42 @@ def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_picture_of_another_kind_is_refused_before_anything_is_built(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["render", "scene.nff", "-o", "picture.jpg"]) == 2
     assert "picture.jpg: pictures are written as .png or .ppm" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["render", "view", "inspect"])
+def test_a_scene_that_is_not_there_is_told_before_anything_is_built(
+    command: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(BuildTree, "build", lambda *words: pytest.fail("it was built"))
+    more = ["1", "2", "--step", "1"] if command == "inspect" else ["--step", "1"]
+    assert main([command, "scenes/nope.nff", *more]) == 2
+    assert "scenes/nope.nff: is not there; expected a scene, such as scenes/lessons/" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"), [(["-o", "one.png"], "Picture: one.png\n"), (["-o", "one.png", "--quiet"], "")]
+)
+def test_it_says_where_the_picture_is(
+    words: list[str], said: str, kit: BuiltKit, project: Project, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    scene = str(project.scenes / "lessons" / "three-spheres.nff")
+    assert main(["render", scene, "--impl", "reference", "--size", "8x6", "--step", "1", *words]) == 0
+    assert capfd.readouterr().out == said
+    assert (tmp_path / "one.png").is_file()
+
+
+def test_a_picture_that_goes_where_it_prints_holds_nothing_else(
+    kit: BuiltKit, project: Project, tmp_path: Path
+) -> None:
+    scene, out = str(project.scenes / "lessons" / "three-spheres.nff"), tmp_path / "here.ppm"
+    words = ["render", scene, "--impl", "reference", "--size", "8x6", "--step", "1", "-o", str(out)]
+    with out.open("wb") as file:
+        done = subprocess.run([sys.executable, "-m", "raysteps", *words], stdout=file, check=False, timeout=600)
+    assert done.returncode == 0
+    assert read_ppm(out).shape == (6, 8, 3)
+    assert out.stat().st_size == len(b"P6\n8 6\n255\n") + 8 * 6 * 3
 
 
 def _written(project: Project, root: Path, *numbers: int) -> Project:
@@ -117,7 +155,8 @@ def test_words_that_the_program_refuses_get_no_advice(
     program.write_text(f"#!/bin/sh\nexit {code}\n")
     program.chmod(0o755)
     monkeypatch.setattr(render, "build_mine", lambda _: program)
-    words = ["scene.nff", "-o", "picture.png"]
+    (tmp_path / "scene.nff").touch()
+    words = [str(tmp_path / "scene.nff"), "-o", "picture.png"]
     assert render.run_words(_written(project, tmp_path, 1, 2), words) == code
     assert ("--step 2, the last that your steps can draw" in capsys.readouterr().err) == advised
 

@@ -141,15 +141,25 @@ def test_a_results_file_is_known_and_the_cases_that_it_names_are_told(
     assert capsys.readouterr().err == f"raysteps: {path}: {wanted} {said.replace('FOLDER', str(tmp_path))}\n"
 
 
-@pytest.mark.parametrize(("name", "says"), [("nothing.json", "cannot be read"), (".", "a folder; name a file in it")])
+@pytest.mark.parametrize(("name", "says"), [("nothing.json", "is not there"), (".", "a folder; name a file in it")])
 def test_a_file_that_is_not_there(tmp_path: Path, name: str, says: str) -> None:
     with pytest.raises(UsageError, match=says):
         read_case(tmp_path / name)
 
 
+@pytest.mark.parametrize(
+    ("name", "again"), [("cases/02-closest-hit.json", "./raysteps check 02"), ("cases/mine.json", "./raysteps check")]
+)
+def test_a_case_that_is_gone_leads_to_a_new_check(name: str, again: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["replay", f"nowhere/{name}"]) == 2
+    said = capsys.readouterr().err
+    assert f"nowhere/{name}: is not there: a check clears the cases of the one before" in said
+    assert f"Type `{again}`, and then" in said
+
+
 def test_a_missing_file_ends_with_2(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["replay", "no/such/case.json"]) == 2
-    assert "no/such/case.json: cannot be read" in capsys.readouterr().err
+    assert "no/such/case.json: is not there" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", ["1 closest_hit 1 9 0 0 0 0 0 1", "1 closest_hit -1", "1 closest_hit 99999999"])
@@ -218,7 +228,7 @@ def test_the_short_form_that_check_prints(
 ) -> None:
     """A path below build/check; a file that is really there comes first."""
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(UsageError, match=r"cases/02-nothing\.json: cannot be read"):
+    with pytest.raises(UsageError, match=r"cases/02-nothing\.json: is not there"):
         replay(project, Path("cases/02-nothing.json"), None, Console(file=io.StringIO()))
 
 

@@ -14,8 +14,8 @@ pytestmark = pytest.mark.portable
 def test_a_reason_has_no_number_and_no_path(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="Errno") as caught:
         (tmp_path / "none").read_text()
-    assert reason(caught.value) == "there is no such file or folder"
-    assert reason_and_place(caught.value) == f"{tmp_path / 'none'}: there is no such file or folder"
+    assert reason(caught.value) == "it is not there"
+    assert reason_and_place(caught.value) == f"{tmp_path / 'none'}: it is not there"
 
 
 def test_what_has_no_words_of_ours_keeps_those_of_the_system() -> None:

@@ -62,7 +62,7 @@ def test_a_bad_file_is_refused_with_its_path(tmp_path: Path, place: Path, text: 
 
 
 def test_a_file_that_is_named_must_be_there(tmp_path: Path, place: Path) -> None:
-    with pytest.raises(UsageError, match="there is no such file"):
+    with pytest.raises(UsageError, match="is not there"):
         read_course(Project(tmp_path))
 
 

@@ -44,9 +44,7 @@ def test_scenes_are_found_by_name_and_by_file(project: Project, tmp_path: Path) 
     assert [(scene.name, scene.title) for scene in found] == [("glass", "Glass"), ("my-own", "My own")]
     assert found[1].words == "A ball in the dark"
     assert about_scene("empty", tmp_path / "nowhere.nff") == ("Empty", "")
-    with pytest.raises(
-        UsageError, match=r"--scene nowhere: there is no such scene; expected an NFF file or one of .*glass"
-    ):
+    with pytest.raises(UsageError, match=r"--scene nowhere: is not there; expected an NFF file or one of .*glass"):
         gallery_scenes(project, ["nowhere"])
 
 

@@ -169,3 +169,41 @@ def test_without_scripts_two_pictures_and_the_words_are_seen(open_page: OpenPage
     page = open_page(gallery)
     assert page.locator("#picture img >> visible=true").count() == 2
     assert page.locator(".card p >> visible=true").count() == 9
+
+
+_SCALES = """(deltas) => {
+    const stage = document.querySelector('#picture .compare-stage');
+    const box = stage.getBoundingClientRect();
+    const picture = { width: 12, height: 9 };
+    const view = SharedView.of('gallery');
+    const scale = () => new Pane({ left: 0, top: 0, width: box.width, height: box.height }, picture, view).scale;
+    const seen = [scale()];
+    stage.focus();
+    for (const deltaY of deltas) {
+        stage.dispatchEvent(new WheelEvent('wheel', { deltaY, ctrlKey: true, bubbles: true, cancelable: true,
+            clientX: box.x + 0.4 * box.width, clientY: box.y + 0.4 * box.height }));
+        seen.push(scale());
+    }
+    return [seen, window.devicePixelRatio, box.width, view.zoom];
+}"""
+
+
+@pytest.mark.parametrize("width", [1400, 1013, 390])
+def test_pixels_take_whole_pixels_of_the_screen(open_page: OpenPage, gallery: Path, width: int) -> None:
+    page = open_page(gallery, width=width)
+    page.wait_for_selector("#picture[data-state=ready]")
+    page.wait_for_function("document.querySelector('#picture').style.maxWidth !== ''")
+    scales, ratio, wide, zoom = page.evaluate(_SCALES, [-40] * 30)
+    assert all(scale * ratio == pytest.approx(round(scale * ratio), abs=1e-6) for scale in scales)
+    assert wide == pytest.approx(12 * scales[0], abs=0.5), "no gap beside the whole picture"
+    assert scales == sorted(scales)
+    assert scales[-1] > 1.3 * scales[0], "small turns of the wheel add up"
+    assert zoom > 1.3
+
+
+@pytest.mark.parametrize(("scheme", "light"), [("light", True), ("dark", False)])
+def test_it_is_as_light_as_the_system(open_page: OpenPage, gallery: Path, scheme: str, light: bool) -> None:
+    page = open_page(gallery, scheme=scheme)
+    paper = page.evaluate("getComputedStyle(document.body).backgroundColor.match(/[0-9]+/g).map(Number)")
+    assert (min(paper[:3]) > 200) is light
+    assert (max(paper[:3]) < 60) is not light

@@ -28,6 +28,7 @@ from raysteps.progress.standing import remember
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 WORKER = (sys.executable, str(Path(__file__)), "worker")
+PROGRAM = (sys.executable, str(Path(__file__)), "raysteps")
 _TIMEOUT = 90
 
 
@@ -110,6 +111,15 @@ def work() -> None:
     _tell(**words, complete=True)
 
 
+def look_into_a_pixel(words: list[str]) -> None:
+    """As `./raysteps inspect` does while it builds its program: it speaks, and goes on until it is interrupted."""
+    print(f"looking: {' '.join(words)}", flush=True)
+    try:
+        time.sleep(1000)
+    except KeyboardInterrupt:
+        print("the build was ended", flush=True)
+
+
 def main(words: list[str]) -> int:
     """`watch` in a project, with the fake worker."""
     parser = argparse.ArgumentParser()
@@ -117,7 +127,7 @@ def main(words: list[str]) -> int:
     add_arguments(parser)
     arguments = parser.parse_args(words)
     try:
-        return run(Project(arguments.root), arguments, Console(), WORKER)
+        return run(Project(arguments.root), arguments, Console(), WORKER, PROGRAM)
     except RaystepsError as error:
         print(error, file=sys.stderr)
         return error.exit_code
@@ -127,5 +137,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parent))
     if sys.argv[1] == "worker":
         work()
+    elif sys.argv[1] == "raysteps":
+        look_into_a_pixel(sys.argv[2:])
     else:
         sys.exit(main(sys.argv[1:]))

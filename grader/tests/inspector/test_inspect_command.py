@@ -66,7 +66,7 @@ def script(folder: Path, text: str) -> Path:
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["scene.nff", "1", "2"], "scene.nff: expected a scene, found no file"),
+        (["scene.nff", "1", "2"], "scene.nff: is not there; expected a scene"),
         (["scene.nff", "1", "2", "--step", "10"], "there is no step '10'"),
         (["scene.nff", "1", "2", "--impl", "reference", "--against", "reference"], "expected your own steps"),
     ],

@@ -3,12 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 from browser import OpenPage, assert_accessible
 from inspect_records import ball_record
 
 from raysteps.inspector.divergence import find_divergence
 from raysteps.inspector.pixel_page import write_page
+from raysteps.report.page import pixel_data
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -113,3 +115,67 @@ def test_without_webgl_the_tree_is_still_there(page: "Page") -> None:
     assert "shows no WebGL" in page.get_by_role("status").inner_text()
     assert not page.locator("canvas").is_visible()
     assert page.get_by_text("meets surface 0 (sphere) at distance 4").is_visible()
+
+
+def test_without_webgl_nothing_asks_for_the_stage(page: "Page") -> None:
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.reload()
+    assert not page.locator("button[data-show]").first.is_visible()
+    assert_accessible(page)
+
+
+_STAGE = """() => {
+    const { view, ray } = document.querySelector('pixel-inside');
+    return [ray.id, view.orbit.from, document.querySelector('[data-part=boxes]').value, view.solid];
+}"""
+
+
+def test_a_stage_that_is_taken_away_comes_back_as_it_was(page: "Page") -> None:
+    page.locator("[data-part=boxes]").fill("1")
+    page.locator("[data-part=solid]").check()
+    page.locator("canvas").focus()
+    page.keyboard.press("ArrowLeft")
+    before, amounts = page.evaluate(_STAGE), page.evaluate(_COUNT_COLORS)
+    page.evaluate("""() => {
+        const canvas = document.querySelector('canvas');
+        window.loss = canvas.getContext('webgl').getExtension('WEBGL_lose_context');
+        window.loss.loseContext();
+    }""")
+    trouble = page.locator("[data-part=trouble]")
+    trouble.wait_for()
+    assert "has taken the stage away. The tree of rays tells the same in words." in trouble.inner_text()
+    assert not page.locator("canvas").is_visible()
+    assert not page.locator("button[data-show]").first.is_visible()
+    assert page.get_by_text("meets surface 0 (sphere) at distance 4").is_visible()
+    assert_accessible(page)
+    page.evaluate("() => window.loss.restoreContext()")
+    page.locator("canvas").wait_for()
+    assert not trouble.is_visible()
+    assert page.evaluate(_STAGE) == before
+    assert page.evaluate(_COUNT_COLORS) == amounts
+    page.get_by_role("button", name="Show the reflected ray, depth 2 on the stage").click()
+    assert page.locator("[data-part=ray]").inner_text() == "reflected ray, depth 2"
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1400, "light")])
+def test_the_picture_is_there_with_its_pixel_marked(
+    tmp_path: Path, open_page: OpenPage, width: int, scheme: str
+) -> None:
+    pixels = np.full((12, 16, 3), 90, dtype=np.uint8)
+    pixels[6, 8] = (10, 200, 10)
+    picture = pixel_data(pixels)
+    pictures = {"mine": picture, "reference": picture}
+    write_page(ball_record(lit=False), ball_record(), None, tmp_path / "both.html", pictures)
+    page = open_page(tmp_path / "both.html", width=width, scheme=scheme)
+    drawn = page.get_by_role("img", name="my picture, pixel (8, 6) of 16 x 12 marked")
+    box, mark = drawn.bounding_box(), drawn.locator("rect").first.bounding_box()
+    assert box is not None
+    assert mark is not None
+    assert mark["x"] - box["x"] == pytest.approx(8 / 16 * box["width"], abs=4)
+    assert mark["y"] - box["y"] == pytest.approx(6 / 12 * box["height"], abs=4)
+    assert page.locator("figcaption").all_inner_texts() == [
+        "mine, pixel (8, 6) of 16 x 12",
+        "reference, pixel (8, 6) of 16 x 12",
+    ]
+    assert_accessible(page)
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

@@ -53,7 +53,7 @@ def test_wrong_arguments(words: list[str], capsys: pytest.CaptureFixture[str]) -
 @pytest.mark.parametrize("what", ["render", "threads", "parse"])
 def test_an_unknown_scene(what: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", what, "no-such-scene.nff"]) == 2
-    assert capsys.readouterr().err == "raysteps: no-such-scene.nff: there is no such scene\n"
+    assert capsys.readouterr().err == "raysteps: no-such-scene.nff: is not there; expected a scene\n"
 
 
 def test_an_unknown_step(capsys: pytest.CaptureFixture[str]) -> None:

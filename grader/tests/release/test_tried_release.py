@@ -89,7 +89,7 @@ def test_a_check_that_left_something_out_is_none(
 
 
 def test_a_folder_that_cannot_be_looked_through_is_told(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="gone: cannot be looked through: there is no such file or folder"):
+    with pytest.raises(UsageError, match="gone: cannot be looked through: it is not there"):
         to_search(tmp_path / "gone", tried=True)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.course.project import Project
+from raysteps.toolchain import kit_artifacts
 from raysteps.toolchain.cmake import BuildTree, _HowFar, release_tree
 from tools.selftest.programs import use_compiler_cache
 
@@ -103,7 +104,7 @@ def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: 
 )
 def test_a_build_says_how_far_it_is(pieces: list[bytes], expected: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     said: list[str] = []
-    monkeypatch.setattr(_HowFar, "_EVERY", -1.0)
+    monkeypatch.setattr(kit_artifacts, "_EVERY", -1.0)
     how_far = _HowFar(said.append)
     for piece in pieces:
         how_far.heard(piece)
@@ -112,7 +113,7 @@ def test_a_build_says_how_far_it_is(pieces: list[bytes], expected: list[str], mo
 
 def test_a_build_does_not_say_it_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     said: list[str] = []
-    monkeypatch.setattr(_HowFar, "_EVERY", 3600.0)
+    monkeypatch.setattr(kit_artifacts, "_EVERY", 3600.0)
     how_far = _HowFar(said.append)
     for done in range(140):
         how_far.heard(f"[{done}/140] Building\n".encode())

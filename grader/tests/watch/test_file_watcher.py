@@ -37,6 +37,10 @@ class Watched:
 
 @pytest.fixture
 def course(tmp_path: Path) -> Project:
+    """With some of the kit's own sources, which are watched from the beginning."""
+    for name in ("framework/core/ray.hpp", "solutions/02-intersection/intersection.cpp"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).write_text("int a;")
     return small_project(tmp_path)
 
 
@@ -97,12 +101,36 @@ def test_a_file_that_goes_and_comes_back(watched: Watched) -> None:
 
 def test_the_tests_of_the_step_count_too(watched: Watched) -> None:
     watched.path.with_name("camera_rays_test.cpp").write_text("// more")
-    assert watched.next() == FileSaved("camera_rays_test.cpp", own=False)
+    assert watched.next() == FileSaved("steps/01-camera-rays/camera_rays_test.cpp", "kit")
+
+
+@pytest.mark.parametrize("watched", [False, True], ids=["events", "polling"], indirect=True)
+def test_what_the_program_is_built_from_counts_too(watched: Watched, course: Project, steps: list[Step]) -> None:
+    """The student's own steps before this one, and the kit's sources; no step after it."""
+    watched.saves.look_at(steps[2])
+    watched.path.write_text("int earlier;")
+    assert watched.next() == FileSaved("steps/01-camera-rays/camera_rays.cpp", "earlier")
+    (course.steps / steps[3].path).write_text("int later;")
+    for name in ("framework/core/ray.hpp", "solutions/02-intersection/intersection.cpp"):
+        (course.root / name).write_text("int changed;")
+        assert watched.next() == FileSaved(name, "kit")
+    watched.assert_quiet()
+
+
+def test_many_at_once_are_one_save(watched: Watched, course: Project) -> None:
+    (course.root / "framework" / "core" / "ray.hpp").write_text("int changed;")
+    watched.path.write_text("int changed;")
+    found = watched.next()
+    assert found in (
+        FileSaved("framework/core/ray.hpp and 1 more file", "kit"),
+        FileSaved(_OWN),  # where the second came only after the first was told of
+        FileSaved("framework/core/ray.hpp", "kit"),
+    )
 
 
 def test_another_step_from_now_on(watched: Watched, course: Project, steps: list[Step]) -> None:
     watched.saves.look_at(steps[1])
-    watched.path.write_text("int old;")
+    (course.steps / steps[2].path).write_text("int later;")
     (course.steps / steps[1].path).write_text("int new_one;")
     assert watched.next() == FileSaved(steps[1].file)
     watched.assert_quiet()

@@ -1,61 +1,94 @@
-"""The key `i`: into the pixel that is most wrong."""
+"""The key `i`: into the pixel that is most wrong, beside the loop."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+import sys
+from collections.abc import Iterator
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
+from queue import Queue
 
 import pytest
-from course_fakes import printed, text
-from watch_fakes import result_of
+import watch_fakes
+from course_fakes import small_project, write_own
+from terminals import Terminal
 
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
-from raysteps.watch import session as actions
-from raysteps.watch.session import Actions
-from raysteps.watch.step_view import StepView
-from raysteps.watch.terminal_view import TerminalView
+from raysteps.watch.events import Event, InspectEnded
+from raysteps.watch.inspection import Inspection
 
 _COMMAND = "./raysteps inspect scenes/lessons/three-spheres.nff 5 3 --step 1 --size 160x120 --against reference"
 
 
-class LentKeyboard:
-    """Says when somebody else has the terminal."""
-
-    def __init__(self, log: list[str]) -> None:
-        self._log = log
-
-    @contextmanager
-    def lent(self) -> Iterator[None]:
-        self._log.append("lent")
-        yield
-        self._log.append("back")
+@pytest.fixture
+def terminal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Terminal]:
+    """`watch` of a wrong step."""
+    monkeypatch.setenv("FAKE_LOG", str(tmp_path / "log.txt"))
+    course = small_project(tmp_path / "kit")
+    write_own(course, _first(course), "// wrong")
+    found = Terminal([sys.executable, Path(watch_fakes.__file__), course.root, "01", "--quick"])
+    yield found
+    found.close()
 
 
-def _press(project: Project, step: Step, source: str, out: Path, log: list[str]) -> str:
-    """What is printed."""
-    view = StepView(step, "idle", result=result_of(step, source, out, full=False), out=out, complete=True)
-    session: Any = SimpleNamespace(
-        project=project, view=view, showing=TerminalView(printed()), keyboard=LentKeyboard(log)
-    )
-    session.look = session.go_to = session.check = None
-    Actions(session).press("i")
-    return text(session.showing.console)
+def _first(course: Project) -> Step:
+    return read_steps(course)[0]
 
 
-def test_where_nothing_is_wrong(project: Project, steps: list[Step], tmp_path: Path) -> None:
-    assert _press(project, steps[0], "int right;", tmp_path, []).startswith("No picture is wrong")
+def _save(tmp_path: Path, source: str) -> None:
+    course = Project(tmp_path / "kit")
+    write_own(course, _first(course), source)
 
 
-def test_it_runs_while_the_keys_rest(
-    project: Project, steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    log: list[str] = []
+def test_where_nothing_is_wrong(terminal: Terminal, tmp_path: Path) -> None:
+    terminal.wait("q quit")
+    _save(tmp_path, "int right;")
+    terminal.wait("✓ 2 tests right")
+    terminal.wait("q quit")
+    terminal.press("i")
+    terminal.wait("No picture is wrong")
 
-    def run(_project: Project, words: Sequence[str]) -> None:
-        log.append(" ".join(words))
 
-    monkeypatch.setattr(actions, "run_inspect", run)
-    assert _press(project, steps[0], "// wrong", tmp_path, log) == _COMMAND + "\n"
-    assert log == ["lent", _COMMAND.removeprefix("./raysteps "), "back"]
+def test_a_save_ends_it_and_is_looked_at_at_once(terminal: Terminal, tmp_path: Path) -> None:
+    """It is still at work: it builds its program."""
+    terminal.wait("q quit")
+    terminal.press("i")
+    terminal.wait(_COMMAND.partition(" --against")[0])
+    terminal.wait("looking: inspect scenes/lessons/three-spheres.nff 5 3")
+    _save(tmp_path, "int right;")
+    terminal.wait("the build was ended")
+    terminal.wait("camera_rays.cpp saved")
+    terminal.wait("✓ 2 tests right, 1 picture right.")
+    terminal.wait("q quit")
+    terminal.press("q")
+    assert terminal.end() == 0
+
+
+def test_a_key_ends_it_and_does_what_it_does(terminal: Terminal) -> None:
+    terminal.wait("q quit")
+    terminal.press("i")
+    terminal.wait("looking:")
+    terminal.press("l")
+    terminal.wait("the build was ended")
+    terminal.wait("Bounding volumes")
+    terminal.press("i")
+    terminal.wait("looking:")
+    terminal.press("q")
+    terminal.wait("Stopped watching.")
+    assert terminal.end() == 0
+    assert terminal.is_as_before()
+
+
+def test_of_several_only_the_last_is_told_of(tmp_path: Path) -> None:
+    events: Queue[Event] = Queue()
+    inspection = Inspection(Project(tmp_path), events.put, [sys.executable, "-c", "import time; time.sleep(1000)"])
+    inspection.start([])
+    inspection.stop()
+    assert not inspection.is_running
+    stopped = events.get(timeout=60)
+    assert isinstance(stopped, InspectEnded)
+    assert not inspection.ended(stopped.run)
+    inspection = Inspection(Project(tmp_path), events.put, [sys.executable, "-c", "pass"])
+    inspection.start([])
+    ended = events.get(timeout=60)
+    assert isinstance(ended, InspectEnded)
+    assert inspection.ended(ended.run)
+    assert not inspection.is_running

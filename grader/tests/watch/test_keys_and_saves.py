@@ -67,6 +67,7 @@ def test_a_lesson(course: Project, steps: list[Step], terminals: list[Terminal])
     terminal.wait("✓ 2 tests right, 1 picture right.")
     terminal.press("c")
     terminal.wait("✓ Passed: 10 of 10 points.")
+    terminal.wait("next: 02 Intersection. Press n, or type ./raysteps watch 02")
     terminal.press("\x1b[C")  # an arrow, not the keys that are in it
     terminal.press("n")
     terminal.wait("02 Intersection: watching")

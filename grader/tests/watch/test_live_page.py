@@ -74,7 +74,7 @@ def test_it_follows_what_happens(live: Live, pages: Watched) -> None:
     _says(page, "#watch-verdict", "1 of 2 tests right, 0 of 1 picture right.")
     _says(page, "#watch-words .panel", "2 == 1")
     _says(page, "#watch-words .watch-name", "it is <b>right</b>")
-    _says(page, "#watch-pictures h2", "✗ wrong")
+    _says(page, "#watch-first h2", "✗ wrong")
     page.locator("compare-pictures[data-state=ready]").wait_for()
     before = page.locator("img[data-role=mine]").get_attribute("src")
     live.show(live.view("// broken"))
@@ -109,7 +109,7 @@ def test_before_there_is_a_picture_the_reference_is_shown(live: Live, pages: Wat
     image = view.result.images[0]
     mine, image.mine, image.passed = image.mine, None, False
     live.show(view)
-    _says(page, "#watch-pictures", "This is what it shall look like.")
+    _says(page, "#watch-first", "This is what it shall look like.")
     goal, compared = page.locator("img.watch-goal"), page.locator("compare-pictures")
     assert goal.is_visible()
     assert not compared.is_visible()
@@ -123,10 +123,10 @@ def test_before_there_is_a_picture_the_reference_is_shown(live: Live, pages: Wat
 def test_another_step_takes_the_place_of_this_one(live: Live, pages: Watched, steps: list[Step]) -> None:
     page = pages.open(live.server.address)
     live.show(live.view("// wrong"))
-    _says(page, "#watch-pictures h2", steps[0].images[0].name)
+    _says(page, "#watch-first h2", steps[0].images[0].name)
     live.show(StepView(steps[1]))
     _says(page, "h1", "02 Intersection")
-    assert page.locator("#watch-pictures article, #watch-words .panel").count() == 0
+    assert page.locator(".watch-pictures article, #watch-words .panel").count() == 0
 
 
 def test_reloaded_it_is_the_same(live: Live, pages: Watched) -> None:
@@ -147,6 +147,30 @@ def test_it_says_when_nobody_watches_any_more(live: Live, pages: Watched) -> Non
     live.server.close()
     _says(page, "#watch-doing[data-phase=over]", "Not watching any more.")
     _says(page, "#watch-verdict", "2 tests right")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1400, 900), (390, 844), (700, 900)])
+def test_the_first_screen_shows_ones_own_picture(live: Live, pages: Watched, width: int, height: int) -> None:
+    page = pages.open(live.server.address, width=width)
+    page.set_viewport_size({"width": width, "height": height})
+    view = _failing(live)
+    view.result.images.append(replace(view.result.images[0], name="another"))  # type: ignore[union-attr]
+    live.show(view)
+    page.locator("compare-pictures[data-state=ready]").first.wait_for()
+    box = page.locator(".compare-stage").first.bounding_box()
+    assert box is not None
+    assert box["height"] > 150
+    assert box["y"] + box["height"] <= height
+    assert [one.inner_text().split()[0] for one in page.locator("#watch-pictures h2").all()] == ["another"]
+
+
+def test_a_step_that_is_done_leads_to_the_next(live: Live, pages: Watched, steps: list[Step]) -> None:
+    page = pages.open(live.server.address)
+    live.show(replace(live.view("int right;", full=True), following=steps[1]))
+    _says(page, "#watch-next", "Next: 02 Intersection. Press n in the terminal, or type ./raysteps watch 02")
+    live.show(live.view("// wrong"))
+    _says(page, "#watch-verdict", "1 of 2 tests right")
+    assert not page.locator("#watch-next").is_visible()
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(360, "light"), (1440, "dark")])

@@ -13,8 +13,9 @@ from raysteps.cli.watch import on_a_desktop
 from raysteps.course.manifest import Step
 from raysteps.images.compare import write_png
 from raysteps.report.wording import inspect_command, typed
+from raysteps.report.worst_pixel import worst_pixel
 from raysteps.watch.page_state import page_of, state_of
-from raysteps.watch.session import command_of_worst, worst_pixel
+from raysteps.watch.session import command_of_worst
 from raysteps.watch.step_view import StepView, verdict
 
 _TALLY = "1 of 2 tests right, 0 of 1 picture right"

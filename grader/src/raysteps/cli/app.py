@@ -15,7 +15,8 @@ from typing import Any, Literal
 from rich.console import Console
 
 from raysteps import __version__
-from raysteps.common.errors import GraderFault, RaystepsError, is_full, reason, reason_and_place
+from raysteps.common.errors import GraderFault, RaystepsError, UsageError, is_full, reason, reason_and_place
+from raysteps.common.text import did_you_mean
 from raysteps.course.project import Project, here
 
 EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
@@ -83,13 +84,6 @@ def _module(project: Project, command: Command) -> ModuleType:
     return import_module(command.module)
 
 
-def _nearest(word: str, known: Iterable[str]) -> str:
-    """What may have been meant, as the end of a sentence."""
-    from difflib import get_close_matches  # rarely
-
-    return "".join(f"; did you mean {name}?" for name in get_close_matches(word, list(known), n=1))
-
-
 class _Parser(argparse.ArgumentParser):
     """Of one command: it refuses what it does not know itself, with its own usage. argparse hands that up to the
     parser of all commands, which knows nothing of it, and asks first for what is missing."""
@@ -108,7 +102,7 @@ class _Parser(argparse.ArgumentParser):
         names = self._option_string_actions
         for option in (word.partition("=")[0] for word in words):
             if not any(name.startswith(option) for name in names):  # argparse takes the beginning of one, too
-                self.error(f"{option}: there is no such option{_nearest(option, names)}")
+                self.error(f"{option}: there is no such option{did_you_mean(option, names)}")
 
 
 def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentParser:
@@ -184,6 +178,9 @@ def exit_code_of(error: BaseException) -> int:
         where = reason_and_place(error)
         _tell(f"something cannot be written: {where}; make room and type it again")
         return GraderFault.exit_code
+    if isinstance(error, PermissionError):
+        _tell(f"{reason_and_place(error)}; what it needs there must be open to you")
+        return UsageError.exit_code
     if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):
         raise error
     Console(stderr=True).print_exception(max_frames=4)
@@ -202,7 +199,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             if words and not words[0].startswith("-"):
                 names = [one.name for one in _commands(project)]
                 parser.error(
-                    f"{words[0]}: there is no such command{_nearest(words[0], names) or '.'} See ./raysteps --help"
+                    f"{words[0]}: there is no such command{did_you_mean(words[0], names) or '.'} See ./raysteps --help"
                 )
             if words:
                 parser.parse_args(words)  # which says what is wrong with them, or prints the help

@@ -26,7 +26,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     told = []
 
     def tell(kit: BuiltKit, results: Results) -> None:
-        print_details(console, results, kit.steps, out, replay_command)
+        print_details(console, results, kit.steps, out, replay_command, inspects=True)
         console.print()
         print_table(console, results, visible_only=not project.has_reference)
         told.append(results)

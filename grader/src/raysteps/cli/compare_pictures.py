@@ -33,7 +33,7 @@ _EXPECTED = "expected a picture as `./raysteps render` writes it, .png or .ppm"
 
 def _read(path: Path) -> Pixels:
     if not path.is_file():
-        what = "is a folder" if path.is_dir() else "there is no such file"
+        what = "is a folder" if path.is_dir() else "is not there"
         raise UsageError(f"{path}: {what}; {_EXPECTED}")
     try:
         path.open("rb").close()

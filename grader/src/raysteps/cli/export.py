@@ -35,7 +35,7 @@ from raysteps.exports.prairielearn import to_prairielearn
 from raysteps.exports.similarity import add_similarity_arguments, export_similarity
 from raysteps.grading.withhold import withhold
 from raysteps.results.store import read_results
-from raysteps.toolchain.limits import parse_limits
+from raysteps.toolchain.limits import LIMIT_HELP, parse_limits
 
 # `export canvas` and `export moodle`.
 
@@ -142,7 +142,7 @@ def _add_grading(parser: argparse.ArgumentParser) -> None:
         metavar="STEP",
         help="only these; all when none is given",
     )
-    group.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as memory_mb=512")
+    group.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help=LIMIT_HELP)
     group.add_argument("--minutes", type=_minutes, default=9.0, metavar="N", help="give up after that long (9)")
 
 

@@ -13,6 +13,7 @@ from rich.console import Console
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.common.platform import own_command, quote_command
+from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -25,9 +26,9 @@ from raysteps.report.terminal import print_details, print_files, print_isolation
 from raysteps.results.model import Results
 from raysteps.results.settings import Settings
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.submission.load import load_submission, submission_name
+from raysteps.submission.load import load_submission, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.limits import give_up_after, parse_limits
+from raysteps.toolchain.limits import LIMIT_HELP, give_up_after, parse_limits
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--feedback", choices=["full", "diagnosis", "score"], default="full", help="what results.json tells"
     )
-    parser.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
+    parser.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help=LIMIT_HELP)
     parser.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
     parser.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
 
@@ -73,8 +74,25 @@ def seconds_at_most(words: Sequence[str]) -> float:
     return give_up_after(changes)
 
 
+_NAMED = 5
+
+
+def _refuse_a_class(project: Project, path: Path) -> None:
+    """Of two submissions in one folder neither could be taken: the student would get nothing."""
+    names = submissions_inside(path, read_steps(project))
+    if names:
+        more = [f"{len(names) - _NAMED} more"] if len(names) > _NAMED else []
+        one = f"{own_command()} {quote_command(['grade', str(path / names[0])])}"
+        all_ = f"{own_command()} {quote_command(['grade-class', str(path), '--out', 'grades'])}"
+        raise UsageError(
+            f"{path}: holds several submissions: {join_and([*names[:_NAMED], *more])}. "
+            f"Grade one of them with `{one}`, or all with `{all_}`"
+        )
+
+
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Grades one submission."""
+    _refuse_a_class(project, arguments.submission)
     only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
     seed = read_course(project).seed_or(arguments.seed)
     settings = Settings(arguments.feedback, parse_limits(arguments.limit), tuple(only), seed)

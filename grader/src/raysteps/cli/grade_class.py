@@ -27,7 +27,7 @@ from raysteps.common.platform import refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
 from raysteps.results.class_model import ClassResults
-from raysteps.toolchain.limits import parse_limits
+from raysteps.toolchain.limits import LIMIT_HELP, parse_limits
 
 # The words after `grade-class`.
 
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
     add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
-    add("--limit", action="append", default=[], metavar="NAME=VALUE", help="such as seconds=40")
+    add("--limit", action="append", default=[], metavar="NAME=VALUE", help=LIMIT_HELP)
     add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
     add("--scheduler", default="", metavar="ADDRESS", help="grade on a Dask cluster, such as tcp://head:8786")
     add("--shard", default="1/1", metavar="i/n", help="grade only the i-th of n parts of the class")

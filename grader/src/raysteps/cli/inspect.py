@@ -3,24 +3,30 @@
 import argparse
 import re
 import sys
+import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli.render import build_program, whose
+from raysteps.cli.render import build_program, refuse_no_scene, whose
 from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
+from raysteps.common import process
 from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
+from raysteps.inspector.contradictions import contradiction
 from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import write_page
 from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
 from raysteps.inspector.records import Difference
-from raysteps.toolchain.cmake import release_tree
+from raysteps.report.page import NotAPicture, PictureData, picture_data
+from raysteps.toolchain.cmake import BuildTree, release_tree
 
 
 def _pixel(word: str) -> str:
@@ -99,8 +105,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         raise UsageError("a students' kit has no reference to inspect; pictures made with it lie in reference/")
     if arguments.against and arguments.impl == "reference":
         raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
-    if not Path(arguments.scene).is_file():
-        raise UsageError(f"{arguments.scene}: expected a scene, found no file of that name")
+    refuse_no_scene([arguments.scene])
     if arguments.impl == "mine":
         _say_unfinished(project, options)
 
@@ -112,12 +117,54 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         _tell_problem(inspected, program, options)
         return 1
     _write_json(arguments, inspected, console)
+    pictures = {}
+    if arguments.html is not None:
+        impls = {"mine": arguments.impl} | ({"reference": "reference"} if arguments.against else {})
+        found = {name: _picture(tree, impl, inspected, options) for name, impl in impls.items()}
+        pictures = {name: picture for name, picture in found.items() if picture is not None}
     if reference is not None:
-        return compare(project, inspected, inspect(reference, options), console, arguments.html)
+        code = compare(project, inspected, inspect(reference, options), console, arguments.html, pictures)
+        _tell_contradiction(project, inspected, console)
+        return code
     assert inspected.record is not None
     sys.stdout.write(inspected.text)
-    _write_html(arguments.html, console, inspected.record)
+    sys.stdout.flush()
+    _tell_contradiction(project, inspected, console)
+    _write_html(arguments.html, console, inspected.record, pictures=pictures)
     return 1 if inspected.record.endless else 0
+
+
+_MOST_PIXELS = 1 << 20  # of a picture in a page
+_PICTURE_SECONDS = 60
+
+
+def _picture(tree: BuildTree, impl: str, inspected: InspectResult, options: InspectOptions) -> PictureData | None:
+    """The picture that the pixel is one of; none where it is very large, or does not come to its end."""
+    assert inspected.record is not None
+    camera = inspected.record.camera
+    if camera["width"] * camera["height"] > _MOST_PIXELS:
+        return None
+    program = build_program(tree, "raytrace", impl)
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        target = Path(folder) / "picture.png"
+        words = [options.scene, "--step", str(options.step), *options.options, "--quiet", "-o", str(target)]
+        outcome = process.run([program, *words], seconds=_PICTURE_SECONDS)
+        try:
+            return picture_data(target) if outcome.code == 0 else None
+        except NotAPicture:
+            return None
+
+
+def _tell_contradiction(project: Project, inspected: InspectResult, console: Console) -> None:
+    """Where tests pass and every picture is wrong, a record that an earlier step hands on is often to blame."""
+    found = contradiction(inspected.record) if inspected.record is not None else None
+    if found is None:
+        return
+    step = next((step for step in read_steps(project) if found.function in step.functions), None)
+    console.print(f"[bold red]A hit record contradicts its ray[/bold red]: {escape(found.words)}.", highlight=False)
+    if step is not None:
+        place = f"[bold]{escape(found.function)}[/bold] in steps/{escape(step.path.as_posix())}"
+        console.print(f"  Look at {place} (step {step.number}), which makes the record.", highlight=False)
 
 
 def _write_html(
@@ -126,15 +173,17 @@ def _write_html(
     record: Record,
     reference: Record | None = None,
     divergence: Difference | None = None,
+    pictures: Mapping[str, PictureData] = MappingProxyType({}),
 ) -> None:
     if path is not None:
-        write_page(record, reference, divergence, path)
+        write_page(record, reference, divergence, path, pictures)
         console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
 
 
 def compare(
-    project: Project, mine: InspectResult, reference: InspectResult, console: Console, html: Path | None = None
-) -> int:
+    project: Project, mine: InspectResult, reference: InspectResult, console: Console, html: Path | None = None,
+    pictures: Mapping[str, PictureData] = MappingProxyType({}),
+) -> int:  # fmt: skip
     """Both trees, and the first place where they part."""
     # What knows the formulas of the steps is not for students.
     from raysteps.inspector.divergence import find_divergence
@@ -146,5 +195,5 @@ def compare(
     divergence = find_divergence(mine.record, reference.record)
     print_trees(console, mine.record, reference.record, divergence)
     print_verdict(console, read_steps(project), mine.record, reference.record, divergence)
-    _write_html(html, console, mine.record, reference.record, divergence)
+    _write_html(html, console, mine.record, reference.record, divergence, pictures)
     return 0 if divergence is None else 1

@@ -1,9 +1,11 @@
 """The command `render`: builds what is out of date, then runs raytrace with the same arguments."""
 
 import argparse
+import os
 import re
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from raysteps.cli.todo_steps import advice, as_far_as_written, wanted_step
@@ -145,6 +147,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("args", nargs=argparse.REMAINDER)
 
 
+def refuse_no_scene(args: Sequence[str]) -> None:
+    """Before anything is built."""
+    scene = next((word for word in args if word.lower().endswith(".nff")), None)
+    if scene is not None and not Path(scene).is_file():
+        what = "is a folder" if Path(scene).is_dir() else "is not there"
+        raise UsageError(f"{scene}: {what}; expected a scene, such as scenes/lessons/three-spheres.nff")
+
+
+def _is_where_we_print(path: Path) -> bool:
+    """Such as /dev/stdout, into a pipe or a file."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(sys.stdout.fileno()))
+    except (OSError, ValueError):
+        return False
+
+
+def _draw(program: Path, args: list[str], picture: str | None) -> int:
+    """Says where the picture is, except in the picture itself."""
+    code = run_raytrace(program, args)
+    if code == 0 and picture is not None and "--quiet" not in args and not _is_where_we_print(Path(picture)):
+        print(f"Picture: {picture}", flush=True)
+    return code
+
+
 def run_words(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and --impl."""
     impl, args = take_impl(args)
@@ -152,14 +178,16 @@ def run_words(project: Project, args: list[str]) -> int:
     if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
         raise UsageError(f"{args[at]}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
+    refuse_no_scene(args)
+    picture = args[at] if at < len(args) else None
     if impl == "reference":
         kit = build_kit(project, lambda text: _say(text, first=False))
-        return run_raytrace(kit.reference("raytrace"), args)
+        return _draw(kit.reference("raytrace"), args, picture)
     program = build_mine(release_tree(project))
-    if at == len(args):
+    if picture is None:
         return run_raytrace(program, args)
     more, said = as_far_as_written(project, args)
-    code = run_raytrace(program, [*args, *more])
+    code = _draw(program, [*args, *more], picture)
     if code != _USAGE:  # then it says what is wrong with the words, and nothing was drawn
         notes = [note for note in (said, advice(project, wanted_step(project, [*args, *more]))) if note]
         print("".join(f"raysteps: {note}\n" for note in notes), end="", file=sys.stderr)

@@ -2,6 +2,8 @@
 
 import argparse
 import json
+import os
+import re
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -10,6 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.platform import own_command
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
@@ -19,6 +22,7 @@ from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
+from raysteps.report.wording import check_command
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
@@ -41,6 +45,17 @@ def _inside(parts: list[Any], name: str) -> list[Any]:
     """What the lists of that name hold; anything may stand in a file."""
     lists = [part.get(name) for part in parts if isinstance(part, dict)]
     return [one for found in lists if isinstance(found, list) for one in found]
+
+
+def _refuse_what_is_gone(path: Path) -> None:
+    """Each check writes its cases anew, and clears those that are right now."""
+    if not os.path.lexists(path):
+        found = re.match(r"[0-9]{2}(?=-)", path.name)
+        again = check_command(found[0]) if found else f"{own_command()} check"
+        raise UsageError(
+            f"{path}: is not there: a check clears the cases of the one before, and writes those that are wrong now. "
+            f"Type `{again}`, and then the command that it names, if there is one"
+        )
 
 
 def _refuse_what_is_no_case(path: Path) -> None:
@@ -73,6 +88,7 @@ def _read(project: Project, path: Path) -> tuple[CaseFile, Step, Case]:
     try:
         file = read_case(path)
     except UsageError:
+        _refuse_what_is_gone(path)
         _refuse_what_is_no_case(path)
         raise
     steps = read_steps(project)

@@ -91,7 +91,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         raise UsageError("expected a newer release, a folder or a zip, such as in: ./raysteps update ../course-2.zip")
     old = read_release(root)
     if old is None:
-        raise UsageError(f"{root / PLACE}: is missing; expected a repository that came from a release of the kit")
+        raise UsageError(f"{root / PLACE}: is not there; expected a repository that came from a release of the kit")
     before = _named(old, (root / PLACE).read_bytes())
     with open_source(arguments.kit or project.root) as source:
         _refuse_wrong(root, old, source, course_changed=arguments.course_changed)

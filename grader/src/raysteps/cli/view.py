@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from raysteps.cli.render import build_program, run_raytrace, take_impl
+from raysteps.cli.render import build_program, refuse_no_scene, run_raytrace, take_impl
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import BuildTree, release_tree
@@ -40,4 +40,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
+    refuse_no_scene(args)
     return run_raytrace(build_view(release_tree(project), impl), args)

@@ -18,6 +18,7 @@ from raysteps.course.project import Project
 from raysteps.progress.standing import chosen_or_next
 from raysteps.watch.events import Event
 from raysteps.watch.file_watcher import FileWatcher, why_poll
+from raysteps.watch.inspection import INSPECT, Inspection
 from raysteps.watch.keyboard import find_keyboard
 from raysteps.watch.page_state import PageState, page_of, state_of
 from raysteps.watch.runner import WORKER, Runner
@@ -57,18 +58,21 @@ def _end(_number: int, _frame: FrameType | None) -> None:
 
 
 def _watch(
-    project: Project, step: Step, arguments: argparse.Namespace, showing: TerminalView, words: Sequence[str]
-) -> None:
+    project: Project, step: Step, arguments: argparse.Namespace, showing: TerminalView,
+    worker: Sequence[str], program: Sequence[str],
+) -> None:  # fmt: skip
     events: queue.Queue[Event] = queue.Queue()
     why = "--poll" if arguments.poll else why_poll(project.steps)
     with ExitStack() as stack:
         board = PageState(state_of(StepView(step)))
         server = PageServer(board, page_of, arguments.port)
         stack.callback(server.close)
-        runner = Runner(project, events.put, words)
+        runner = Runner(project, events.put, worker)
         stack.callback(runner.close)
         saves = FileWatcher(project, step, events.put, poll=bool(why))
         stack.callback(saves.close)
+        inspection = Inspection(project, events.put, program)
+        stack.callback(inspection.stop)
         keyboard = find_keyboard(events.put)
         stack.callback(keyboard.close)
         saves.start()
@@ -79,12 +83,17 @@ def _watch(
         if on_a_desktop() if arguments.browser is None else arguments.browser:
             with suppress(webbrowser.Error, OSError):
                 webbrowser.open(server.address)
-        session = Session(project, step, events, runner, saves, keyboard, board, showing, checks=not arguments.quick)
+        session = Session(
+            project, step, events, runner, saves, keyboard, inspection, board, showing, checks=not arguments.quick
+        )
         session.run()
 
 
-def run(project: Project, arguments: argparse.Namespace, console: Console, worker: Sequence[str] = WORKER) -> int:
-    """Watches until somebody quits. `worker` is the program that does the jobs."""
+def run(
+    project: Project, arguments: argparse.Namespace, console: Console,
+    worker: Sequence[str] = WORKER, program: Sequence[str] = INSPECT,
+) -> int:  # fmt: skip
+    """Watches until somebody quits. `worker` does the jobs, and `program` looks into pixels."""
     step = chosen_or_next(project, arguments.step)
     showing = TerminalView(console)
     if step is None:
@@ -94,7 +103,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, worke
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), _end)
     try:
-        _watch(project, step, arguments, showing, worker)
+        _watch(project, step, arguments, showing, worker, program)
     except KeyboardInterrupt:
         showing.command("\nStopped watching.")
         return _INTERRUPTED

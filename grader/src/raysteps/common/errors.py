@@ -26,7 +26,7 @@ class GraderFault(RaystepsError):
 
 
 _REASONS = {
-    errno.ENOENT: "there is no such file or folder",
+    errno.ENOENT: "it is not there",
     errno.EISDIR: "it is a folder",
     errno.ENOTDIR: "a part of the path is a file, not a folder",
     errno.EACCES: "no permission",

@@ -36,6 +36,15 @@ def kill_process_group(process: "subprocess.Popen[bytes]") -> None:
             os.killpg(process.pid, signal.SIGKILL)
 
 
+_running: "set[subprocess.Popen[bytes]]" = set()
+
+
+def end_what_runs() -> None:
+    """For a process that is to end at once: what `run` has started in it, which has sessions of its own."""
+    for process in list(_running):
+        kill_process_group(process)
+
+
 # Reads what a program says, on every system and without waiting for it.
 
 _PIECE = 1 << 16
@@ -155,12 +164,14 @@ def run(
         stderr=subprocess.PIPE,
         **new_session(),
     )
+    _running.add(process)
     pipes = [PipeReader(process.stdout, cap, heard), PipeReader(process.stderr, cap)]
     try:
         in_time = _has_ended_in_time(process, pipes, start + seconds)
     finally:
         kill_process_group(process)
         code = process.wait()
+        _running.discard(process)
     until = time.monotonic() + _LEFT_BEHIND_SECONDS
     for pipe in pipes:
         pipe.is_at_end(until - time.monotonic())

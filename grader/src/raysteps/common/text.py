@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 _UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -27,6 +27,13 @@ def clean(text: str, limit: int = 4000) -> str:
 def join_and(words: Sequence[str]) -> str:
     """`a`, `a and b` or `a, b and c`."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """What may have been meant, as the end of a sentence, or nothing."""
+    from difflib import get_close_matches  # rarely
+
+    return "".join(f"; did you mean {name}?" for name in get_close_matches(word, list(known), n=1))
 
 
 def number(value: float) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.text import did_you_mean
 from raysteps.course.project import Project
 
 
@@ -165,6 +166,7 @@ def choose(steps: list[Step], names: list[str]) -> list[Step]:
         number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
         found = [step for step in steps if name == step.id or number == step.number]
         if not found:
-            raise UsageError(f"there is no step '{name}'; the steps are {', '.join(step.id for step in steps)}")
+            meant = did_you_mean(name, [step.id for step in steps]) or "."
+            raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}")
         chosen += found
     return [step for step in steps if step in chosen]

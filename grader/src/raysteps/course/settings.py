@@ -45,7 +45,7 @@ def _path(project: Project) -> Path | None:
     if named:
         path = Path(named)
         if not path.is_file():
-            raise UsageError(f"{PLACE}={named}: there is no such file; expected a {FILE}, or unset the variable")
+            raise UsageError(f"{PLACE}={named}: is not there; expected a {FILE}, or unset the variable")
         return path
     path = project.root / FILE
     return path if path.is_file() else None

@@ -26,7 +26,7 @@ from raysteps.judge.worker import ask_student
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program, StudentBuild
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback, paced
 from raysteps.toolchain.limits import limits_of
 
 _FACTS = "answers"
@@ -166,15 +166,23 @@ def mutant_fingerprints(
         with one_at_a_time(path.with_suffix(".lock")):
             known = _found(path)
             if known is None:
-                say(f"learning the known mistakes of {step.number} (once)")
-                known = _learn(kit, step, plan, mutants, sandbox or LimitsOnly())
+                what = f"learning the known mistakes of {step.number} (once)"
+                say(what)
+                far = paced(lambda text: say(f"{what}: {text}"))
+                known = _learn(kit, step, plan, mutants, sandbox or LimitsOnly(), far)
                 write_known(path, known)
     return known
 
 
-def _learn(kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], sandbox: Sandbox) -> Known:
+def _learn(
+    kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], sandbox: Sandbox, far: ProgressCallback
+) -> Known:
+    """`far` hears of each that is done."""
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder, ThreadPoolExecutor(_AT_A_TIME) as pool:
         learner = _Learner(kit, step, plan, Path(folder), sandbox)
         forms = {name: form for mutant in mutants for name, form in mutant.choices().items()}
-        learned = list(pool.map(learner.learn, forms, forms.values()))
-    return dict(zip(forms, learned, strict=True))
+        known: dict[str, MutantFingerprint] = {}
+        for name, learned in zip(forms, pool.map(learner.learn, forms, forms.values()), strict=True):
+            known[name] = learned
+            far(f"{len(known)} of {len(forms)}")
+    return known

@@ -114,9 +114,7 @@ def _find(project: Project, word: str) -> Path:
         return known[word]
     path = Path(word)
     if not path.is_file():
-        raise UsageError(
-            f"--scene {word}: there is no such scene; expected an NFF file or one of {', '.join(sorted(known))}"
-        )
+        raise UsageError(f"--scene {word}: is not there; expected an NFF file or one of {', '.join(sorted(known))}")
     return path
 
 

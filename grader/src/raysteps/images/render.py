@@ -149,7 +149,7 @@ def render(sandbox: Sandbox, program: Program, scene: Path, args: tuple[str, ...
 def _kept(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Path:
     """Where the reference's picture of a scene is kept; its statistics lie beside it."""
     if not scene.is_file():
-        raise GraderFault(f"the scene {scene} is missing")
+        raise GraderFault(f"{scene}: is not there; expected the scene of a picture")
     key = hashlib.sha256(scene.read_bytes() + "\0".join(args).encode()).hexdigest()
     return kit.pictures / f"{key[:32]}.ppm"
 

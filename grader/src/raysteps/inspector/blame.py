@@ -5,10 +5,12 @@ import math
 from raysteps.inspector.model import Accel, Hit, Light, LightShare, Missed, Number, Ray, Way
 from raysteps.inspector.records import (
     CLOSE,
+    SHAPES,
     Vector,
     as_float,
     brief,
     dot,
+    intersect_of,
     length,
     minus,
     same_direction,
@@ -17,7 +19,6 @@ from raysteps.inspector.records import (
 _FARTHEST_START = 0.011  # what the contracts allow is 0.01
 _LEAST_START = 2e-4  # the contracts name 0.001
 _SAME_START = 1e-4
-_OWN = {"sphere": "Sphere", "triangle": "Triangle", "smooth-triangle": "Triangle"}
 _SEARCH = {
     "none": ("closest_hit", "closest_hit"),
     "boxes": ("closest_hit", "closest_hit"),
@@ -28,18 +29,13 @@ _SPACE = {"no-bounds": "bounds_of", "no-part": "split"}
 _BUILD = {"none": "closest_hit", "boxes": "split", "octree": "build_octree", "bvh": "build_bvh"}
 
 
-def intersect_of(kind: str) -> str:
-    """The step's function that meets a surface of this kind; nothing for one that the framework meets."""
-    return f"{_OWN[kind]}::intersect" if kind in _OWN else ""
-
-
 def lost_by(missed: Missed, accel: Accel, *, shadow: bool) -> str:
     """Why a surface was not found, although its own intersect finds it."""
     reason = missed.reason
     if reason == "box-missed":
         return "Box::clip"
     if reason == "no-overlap":
-        return f"{_OWN[missed.kind]}::overlaps" if missed.kind in _OWN else _BUILD[accel]
+        return f"{SHAPES[missed.kind]}::overlaps" if missed.kind in SHAPES else _BUILD[accel]
     if reason in _SPACE:
         return _SPACE[reason]
     if reason in ("not-listed", "no-box"):

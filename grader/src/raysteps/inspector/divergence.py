@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from raysteps.inspector import blame as expected
-from raysteps.inspector.blame import blame_bounce, blame_hit, blame_shadow, intersect_of, start_problem, tone_mapped
+from raysteps.inspector.blame import blame_bounce, blame_hit, blame_shadow, start_problem, tone_mapped
 from raysteps.inspector.model import Frame, Hit, LightShare, Ray, Record, Way
 from raysteps.inspector.records import (
     CLOSE,
@@ -16,6 +16,7 @@ from raysteps.inspector.records import (
     coarser,
     diverged,
     dot,
+    intersect_of,
     length,
     meets,
     minus,

@@ -1,9 +1,10 @@
 """A pixel as a page: its rays and boxes in three dimensions, and the tree of rays in words."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 from raysteps.common.files import write_out
 from raysteps.common.text import count
@@ -21,7 +22,7 @@ from raysteps.inspector.records import (
     point,
     surface_name,
 )
-from raysteps.report.page import render_page
+from raysteps.report.page import PictureData, render_page
 
 # A record as the lines of a tree, each with a key, so that two trees can stand side by side.
 
@@ -56,6 +57,11 @@ def _search(ray: Ray, key: Key, level: int) -> Iterator[Line]:
         yield Line((*key, "tests"), level, text, cost=True)
 
 
+def _view(hit: Hit) -> str:
+    """Back along the ray, as the hit record has it."""
+    return point([-as_float(part) for part in hit.ray_direction])
+
+
 def _hit(ray: Ray, key: Key, level: int) -> Iterator[Line]:
     hit = ray.hit
     yield Line((*key, "hit"), level, meets(hit))
@@ -63,6 +69,7 @@ def _hit(ray: Ray, key: Key, level: int) -> Iterator[Line]:
         side = "outside" if hit.from_outside else "inside"
         yield Line((*key, "position"), level + 1, f"position {point(hit.position)}, from {side}")
         yield Line((*key, "normal"), level + 1, f"normal {point(hit.normal)}")
+        yield Line((*key, "view"), level + 1, f"v {_view(hit)}")
 
 
 def light_words(light: LightShare) -> str:
@@ -79,7 +86,9 @@ def _light(light: LightShare, key: Key, level: int) -> Iterator[Line]:
         text = f"shadow ray {point(ray.origin)} towards {point(ray.direction)}"
         yield Line((*key, f"shadow{number}"), level + 1, text)
         yield from _search(ray, (*key, f"shadow{number}"), level + 2)
-    text = f"l.n {brief(light.l_n)}  diffuse {point(light.diffuse)}  specular {point(light.specular)}"
+    text = f"r {point(light.mirrored)}  l.n {brief(light.l_n)}  r.v {brief(light.r_v)}"
+    yield Line((*key, f"mirrored{number}"), level + 1, text)
+    text = f"diffuse {point(light.diffuse)}  specular {point(light.specular)}"
     yield Line((*key, f"terms{number}"), level + 1, text)
 
 
@@ -182,6 +191,7 @@ def _hit_lines(hit: Hit) -> list[str]:
     return [
         f"position {point(hit.position)}, from {'outside' if hit.from_outside else 'inside'}",
         f"normal {point(hit.normal)}",
+        f"v {_view(hit)}, ray_direction turned round",
         f"colour {point(fill.color)}  kd {brief(fill.kd)}  ks {brief(fill.ks)}  shine {brief(fill.shine)}"
         + (glass if as_float(fill.transmittance) else ""),
     ]
@@ -214,7 +224,8 @@ def page_ray(ray: Ray, surfaces: int, key: Key = ("eye",)) -> PageRay:
     made.color = shown_color(ray.color)
     for light in ray.lights:
         made.children += _shadow_rays(light, key, surfaces)
-        terms = f"diffuse {point(light.diffuse)}  specular {point(light.specular)}"
+        terms = f"r {point(light.mirrored)}  r.v {brief(light.r_v)}  "
+        terms += f"diffuse {point(light.diffuse)}  specular {point(light.specular)}"
         number = light.light + 1
         made.sums.append(f"light {number}, {light_words(light)}: l.n {brief(light.l_n)}  {terms}")
     if ray.direct is not None:
@@ -329,8 +340,14 @@ def _parts_at(tree: PageRay, divergence: Difference | None) -> str:
     return max(holders, key=lambda ray: len(ray.key)).id if holders else ""
 
 
-def page_html(record: Record, reference: Record | None = None, divergence: Difference | None = None) -> str:
-    """The document; with a reference both trees stand side by side, and the first difference is marked."""
+def page_html(
+    record: Record,
+    reference: Record | None = None,
+    divergence: Difference | None = None,
+    pictures: Mapping[str, PictureData] = MappingProxyType({}),
+) -> str:
+    """The document; with a reference both trees stand side by side, and the first difference is marked. `pictures`: of
+    which the pixel is one, by the names of the records."""
     records = {"mine": record} if reference is None else {"mine": record, "reference": reference}
     trees = {name: page_ray(one.ray, one.surfaces) for name, one in records.items()}
     pixel = record.pixel
@@ -339,6 +356,7 @@ def page_html(record: Record, reference: Record | None = None, divergence: Diffe
         "reference": reference,
         "trees": trees,
         "divergence": divergence,
+        "pictures": pictures,
         "parts_at": {name: _parts_at(tree, divergence) for name, tree in trees.items()},
         "swatch": shown_color([byte / 255 for byte in record.bytes] if record.bytes else None),
     }
@@ -347,6 +365,12 @@ def page_html(record: Record, reference: Record | None = None, divergence: Diffe
     return render_page("inspect", title, context, scripts=_SCRIPTS, styles=("inspect",), data=spaces)
 
 
-def write_page(record: Record, reference: Record | None, divergence: Difference | None, target: Path) -> None:
+def write_page(
+    record: Record,
+    reference: Record | None,
+    divergence: Difference | None,
+    target: Path,
+    pictures: Mapping[str, PictureData] = MappingProxyType({}),
+) -> None:
     """Writes the page of one record, or of two beside each other with the first difference marked."""
-    write_out(target, page_html(record, reference, divergence).encode("utf-8", "replace"))
+    write_out(target, page_html(record, reference, divergence, pictures).encode("utf-8", "replace"))

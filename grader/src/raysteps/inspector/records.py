@@ -93,6 +93,14 @@ def told(color: Vector | None) -> str:
 EYE = "eye"
 
 
+SHAPES = {"sphere": "Sphere", "triangle": "Triangle", "smooth-triangle": "Triangle"}  # that the steps meet
+
+
+def intersect_of(kind: str) -> str:
+    """The step's function that meets a surface of this kind; nothing for one that the framework meets."""
+    return f"{SHAPES[kind]}::intersect" if kind in SHAPES else ""
+
+
 class Difference(NamedTuple):
     """`place` is the key of a line of the tree; `function` is empty where no step's function is to blame."""
 

@@ -57,6 +57,8 @@ def read_case(path: Path) -> CaseFile:
         case = parse(data, CaseFile)
     except IsADirectoryError as error:
         raise _refuse(path, "a folder; name a file in it") from error
+    except FileNotFoundError as error:
+        raise _refuse(path, "is not there") from error
     except OSError as error:
         raise _refuse(path, f"cannot be read ({reason(error)})") from error
     except Malformed as error:

@@ -101,7 +101,7 @@ class Standing:
         """For people."""
         match self.kind:
             case "missing":
-                return "the file is missing"
+                return "the file is not there"
             case "unreadable":
                 return "the file cannot be read as text"
             case "not-started":

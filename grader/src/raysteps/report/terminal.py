@@ -8,10 +8,12 @@ from rich.console import Console
 from rich.markup import escape
 from rich.status import Status
 from rich.table import Table
+from rich.text import Text
 
 from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, SaidOnce, percent, total_words
+from raysteps.report.wording import HOW_SURE, SaidOnce, percent, total_words, typed
+from raysteps.report.worst_pixel import inspect_worst
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.toolchain.kit_artifacts import ProgressCallback
@@ -32,17 +34,39 @@ def _points(result: StepResult) -> str:
     return f"{tenths(result.points)} of {tenths(result.max)}" + (" bonus" if result.bonus else "")
 
 
+_INDENT = 13
+_LABEL = 10
+
+
+def _print_hanging(console: Console, head: str, text: str) -> None:
+    """The text behind its head, which is markup; what does not fit on the line stands below the text's beginning."""
+    first = Text.from_markup(head)
+    lines = Text(text).wrap(console, max(console.width - first.cell_len, 20)) or [Text()]
+    for line in lines:
+        line.rstrip()
+        console.print(first + line, soft_wrap=True)
+        first = Text(" " * first.cell_len)
+
+
+def _print_labelled(console: Console, label: str, text: str) -> None:
+    _print_hanging(console, " " * _INDENT + f"{label:<{_LABEL}}", text)
+
+
+def _print_below(console: Console, text: str) -> None:
+    _print_hanging(console, " " * _INDENT, text)
+
+
 def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
     """The word before it says how sure one can be."""
     word = HOW_SURE[diagnosis.kind]
     seen = ", ".join(diagnosis.seen_in) if diagnosis.kind != "finding" else ""
     where = f" (seen in {seen})" if seen else ""
-    console.print(f"  [bold yellow]{word}[/bold yellow]  {escape(diagnosis.title)}{escape(where)}")
+    _print_hanging(console, f"  [bold yellow]{word}[/bold yellow]  ", diagnosis.title + where)
     for other in diagnosis.alike:
-        console.print(f"             or  {escape(other)}")
+        _print_hanging(console, " " * _INDENT + "or  ", other)
     for label, text in (("you see", diagnosis.sees), ("cause", diagnosis.cause), ("hint", diagnosis.hint)):
         if text:
-            console.print(f"             {label:<9} {escape(text)}")
+            _print_labelled(console, label, text)
 
 
 def _ended(item: TestResult | ImageResult) -> str:
@@ -52,14 +76,12 @@ def _ended(item: TestResult | ImageResult) -> str:
 
 def _print_test(console: Console, test: TestResult, once: SaidOnce) -> None:
     ended = _ended(test)
-    console.print(f"  [red]test[/red]     {escape(test.name)}{f': {ended}' if ended else ''}")
+    _print_hanging(console, "  [red]test[/red]     ", f"{test.name}{f': {ended}' if ended else ''}")
     if test.expression:
-        console.print(f"             expected  {escape(test.expression)}")
-        console.print(f"             got       {escape(test.expanded)}")
-    message = once(test.message) if ended else test.message
-    if message:
-        for line in message.splitlines():
-            console.print(f"             {escape(line)}")
+        _print_labelled(console, "expected", test.expression)
+        _print_labelled(console, "got", test.expanded)
+    for line in (once(test.message) if ended else test.message).splitlines():
+        _print_below(console, line)
     if test.location:
         console.print(f"             [dim]{escape(test.location)}[/dim]")
 
@@ -86,7 +108,7 @@ def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce
     if not image.passed:
         message = once(image.message) if ended else image.message
         if message:
-            console.print(f"             {escape(message)}")
+            _print_below(console, message)
         if image.difference or image.mine:
             shown = out / (image.difference or image.mine or "")
             console.print(f"             see {escape(short_path(shown))}")
@@ -98,10 +120,10 @@ def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce
 def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
     if item.message:
-        console.print(f"             {escape(item.message)}")
+        _print_below(console, item.message)
     for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):
         if text:
-            console.print(f"             {label:<9} {escape(text)}")
+            _print_labelled(console, label, text)
     if item.case:
         console.print(f"             {'again':<9} {escape(again(item.case))}", soft_wrap=True)
 
@@ -114,15 +136,19 @@ def short_path(path: Path) -> str:
         return str(path)
 
 
-def print_details(console: Console, results: Results, steps: list[Step], out: Path, again: Again) -> None:
+def print_details(
+    console: Console, results: Results, steps: list[Step], out: Path, again: Again, *, inspects: bool = False
+) -> None:
     """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
-    case once more."""
-    titles = {step.id: step.title for step in steps}
+    case once more; `inspects`: the steps are those in the repository, so that `inspect` sees what they do."""
+    known = {step.id: step for step in steps}
     for result in results.steps:
-        console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
+        console.print(
+            f"\n[bold]{result.id}[/bold] {escape(known[result.id].title)}: {_status(result)}, {_points(result)}"
+        )
         for message in result.messages:
             for line in message.splitlines():
-                console.print(f"  {escape(line)}")
+                _print_hanging(console, "  ", line)
         once = SaidOnce(result.messages)
         for diagnosis in result.diagnoses:
             _print_diagnosis(console, diagnosis)
@@ -134,13 +160,16 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for image in result.images:
             if not image.waits_for:
                 _print_image(console, image, out, once)
+                worst = inspect_worst(known[result.id], image, out) if inspects else None
+                if worst is not None:
+                    console.print(f"{' ' * _INDENT}{'inspect':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
         if result.cumulative.message and result.tests:
-            console.print(f"  together  {escape(result.cumulative.message)}")
+            _print_hanging(console, "  together  ", result.cumulative.message)
 
 
 def print_diagnoses(console: Console, results: Results) -> None:

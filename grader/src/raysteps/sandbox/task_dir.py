@@ -79,7 +79,7 @@ class TaskDir:
     def readable(self, path: Path) -> Path:
         """The path itself, or a copy where the task's user could not read it."""
         if not path.exists():
-            raise GraderFault(f"{path}: was to be read inside the sandbox, but it does not exist.")
+            raise GraderFault(f"{path}: was to be read inside the sandbox, but it is not there.")
         if self._user is None or _others_may_read(path):
             return path.resolve()
         return self.copied(path, path.name)

@@ -144,9 +144,22 @@ def _collect(path: Path, collector: _Collector) -> None:
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
     elif not path.is_file():
-        raise UsageError(f"{path}: there is no such submission")
+        raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar")
     else:
         collector.take(archive_entries(path))
+
+
+def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
+    """The folders in a folder that each hold a file of the same step, where it holds none itself: a class."""
+    if not path.is_dir():
+        return []
+    places, homes = Places(steps), dict[str, set[str]]()
+    reader = FolderReader(path) if _OPENS_BELOW else PlainFolderReader(path)
+    for place in filter(None, (places.find(entry.parts) for entry in reader.entries())):
+        homes.setdefault(place.step, set()).add(place.home)
+    if any("" in found for found in homes.values()):
+        return []
+    return sorted(set().union(*(found for found in homes.values() if len(found) > 1)))
 
 
 def load_submission(path: Path, steps: list[Step]) -> Submission:

@@ -292,6 +292,7 @@ def _build(project: Project, steps: list[Step], folder: Path, say: ProgressCallb
         outcome = tree.build(["kit"], lambda far: say(f"{what}: {far}"))
         if outcome.code != 0:
             raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
+        say("linking its programs" + (", and measuring how fast they are here" if project.has_reference else ""))
         for left in folder.parent.glob(".new-*"):  # by builds that were killed: this one has the lock
             if left != Path(name):
                 shutil.rmtree(left, ignore_errors=True)

@@ -3,8 +3,7 @@
 import os
 import re
 import shutil
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from raysteps.common.platform import executable
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.project import Project
+from raysteps.toolchain.kit_artifacts import ProgressCallback, paced
 
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
@@ -25,18 +25,15 @@ class _HowFar:
     """What Ninja and Make say of it: `[37/140]`, or `[ 26%]`."""
 
     _DONE = re.compile(rb"\[ *([0-9]+)(?:/([0-9]+)|(%))\]")
-    _EVERY = 5.0  # seconds
 
-    def __init__(self, say: Callable[[str], None]) -> None:
-        self._say = say
-        self._next = time.monotonic() + self._EVERY
+    def __init__(self, say: ProgressCallback) -> None:
+        self._say = paced(say)
 
     def heard(self, data: bytes) -> None:
         found = self._DONE.findall(data)
-        if found and time.monotonic() > self._next:
+        if found:
             done, of, percent = (word.decode() for word in found[-1])
             self._say(f"{done} %" if percent else f"{done} of {of}")
-            self._next = time.monotonic() + self._EVERY
 
 
 @dataclass(frozen=True)
@@ -101,7 +98,7 @@ class BuildTree:
         if outcome.code != 0:
             raise GraderFault("CMake cannot configure the kit:\n" + shorten(outcome.stdout + outcome.stderr, 6000))
 
-    def build(self, targets: list[str], say: Callable[[str], None] = lambda text: None) -> Outcome:
+    def build(self, targets: list[str], say: ProgressCallback = lambda text: None) -> Outcome:
         """Builds the targets (all of them when there are none). `say` gets how far it is, every few seconds."""
         self.configure()
         cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for whoever uses ccache: copies of the kit share it

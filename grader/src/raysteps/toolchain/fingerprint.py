@@ -2,7 +2,7 @@
 
 import hashlib
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from raysteps.course.project import Project
@@ -22,11 +22,13 @@ _SOURCES = {
 }
 
 
-def _files(project: Project) -> Iterator[Path]:
-    yield project.root / "CMakeLists.txt"
-    yield project.root / "CMakePresets.json"
-    for name, pattern in _SOURCES.items():
-        folder = project.root / name
+PROGRAM_FOLDERS = ("framework", "cmake", "scenes", "solutions", "steps")  # what programs are built from
+
+
+def kit_files(project: Project, folders: Collection[str] = tuple(_SOURCES)) -> Iterator[Path]:
+    """Those in these folders that count."""
+    for name in folders:
+        folder, pattern = project.root / name, _SOURCES[name]
         for path in sorted(folder.rglob("*")):
             counts = re.fullmatch(pattern, path.relative_to(folder).as_posix()) and not path.name.startswith(".")
             if counts and path.is_file():
@@ -36,7 +38,7 @@ def _files(project: Project) -> Iterator[Path]:
 def fingerprint(project: Project) -> str:
     """Changes with everything that a grade depends on in the repository; not with a student's own steps."""
     digest = hashlib.sha256()
-    for path in _files(project):
+    for path in (project.root / "CMakeLists.txt", project.root / "CMakePresets.json", *kit_files(project)):
         data = path.read_bytes()
         digest.update(f"{path.relative_to(project.root).as_posix()}\0{len(data)}\0".encode())
         digest.update(data)

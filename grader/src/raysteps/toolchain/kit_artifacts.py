@@ -5,6 +5,7 @@ import hashlib
 import json
 import shutil
 import tempfile
+import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,6 +19,22 @@ from raysteps.toolchain.link import Description, library_name, link, without_nam
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
+_EVERY = 5.0  # seconds
+
+
+def paced(say: ProgressCallback) -> ProgressCallback:
+    """Says at most every few seconds what changes all the time, from the first few on."""
+    said = time.monotonic()
+
+    def tell(text: str) -> None:
+        nonlocal said
+        if time.monotonic() > said + _EVERY:
+            said = time.monotonic()
+            say(text)
+
+    return tell
+
+
 Tests = Mapping[str, Mapping[str, Sequence[str]]]  # by step: its visible tests, each with the functions that it tests
 
 

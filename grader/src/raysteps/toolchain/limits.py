@@ -91,6 +91,9 @@ def give_up_after(changes: Mapping[str, float]) -> float:
     return _GIVE_UP_FACTOR * submission_seconds(changes)
 
 
+LIMIT_HELP = "another limit for all steps, such as seconds=40 or memory_mb=512; may be given several times"
+
+
 def parse_limits(words: Sequence[str]) -> dict[str, Amount]:
     """`NAME=VALUE` words of a command line."""
     changes: dict[str, Amount] = {}
@@ -104,6 +107,6 @@ def parse_limits(words: Sequence[str]) -> dict[str, Amount]:
         ):
             kind = "a whole number" if whole else "a number"
             names = ", ".join(_ON_THE_COMMAND_LINE)
-            raise UsageError(f"--limit {word}: expected one of {names}, then = and {kind} above 0")
+            raise UsageError(f"--limit {word}: expected one of {names}, then = and {kind} above 0, such as seconds=40")
         changes[name] = float(value)
     return changes

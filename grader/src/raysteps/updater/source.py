@@ -33,7 +33,7 @@ class Source:
             data = self.read(file.path)
         except _BROKEN as error:
             raise UsageError(
-                f"{file.path}: is missing in {self.place}, or cannot be read there; expected a complete release. "
+                f"{file.path}: is not there in {self.place}, or cannot be read there; expected a complete release. "
                 "Load it down or unpack it once more"
             ) from error
         if content_hash(data) != file.mark:

@@ -2,16 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 from raysteps.results.model import StepResult
+
+Owner = Literal["step", "earlier", "kit"]  # the student's file of this step, of one before it, or one of the kit
 
 
 @dataclass(frozen=True)
 class FileSaved:
-    """A file of the step changed; `own`: the student's own."""
+    """A file changed that the step's program is built from; several at once are one save."""
 
     name: str
-    own: bool = True
+    owner: Owner = "step"
 
 
 @dataclass(frozen=True)
@@ -63,5 +66,12 @@ class WorkerEnded:
     errors: str
 
 
-Event = FileSaved | FileVanished | ChangeNoticed | Key | WorkerMessage | WorkerEnded
+@dataclass(frozen=True)
+class InspectEnded:
+    """What looked into a pixel is over."""
+
+    run: int
+
+
+Event = FileSaved | FileVanished | ChangeNoticed | Key | WorkerMessage | WorkerEnded | InspectEnded
 Post = Callable[[Event], None]

@@ -1,9 +1,6 @@
-"""A thread that reads keys, and leaves the terminal alone for as long as somebody else needs it."""
+"""A thread that reads keys."""
 
 import threading
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 from raysteps.watch.events import Key, Post
 from raysteps.watch.keyboard import letters
@@ -17,8 +14,6 @@ class KeyListener:
     def __init__(self, post: Post) -> None:
         self._post = post
         self._end = threading.Event()
-        self._pause = threading.Event()
-        self._paused = threading.Event()
         self._thread = threading.Thread(target=self._listen, daemon=True)
 
     def _read(self) -> str | None:
@@ -33,10 +28,6 @@ class KeyListener:
 
     def _listen(self) -> None:
         while not self._end.is_set():
-            if self._pause.is_set():
-                self._paused.set()
-                time.sleep(LOOK_SECONDS / 10)
-                continue
             text = self._read()
             if text is None:
                 return
@@ -52,16 +43,3 @@ class KeyListener:
         if self._thread.is_alive():
             self._thread.join(2)
         self._give_back()
-
-    @contextmanager
-    def lent(self) -> Iterator[None]:
-        self._paused.clear()
-        self._pause.set()
-        if self._thread.is_alive():
-            self._paused.wait(1)
-        self._give_back()
-        try:
-            yield
-        finally:
-            self._take()
-            self._pause.clear()

@@ -2,8 +2,6 @@
 
 import re
 import sys
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager
 from typing import Protocol
 
 from raysteps.watch.events import Post
@@ -13,13 +11,11 @@ _LONGEST = 4  # letters that come at once; more were pasted, and by mistake
 
 
 class Keyboard(Protocol):
-    """Gives letters; gives the terminal back for as long as somebody else needs it."""
+    """Gives letters until it is closed."""
 
     def start(self) -> None: ...
 
     def close(self) -> None: ...
-
-    def lent(self) -> AbstractContextManager[None]: ...
 
 
 def letters(text: str) -> list[str]:
@@ -38,10 +34,6 @@ class NoKeyboard:
 
     def close(self) -> None:
         pass
-
-    @contextmanager
-    def lent(self) -> Iterator[None]:
-        yield
 
 
 def find_keyboard(post: Post) -> Keyboard:

@@ -21,8 +21,8 @@ from raysteps.report.page import (
     pixel_data,
     render_page,
 )
-from raysteps.report.wording import HOW_SURE, inspect_command, replay_command
-from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, StepResult, TestResult
+from raysteps.report.wording import HOW_SURE, inspect_command, replay_command, watch_command
+from raysteps.results.model import Diagnosis, ImageResult, StepResult
 from raysteps.watch.step_view import StepView, passed_of, verdict
 
 # What the page shows, as JSON; whoever serves a page waits here for the next state.
@@ -130,8 +130,8 @@ def _picture(view: StepView, image: ImageResult) -> State:
     }
 
 
-def _tests(items: list[TestResult]) -> State:
-    passed, all_ = passed_of(items)
+def _tests(view: StepView) -> State:
+    passed, all_ = passed_of(view.result.tests if view.result else [])
     failed = [
         {
             "name": test.name,
@@ -140,19 +140,17 @@ def _tests(items: list[TestResult]) -> State:
             "actual": test.expanded,
             "place": test.location,
         }
-        for test in items
-        if not test.passed and not test.waits_for
+        for test in view.failed_tests
     ]
     return {"passed": passed, "all": all_, "failed": failed}
 
 
-def _hidden(items: list[HiddenResult]) -> State:
-    passed, all_ = passed_of(items)
+def _hidden(view: StepView) -> State:
+    passed, all_ = passed_of(view.result.hidden if view.result else [])
     keys = ("name", "message", "given", "expected", "actual")
     failed = [
         {key: getattr(item, key) for key in keys} | {"again": replay_command(item.case) if item.case else ""}
-        for item in items
-        if not item.passed and not item.waits_for
+        for item in view.missed
     ]
     return {"passed": passed, "all": all_, "failed": failed}
 
@@ -170,6 +168,10 @@ def _messages(result: StepResult) -> list[str]:
 
 def _step(step: Step) -> State:
     return {"number": step.number, "id": step.id, "title": step.title, "points": number(step.points)}
+
+
+def _next(step: Step | None) -> State | None:
+    return None if step is None else _step(step) | {"command": watch_command(step.id)}
 
 
 def state_of(view: StepView) -> State:
@@ -190,10 +192,11 @@ def state_of(view: StepView) -> State:
         "messages": _messages(result) if result else [],
         "log": result.build_log[:_MAX_LOG] if result else "",
         "diagnoses": [_diagnosis(found) for found in result.diagnoses] if result else [],
-        "tests": _tests(result.tests if result else []),
+        "tests": _tests(view),
         "pictures": [_picture(view, image) for image in result.images] if result else [],
-        "hidden": _hidden(result.hidden if result else []),
+        "hidden": _hidden(view),
         "hints": [{"level": hint.level, "of": hint.of, "text": hint.text} for hint in view.hints],
+        "next": _next(view.following),
         "over": False,
     }
 

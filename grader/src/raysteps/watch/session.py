@@ -1,10 +1,9 @@
 """The loop: saves and keys come in, runs are started and stopped, and what they say is shown."""
 
 import queue
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Sequence
+from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
@@ -12,63 +11,40 @@ from pathlib import Path
 from raysteps.common.errors import RaystepsError, reason_and_place
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.images.compare import gaps, read_png, widest
 from raysteps.progress.hints import Hints, no_other
 from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
-from raysteps.progress.standing import next_of, print_list, shown, standings
-from raysteps.report.wording import inspect_words, typed
+from raysteps.progress.standing import next_of, own_source, print_list, shown, standings
+from raysteps.report.wording import typed
+from raysteps.report.worst_pixel import inspect_worst
+from raysteps.submission.entries import RejectedFile
+from raysteps.watch.edits import edited_functions
 from raysteps.watch.events import (
     ChangeNoticed,
     Event,
     FileSaved,
     FileVanished,
+    InspectEnded,
     Key,
+    Owner,
     WorkerEnded,
     WorkerLine,
     WorkerMessage,
 )
 from raysteps.watch.file_watcher import FileWatcher
+from raysteps.watch.inspection import Inspection
 from raysteps.watch.keyboard import Keyboard, NoKeyboard
 from raysteps.watch.page_state import PageState, state_of
 from raysteps.watch.runner import Runner
 from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
 
-# The pixel that is most wrong, and the command that looks into it.
-
-
-def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
-    """The column and the row; none where the pictures cannot be compared or are the same."""
-    try:
-        one, other = read_png(mine), read_png(reference)
-    except OSError:
-        return None
-    if one.shape != other.shape:
-        return None
-    gap = gaps(one, other)
-    return widest(gap) if gap.any() else None
-
 
 def command_of_worst(view: StepView) -> list[str] | None:
     """Of the first picture that is wrong."""
     if view.result is None or view.out is None:
         return None
-    cases = {case.name: case for case in view.step.images}
-    for image in view.result.images:
-        if image.passed or not image.mine or not image.reference or image.name not in cases:
-            continue
-        worst = worst_pixel(view.out / image.mine, view.out / image.reference)
-        if worst is not None:
-            return inspect_words(cases[image.name], *worst)
-    return None
-
-
-def run_inspect(project: Project, words: Sequence[str]) -> None:
-    """On this terminal; Ctrl-C ends it and nothing else."""
-    try:
-        subprocess.run([sys.executable, "-P", "-m", "raysteps", *words], cwd=project.root, check=False)
-    except KeyboardInterrupt:
-        print()
+    found = (inspect_worst(view.step, image, view.out) for image in view.result.images)
+    return next(filter(None, found), None)
 
 
 # What the keys do.
@@ -157,8 +133,7 @@ class Actions:
             session.showing.line("No picture is wrong (or there is none yet): nothing to look into.")
         else:
             session.showing.command(typed(words), "bold")
-            with session.keyboard.lent():
-                run_inspect(session.project, words)
+            session.inspection.start(words)
 
     def _reset(self) -> None:
         session, step = self._session, self._session.view.step
@@ -179,7 +154,11 @@ class Actions:
         self._question = put
 
 
-_IDLE_SECONDS = 2.0  # after a look, until the full check begins by itself
+def _what_changed(name: str, owner: Owner) -> str:
+    return f"{name} changed, the kit is built again" if owner == "kit" else f"{name} saved"
+
+
+_IDLE_SECONDS = 0.5  # after a look, until the full check begins by itself; a save stops it
 _TICK_SECONDS = 0.2
 
 
@@ -188,12 +167,13 @@ class Session:
 
     def __init__(
         self, project: Project, step: Step, events: "queue.Queue[Event]", runner: Runner, saves: FileWatcher,
-        keyboard: Keyboard, board: PageState, showing: TerminalView, *, checks: bool,
+        keyboard: Keyboard, inspection: Inspection, board: PageState, showing: TerminalView, *, checks: bool,
     ) -> None:  # fmt: skip
         self.project = project
         self.view = StepView(step)
         self.showing = showing
         self.keyboard = keyboard
+        self.inspection = inspection
         self.saves = saves
         self._events = events
         self._runner = runner
@@ -203,7 +183,15 @@ class Session:
         self.check_after_look = False
         self._began = 0.0
         self._actions = Actions(self)
+        self._held: deque[Event] = deque()  # what workers tell while a pixel is looked into: one speaks at a time
+        self._source = self._own_source()
         self.over = False
+
+    def _own_source(self) -> str:
+        """Nothing where it cannot be read: the worker says why."""
+        with suppress(OSError, RejectedFile):
+            return (own_source(self.project, self.view.step) or b"").decode("utf-8", "replace")
+        return ""
 
     def run(self) -> None:
         """Until somebody quits."""
@@ -212,7 +200,7 @@ class Session:
             with suppress(queue.Empty):
                 self._handle(self._events.get(timeout=_TICK_SECONDS))
                 continue
-            if self._check_at is not None and time.monotonic() >= self._check_at:
+            if self._check_at is not None and not self.inspection.is_running and time.monotonic() >= self._check_at:
                 self.check()
 
     def show(self) -> None:
@@ -223,10 +211,18 @@ class Session:
         """Builds, tests and draws. Whatever ran is stopped: it was about code that is no more."""
         self._check_at = None
         self._began = time.monotonic()
-        self.view = StepView(self.view.step, saved=f"{datetime.now():%H:%M:%S}", hints=self.view.hints)
+        self._note_edit()
+        self.view = StepView(
+            self.view.step, saved=f"{datetime.now():%H:%M:%S}", hints=self.view.hints, edited=self.view.edited
+        )
         self.showing.begin(self.view, why)
         self._runner.start("look", self.view.step)
         self.show()
+
+    def _note_edit(self) -> None:
+        """An edit of no function, such as of a helper, leaves it at the one before."""
+        before, self._source = self._source, self._own_source()
+        self.view.edited = edited_functions(before, self._source, self.view.step) or self.view.edited
 
     def check(self) -> None:
         """All of the step: when nothing was saved for a while, or when somebody asks for it."""
@@ -241,25 +237,44 @@ class Session:
         self._runner.stop()
         self.saves.look_at(step)
         self.view = StepView(step)
+        self._source = self._own_source()
         self.look("watching")
 
     def _handle(self, event: Event) -> None:
+        """A save and a key come first: they end a look into a pixel."""
         match event:
-            case FileSaved(name, own):
-                self.look(f"{name} saved" if own else f"{name} changed, the kit is built again")
+            case FileSaved(name, owner):
+                self.inspection.stop()
+                self._held.clear()
+                self.look(_what_changed(name, owner))
             case FileVanished():
                 self._vanished()
             case ChangeNoticed(text):
                 self.showing.dim(text)
             case Key(letter):
+                self.inspection.stop()
+                self._tell_held()
                 self._actions.press(letter)
+            case InspectEnded(run):
+                if self.inspection.ended(run):
+                    self._tell_held()
+                    self._actions.remind()
+            case WorkerMessage() | WorkerEnded() if self.inspection.is_running:
+                self._held.append(event)
             case WorkerMessage(run, line) if run == self._runner.run:
                 self._told(line)
             case WorkerEnded(run, code, errors) if run == self._runner.run:
                 self._ended(code, errors)
 
+    def _tell_held(self) -> None:
+        held, self._held = self._held, deque()
+        for event in held:
+            self._handle(event)
+
     def _vanished(self) -> None:
         self._runner.stop()
+        self.inspection.stop()
+        self._held.clear()
         self._check_at = None
         self.view = StepView(self.view.step, "idle", saved=self.view.saved, gone=True, hints=self.view.hints)
         self.showing.result(self.view)
@@ -277,6 +292,8 @@ class Session:
             view.complete, view.full = line.complete, view.phase == "checking"
             if view.complete and not view.full:
                 view.seconds = round(time.monotonic() - self._began, 1)
+            if view.is_done:
+                view.following = next_of(standings(self.project), after=view.step)
         self.show()
 
     def _ended(self, code: int, errors: str) -> None:

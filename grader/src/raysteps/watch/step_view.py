@@ -9,6 +9,7 @@ from raysteps.common.text import count, tenths
 from raysteps.course.manifest import Step
 from raysteps.progress.hints import Hint
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
+from raysteps.watch.edits import edited_first
 
 Phase = Literal["looking", "checking", "idle"]
 Tone = Literal["good", "bad", "warn", "plain"]
@@ -32,6 +33,8 @@ class StepView:
     gone: bool = False
     problem: str = ""
     hints: list[Hint] = field(default_factory=list)
+    edited: tuple[str, ...] = ()  # the functions that the last edit was about
+    following: Step | None = None  # what comes next, once this step is done
 
     @property
     def status(self) -> str:
@@ -45,6 +48,22 @@ class StepView:
     @property
     def is_done(self) -> bool:
         return self.full and self.complete and self.status == "passed"
+
+    @property
+    def failed_tests(self) -> list[TestResult]:
+        """First those of the function that was edited last; none that wait for another function."""
+        tests = self.result.tests if self.result else []
+        return edited_first(
+            [(test.name, test) for test in tests if not test.passed and not test.waits_for], self.edited
+        )
+
+    @property
+    def missed(self) -> list[HiddenResult]:
+        """The same of the hidden items."""
+        hidden = self.result.hidden if self.result else []
+        return edited_first(
+            [(item.name, item) for item in hidden if not item.passed and not item.waits_for], self.edited
+        )
 
 
 Items = Sequence[TestResult | ImageResult | HiddenResult]

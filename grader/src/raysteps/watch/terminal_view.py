@@ -1,13 +1,14 @@
 """Compact lines for the terminal: the page has the rest."""
 
 import textwrap
+from collections.abc import Sequence
 
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.text import count, shorten
-from raysteps.report.wording import HOW_SURE, replay_command
-from raysteps.results.model import StepResult
+from raysteps.report.wording import HOW_SURE, replay_command, watch_command
+from raysteps.results.model import HiddenResult, StepResult, TestResult
 from raysteps.watch.step_view import StepView, Tone, verdict
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
@@ -87,12 +88,16 @@ class TerminalView:
                     self.line(f"  {line}")
             return
         if not view.full:
-            self._tests(view.result)
+            self._tests(view.failed_tests)
             self._pictures(view.result)
         self._diagnoses(view.result)
-        self._hidden(view.result)
-        if view.full and not view.is_done and not view.result.cumulative.passed:
-            self.line(f"  together: {view.result.cumulative.message}")
+        self._hidden(view.missed)
+        together = view.result.cumulative
+        if view.full and not view.is_done and not together.passed and together.message:
+            self.line(f"  together: {together.message}")
+        if view.following is not None:
+            step = view.following
+            self.command(f"next: {step.number} {step.title}. Press n, or type {watch_command(step.id)}", "bold")
 
     def _diagnoses(self, result: StepResult) -> None:
         for found in result.diagnoses[:1]:
@@ -100,8 +105,7 @@ class TerminalView:
             for text in filter(None, (found.sees, found.cause, found.hint)):
                 self.line(f"    {text}")
 
-    def _tests(self, result: StepResult) -> None:
-        failed = [test for test in result.tests if not test.passed and not test.waits_for]
+    def _tests(self, failed: Sequence[TestResult]) -> None:
         for test in failed[:_MAX_FAILED]:
             self.line(f"  test  {test.name}", "red")
             if test.expression:
@@ -116,8 +120,7 @@ class TerminalView:
             if not image.passed:
                 self.line(f"  picture  {image.name}: {image.message}", "red")
 
-    def _hidden(self, result: StepResult) -> None:
-        missed = [item for item in result.hidden if not item.passed and not item.waits_for]
+    def _hidden(self, missed: Sequence[HiddenResult]) -> None:
         for item in missed[:_MAX_FAILED]:
             self.line(f"  hidden  {item.name}: {item.message}", "red")
             for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):

@@ -7,11 +7,14 @@ lines of JSON on stdout. A job is {"kind": "look" or "check", "root": FOLDER, "s
 import contextlib
 import json
 import os
+import signal
 import sys
 from dataclasses import asdict
 from pathlib import Path
+from types import FrameType
 
 from raysteps.common.errors import RaystepsError, reason
+from raysteps.common.process import end_what_runs
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
@@ -63,10 +66,17 @@ def check(project: Project, name: str) -> None:
     _tell(WorkerLine(result=result, out=str(project.build / "check"), complete=True))
 
 
+def _stop(number: int, _frame: FrameType | None) -> None:
+    """Also CMake and the compiler: the next worker may build in the same folder."""
+    end_what_runs()
+    os._exit(128 + number)
+
+
 def main() -> int:
     line = sys.stdin.readline()
     if not line:
         return 0  # whoever wanted it has gone
+    signal.signal(signal.SIGTERM, _stop)
     job = json.loads(line)
     try:
         {"look": look, "check": check}[job["kind"]](Project(Path(job["root"])), job["step"])

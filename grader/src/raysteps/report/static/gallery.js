@@ -16,6 +16,8 @@ class Gallery {
   }
 
   start() {
+    SharedView.of("gallery").whole = true;
+    new ResizeObserver(() => this.fitWall()).observe(this.find("wall"));
     this.walk.read(location.hash);
     this.onClick("[data-scene]", (button) => {
       this.walk.scene = Number(button.dataset.scene);
@@ -64,6 +66,16 @@ class Gallery {
 
   get scene() {
     return this.data.scenes[this.walk.scene];
+  }
+
+  /** So wide that the whole picture leaves no gap at its sides; smaller than it is where there is no room. */
+  fitWall() {
+    const stage = this.picture.querySelector(".compare-stage");
+    if (stage) {
+      const border = this.picture.clientWidth - stage.clientWidth;
+      const width = this.scene.width * wholeScale((this.find("wall").clientWidth - border) / this.scene.width);
+      this.picture.style.maxWidth = `${width + border}px`;
+    }
   }
 
   /** What hangs on one side: a shot, and what it is called. */
@@ -115,6 +127,7 @@ class Gallery {
     });
     const focused = this.picture.contains(document.activeElement);
     this.picture.setPictures({ reference: picture(left), mine: picture(right) });
+    this.fitWall();
     if (focused) {
       this.picture.querySelector("[tabindex='0']")?.focus();
     }

@@ -9,9 +9,7 @@ class PixelInside extends HTMLElement {
     try {
       this.choose(this.names[0]);
     } catch (error) {
-      this.piece("trouble").textContent = `${error.message} The tree of rays beside it tells the same in words.`;
-      this.piece("trouble").hidden = false;
-      this.piece("stage").hidden = true;
+      this.withoutStage(error.message);
       return;
     }
     this.piece("boxes").addEventListener("input", () => this.step(Number(this.piece("boxes").value)));
@@ -28,12 +26,53 @@ class PixelInside extends HTMLElement {
     this.addEventListener("click", (event) => this.clicked(event));
   }
 
+  /** @param {string} why there is nothing to see: what can be read is still there */
+  withoutStage(why) {
+    this.stop();
+    this.piece("trouble").textContent = `${why} The tree of rays tells the same in words.`;
+    this.piece("trouble").hidden = false;
+    this.piece("stage").hidden = true;
+    this.dataset.flat = "";
+  }
+
+  /** The system takes a stage away, such as after a sleep, and may give it back. @param {HTMLCanvasElement} canvas */
+  survive(canvas) {
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      if (canvas === this.piece("canvas")) this.withoutStage("The graphics card has taken the stage away.");
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      if (canvas === this.piece("canvas")) this.goOn();
+    });
+  }
+
+  /** On a new stage: the same ray, as many boxes, from the same side. */
+  goOn() {
+    const { id } = this.ray;
+    const { from, at } = this.view.orbit;
+    const boxes = Number(this.piece("boxes").value);
+    this.piece("stage").hidden = false;
+    try {
+      this.choose(this.name);
+    } catch (error) {
+      this.withoutStage(error.message);
+      return;
+    }
+    this.piece("trouble").hidden = true;
+    delete this.dataset.flat;
+    Object.assign(this.view.orbit, { from, at });
+    this.select(id);
+    this.step(boxes);
+  }
+
   /** @param {string} name whose rays: mine or the reference's */
   choose(name) {
     this.name = name;
     const canvas = this.piece("canvas").cloneNode();
     this.piece("canvas").replaceWith(canvas);
     this.view = new InsideView(canvas, this.spaces[name]);
+    this.view.solid = this.piece("solid").checked;
+    this.survive(canvas);
     for (const button of this.querySelectorAll("button[data-space]")) {
       button.setAttribute("aria-pressed", String(button.dataset.space === name));
     }

@@ -2,6 +2,7 @@
 
 /** The pictures of a step; an element stays as long as its picture, so that nobody loses a zoom with a save. */
 class WatchPictures {
+  #first = document.getElementById("watch-first");
   #room = document.getElementById("watch-pictures");
   #shown = new Map();
   #step = "";
@@ -63,7 +64,7 @@ class WatchPictures {
     const sign = make("span");
     const words = make("p");
     const article = make("article", { class: "watch-picture" }, make("h2", {}, picture.name, sign), words, goal, view);
-    this.#room.append(article);
+    (this.#first.childElementCount ? this.#room : this.#first).append(article);
     const known = { article, view, goal, sign, words, key: null };
     this.#shown.set(picture.name, known);
     return known;
@@ -84,6 +85,7 @@ class WatchPage {
       state.seconds !== null && !state.full && state.verdict.tone !== "plain" ? ` (${state.seconds.toFixed(1)} s)` : "";
     WatchPage.#say(verdict, state.verdict.text + took);
     verdict.dataset.tone = state.verdict.tone;
+    WatchPage.#offer(state.next);
     const saved = state.saved ? `, saved ${state.saved}` : "";
     this.tell(
       state.over ? "over" : state.phase,
@@ -96,6 +98,22 @@ class WatchPage {
     }
     this.#pictures.show(state);
     this.#step = state.step.id;
+  }
+
+  /** The step after one that is done. */
+  static #offer(next) {
+    const offer = document.getElementById("watch-next");
+    offer.hidden = !next;
+    offer.replaceChildren(
+      ...(next
+        ? [
+            `Next: ${next.number} ${next.title}. Press `,
+            make("kbd", {}, "n"),
+            " in the terminal, or type ",
+            make("code", {}, next.command),
+          ]
+        : []),
+    );
   }
 
   tell(phase, text) {

@@ -1,0 +1,69 @@
+"""What is printed in a terminal: lines that do not fit stand below the text's beginning."""
+
+import io
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+
+from raysteps.course.manifest import Step
+from raysteps.course.project import here
+from raysteps.images.compare import write_png
+from raysteps.report.terminal import print_details
+from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
+
+_LONG = "a sentence that is far too long for a narrow terminal [and in brackets] and goes on and on"
+
+
+def _printed(steps: list[Step], *, width: int, terminal: bool) -> list[str]:
+    result = StepResult(steps[1].id, "partial", 1.0, steps[1].points, steps[1].bonus)
+    result.messages = [f"{_LONG}\n  7 | return {{}};"]
+    result.tests = [TestResult(_LONG, False, _LONG, _LONG, "2 == 1", "a.cpp:7")]
+    result.hidden = [HiddenResult("closest_hit", "function", 0.5, message=_LONG, given=_LONG, case="cases/a.json")]
+    result.diagnoses = [Diagnosis("mistake", "one", _LONG, _LONG, _LONG, alike=[_LONG])]
+    result.cumulative.message = _LONG
+    console = Console(file=io.StringIO(), width=width, force_terminal=terminal, color_system=None)
+    print_details(console, Results.of("ann", [result]), steps, here().build, lambda case: f"replay {case}")
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue().splitlines()
+
+
+def test_a_line_that_does_not_fit_keeps_its_indent(steps: list[Step]) -> None:
+    lines = _printed(steps, width=60, terminal=True)
+    assert max(map(len, lines)) <= 60
+    inner = [line for line in lines[2:] if line]
+    assert all(line.startswith("  ") for line in inner)
+    at = next(at for at, line in enumerate(lines) if line.startswith("             expected  "))
+    assert lines[at + 1].startswith(" " * 23)
+    assert lines[at + 1][23] != " "
+    assert "  7 | return {};" in "\n".join(lines)
+    said = " ".join(" ".join(lines).split())
+    assert said.count(_LONG) == 11
+
+
+def test_a_wrong_picture_of_ones_own_has_the_command_of_its_worst_pixel(steps: list[Step], tmp_path: Path) -> None:
+    result = StepResult(steps[1].id, "partial", 1.0, steps[1].points, steps[1].bonus)
+    reference = np.full((120, 160, 3), 100, dtype=np.uint8)
+    mine = reference.copy()
+    mine[7, 31] = (100, 180, 100)
+    for name, pixels in (("mine.png", mine), ("reference.png", reference)):
+        write_png(pixels, tmp_path / name)
+    case = steps[1].images[0]
+    result.images = [ImageResult(case.name, case.scene, False, 0.1, mine="mine.png", reference="reference.png")]
+    said = {}
+    for inspects in (False, True):
+        console = Console(file=(text := io.StringIO()), width=10_000, color_system=None)
+        print_details(console, Results.of("ann", [result]), steps, tmp_path, str, inspects=inspects)
+        said[inspects] = text.getvalue()
+    size = case.args[case.args.index("--size") + 1]
+    line = next(line for line in said[True].splitlines() if line.startswith(" " * 13 + "inspect   ./raysteps inspect "))
+    assert f"inspect {case.scene} 31 7 " in line
+    assert f" --size {size} " in line
+    assert line.endswith(" --against reference")
+    assert "raysteps inspect" not in said[False]
+
+
+def test_elsewhere_no_line_is_broken(steps: list[Step]) -> None:
+    lines = _printed(steps, width=10_000, terminal=False)
+    assert sum(_LONG in line for line in lines) == 11
+    assert all(line == line.rstrip() for line in lines)
