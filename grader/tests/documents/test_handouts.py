@@ -17,6 +17,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 _SECTIONS = [
     "What you will see",
     "Time and prerequisites",
+    "Think first",
     "The idea",
     "The maths",
     "Your functions",
@@ -110,7 +111,34 @@ def test_a_handout_shows_the_step_and_wrong_pictures(project: Project, step: Ste
     parts = _sections(_handout(project, step))
     assert f"/figures/{step.number}-after.png" in parts["What you will see"]
     assert parts["Wrong pictures and their causes"].count("![wrong: ") >= 6
-    assert "/figures/" in "".join(parts[name] for name in _SECTIONS[2:4])
+    assert "/figures/" in parts["The idea"] + parts["The maths"]
+
+
+@_EACH
+def test_a_handout_asks_before_it_tells(project: Project, step: Step) -> None:
+    """Questions, each with an answer that unfolds and says what is wrong with others."""
+    asked = _sections(_handout(project, step))["Think first"]
+    unfolds = r"^<details><summary>Answer</summary>\n\n(.+?)\n\n</details>$"
+    answers = re.findall(unfolds, asked, re.MULTILINE | re.DOTALL)
+    questions = re.split(r"<details>.*?</details>", asked, flags=re.DOTALL)[:-1]
+    assert 2 <= len(answers) == asked.count("<details>") == len(questions)
+    assert all("?" in question for question in questions)
+    assert all("If you said" in answer for answer in answers)
+    assert asked.count("\n**What do you expect") == 1
+
+
+@_EACH
+def test_hints_are_a_question_an_idea_and_pseudocode(project: Project, step: Step) -> None:
+    """And the pseudocode stands in the last hint alone."""
+    question, idea, code = step.hints
+    assert "?" in question
+    others = re.sub(r"\s", "", question + idea + _handout(project, step))
+    for line in code.splitlines():
+        for piece in re.split(r";  |  +", line):
+            bare = re.sub(r"\s", "", piece)
+            assert len(bare) < 20 or "=" not in bare or bare not in others, piece
+    assert code.count("=") + code.count(":") > 3
+    assert "=" not in question + idea
 
 
 @_EACH
