@@ -1,11 +1,15 @@
 """The handouts: complete, true to the tests, and without the answer."""
 
+import json
 import re
 import shlex
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import pytest
+from handout_counts import wrong_counts
+from inspect_programs import open_workshop
 
 from raysteps.cli.app import new_parser
 from raysteps.cli.render import take_impl
@@ -175,6 +179,32 @@ def test_every_command_line_of_a_handout_can_be_read(project: Project, kit: Buil
             if words[0] == "hint":
                 assert [one.id for one in choose(_STEPS, [arguments.step])] == [step.id]
     assert {"check", "render", "inspect", "hint", "watch"} <= seen
+
+
+@pytest.mark.slow
+def test_counts_in_the_tables_of_a_handout_are_counted(project: Project, kit: BuiltKit, tmp_path: Path) -> None:
+    """In a students' kit, test_typed_in_students_kit asks the same."""
+    inspect = open_workshop(project, tmp_path).reference("inspect")
+
+    def printed(program: Path, args: list[str]) -> str:
+        return subprocess.run([program, *args], capture_output=True, text=True, check=True, cwd=project.root).stdout
+
+    def stats(args: list[str]) -> dict[str, Any]:
+        file = tmp_path / "stats.json"
+        printed(raytrace, [*args, "--quiet", "-o", str(tmp_path / "x.png"), "--stats", str(file)])
+        found = json.loads(file.read_text(encoding="utf-8"))
+        assert isinstance(found, dict)
+        return found
+
+    raytrace = kit.reference("raytrace")
+    structures = set(printed(raytrace, ["--list-accel"]).split())
+    for step in (step for step in _STEPS if step.is_about_a_tree):
+        text = re.sub(
+            r"<!-- students' kit:.*?-->|<!-- whole kit -->|<!-- end -->", "", _handout(project, step), flags=re.S
+        )
+        assert wrong_counts(text, step, structures, stats, lambda args: printed(inspect, args)) == []
+        raised = re.sub(r"(\d) surfaces and", r"\g<1>7 surfaces and", text)
+        assert len(wrong_counts(raised, step, structures, stats, lambda args: printed(inspect, args))) > 1
 
 
 def test_a_line_that_cannot_be_read_is_found(kit: BuiltKit) -> None:
