@@ -13,6 +13,7 @@ from raysteps.common.text import mean, number, size
 from raysteps.course.manifest import Step
 from raysteps.report.wording import HOW_SURE, percent
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
+from raysteps.results.work_tier import work_tier
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
@@ -106,9 +107,11 @@ def short_path(path: Path) -> str:
 def print_details(console: Console, results: Results, steps: list[Step], out: Path, again: Again) -> None:
     """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
     case once more."""
-    titles = {step.id: step.title for step in steps}
+    by_id = {step.id: step for step in steps}
     for result in results.steps:
-        console.print(f"\n[bold]{result.id}[/bold] {escape(titles[result.id])}: {_status(result)}, {_points(result)}")
+        console.print(
+            f"\n[bold]{result.id}[/bold] {escape(by_id[result.id].title)}: {_status(result)}, {_points(result)}"
+        )
         for message in result.messages:
             for line in message.splitlines():
                 console.print(f"  {escape(line)}")
@@ -122,6 +125,10 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for image in result.images:
             if not image.waits_for:
                 _print_image(console, image, out)
+        tier = work_tier(result, by_id[result.id])
+        if tier is not None:
+            console.print(f"  tree     {escape(tier.reached)}", highlight=False)
+            console.print(f"             {tier.to_reach}", style="dim", highlight=False)
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)
