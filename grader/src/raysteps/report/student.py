@@ -30,7 +30,6 @@ from raysteps.report.wording import (
 )
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
 from raysteps.results.store import read_results
-from raysteps.results.work_tier import image_tier
 
 # The pictures of a submission, as far as there is room for them in one page.
 
@@ -214,6 +213,14 @@ def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     ]
 
 
+def _tier(image: ImageResult, step: Step) -> list[str]:
+    """What the tree has reached, where that hangs on this picture."""
+    from raysteps.results.work_tier import image_tier  # few steps have tiers
+
+    tier = image_tier(image, step)
+    return [f"the tree: {tier.reached}. In tests per ray: {tier.to_reach}"] if tier is not None else []
+
+
 def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
@@ -221,9 +228,8 @@ def _image(image: ImageResult, step: Step | None, shown: ShownImage) -> dict[str
         facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be")
     if share is not None and image.max_share is not None:
         facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")
-    tier = image_tier(image, step) if step is not None else None
-    if tier is not None:
-        facts.append(f"the tree: {tier.reached}. In tests per ray: {tier.to_reach}")
+    if step is not None and step.is_about_a_tree:
+        facts += _tier(image, step)
     return {
         "name": clean(image.name),
         "scene": clean(image.scene),

@@ -13,7 +13,6 @@ from raysteps.common.text import mean, number, size
 from raysteps.course.manifest import Step
 from raysteps.report.wording import HOW_SURE, percent
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
-from raysteps.results.work_tier import work_tier
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
@@ -85,6 +84,16 @@ def _print_image(console: Console, image: ImageResult, out: Path) -> None:
             console.print(f"             {line}", style="dim", highlight=False)
 
 
+def _print_tier(console: Console, result: StepResult, step: Step) -> None:
+    """What the tree has reached by counted work, and what each tier takes."""
+    from raysteps.results.work_tier import work_tier  # few steps have tiers
+
+    tier = work_tier(result, step)
+    if tier is not None:
+        console.print(f"  tree     {escape(tier.reached)}", highlight=False)
+        console.print(f"             {tier.to_reach}", style="dim", highlight=False)
+
+
 def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
     if item.message:
@@ -125,10 +134,8 @@ def print_details(console: Console, results: Results, steps: list[Step], out: Pa
         for image in result.images:
             if not image.waits_for:
                 _print_image(console, image, out)
-        tier = work_tier(result, by_id[result.id])
-        if tier is not None:
-            console.print(f"  tree     {escape(tier.reached)}", highlight=False)
-            console.print(f"             {tier.to_reach}", style="dim", highlight=False)
+        if by_id[result.id].is_about_a_tree:
+            _print_tier(console, result, by_id[result.id])
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)
