@@ -15,7 +15,8 @@ X and Y count pixels from the top left corner, from 0.
   --depth D               longest chain of rays, the primary ray included (5)
   --accel none|boxes|octree|bvh
                           every surface, the paper's 64 boxes, the tree of step 06 or that of
-                          step 09 (none before step 6, octree from there on, bvh for step 9)
+                          step 09 (none before step 6, octree from there on, bvh for step 9);
+                          boxes are in the whole kit only
   --json FILE             write the record, form raysteps/inspect/v1
   --quiet                 no text
   -h, --help              this text

@@ -17,7 +17,8 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
   --accel none|boxes|octree|bvh|wide|wide-octree
                           every surface, the paper's 64 boxes, the tree of step 06 or that of
                           step 09, and the last two eight boxes and surfaces at a time
-                          (none before step 6, octree from there on, bvh for step 9)
+                          (none before step 6, octree from there on, bvh for step 9);
+                          boxes, wide and wide-octree are in the whole kit only
   --list-accel            print which of these this program has
   --stats FILE.json       write counters: rays by kind, tests, seconds
   --map tests|boxes|depth|time
@@ -28,7 +29,7 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
   --spd                   count rays by the rules of the Standard Procedural Databases and
-                          print them beside the published ones; -o is not needed
+                          print them beside the published ones; -o is not needed (the whole kit only)
   -h, --help              this text
 )";
 

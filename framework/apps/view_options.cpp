@@ -15,7 +15,7 @@ Shows the picture in a window while it is traced.
   --depth D               longest chain of rays, the primary ray included (5)
   --threads N             (one per core)
   --accel none|boxes|octree|bvh
-                          (what the step comes with)
+                          (what the step comes with); boxes are in the whole kit only
   --screenshot FILE.ppm   write the complete picture as the window shows it, and quit
   --strip                 with --screenshot: the strip below the picture, too
   --click X,Y             inspect this pixel once the picture is complete

@@ -11,7 +11,7 @@ from raysteps.course.stubs import stub_for, without_markers
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
-pytest_plugins = ["browser"]
+pytest_plugins = ["browser", "students_kit"]
 
 Sources = dict[str, str]
 MakeSubmission = Callable[[str, Sources], Path]

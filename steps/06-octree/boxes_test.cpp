@@ -1,4 +1,5 @@
 // Visible tests of step 06: where a ray enters and leaves a box, the box around a scene, and its eight parts.
+#include <cmath>
 #include <glm/common.hpp>
 
 #include "steps/06-octree/octree.hpp"
@@ -53,16 +54,19 @@ TEST_CASE("Box::clip: zeros in the direction and rays along faces and edges", "[
         CHECK(part->leave == about(6.0));
         CHECK_FALSE(k_cube.clip({{-1.5F, 0.5F, 5.0F}, {-0.0F, 0.0F, -1.0F}}).has_value());
     }
-    SECTION("a ray along a face counts as a hit: beware of 0 / 0") {
-        for (const float x : {-1.0F, 1.0F}) {
-            CAPTURE(x);
-            const std::optional<Interval> part = k_cube.clip({{x, 0.0F, 5.0F}, k_down});
-            REQUIRE(part.has_value());
-            CHECK(part->enter == about(4.0));
-            CHECK(part->leave == about(6.0));
+    SECTION("a ray along a face or an edge counts as a hit: beware of 0 / 0") {
+        for (const glm::vec3 direction : {k_down, glm::vec3{-0.0F, -0.0F, -1.0F}}) {
+            for (const float x : {-1.0F, 1.0F}) {
+                for (const float y : {-1.0F, 0.0F, 1.0F}) {
+                    CAPTURE(x, y, std::signbit(direction.x));
+                    const std::optional<Interval> part = k_cube.clip({{x, y, 5.0F}, direction});
+                    REQUIRE(part.has_value());
+                    CHECK(part->enter == about(4.0));
+                    CHECK(part->leave == about(6.0));
+                }
+            }
         }
     }
-    SECTION("a ray along an edge counts as a hit") { CHECK(k_cube.clip({{1.0F, -1.0F, 5.0F}, k_down}).has_value()); }
     SECTION("a flat box is hit as well") {
         const Box flat{{-1.0F, -1.0F, 2.0F}, {1.0F, 1.0F, 2.0F}};
         const std::optional<Interval> part = flat.clip({{0.3F, 0.2F, 5.0F}, k_down});

@@ -5,7 +5,7 @@
 //     std::optional<Interval> Box::clip(const Ray& ray) const;
 //         The part of the ray inside the box (Liang and Barsky 1984): enter <= leave, both >= 0.
 //         An origin inside gives enter = 0. A ray along a face or an edge, and a flat box, count as hit.
-//         A direction with zeros in it is fine.
+//         A direction with zeros in it is fine, and -0.0 is one of them.
 //     bool Sphere::overlaps(const Box& box) const;
 //     bool Triangle::overlaps(const Box& box) const;
 //         true wherever surface and box have a point in common. A true too many is allowed, a false is not:
@@ -33,8 +33,9 @@ namespace raysteps {
 [[nodiscard]] Node build_octree(const SurfaceList& surfaces);
 
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Of several surfaces at the very same
-/// distance it is the first in the scene, the one with the smallest surface->order(). Ask a box with
-/// box.hit(ray) and a surface with surface->hit(ray): they count.
+/// distance it is the first in the scene, the one with the smallest surface->order(): so a box that begins at the very
+/// distance of the nearest hit is searched, too. Ask a box with box.hit(ray) and a surface with surface->hit(ray): they
+/// count.
 [[nodiscard]] std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray);
 
 /// Whether any surface of the tree is hit nearer than `distance`: shadow rays ask no more than that. The search may

@@ -111,7 +111,7 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree", "[06-octre
     }
     SECTION("rays along the axes, also in the planes between boxes") {
         for (int i = 0; i < 600; ++i) {
-            glm::vec3 direction(0.0F);
+            glm::vec3 direction(i % 4 < 2 ? 0.0F : -0.0F);  // equal, but 1 / 0 has another sign
             direction[i % 3] = i % 2 == 0 ? 1.0F : -1.0F;
             const glm::vec3 target = i % 5 == 0 ? glm::round(random.point(4.0F)) : random.point(5.0F);
             check_same_hit(root, scene.surfaces(), {target - 12.0F * direction, direction});
@@ -172,6 +172,25 @@ TEST_CASE("closest_hit_in_octree: of several hits at one distance the first in t
         closest_hit_in_octree(root, {glm::vec3{2.25F, 2.25F, 0.0F} - 12.0F * direction, direction});
     REQUIRE(hit.has_value());
     INFO("the ray meets the tile and the floor at the same distance; the tile comes first in the scene");
+    CHECK(hit->fill.kd == 0.25F);
+}
+
+TEST_CASE("closest_hit_in_octree: a box that begins at the nearest hit is searched as well",
+          "[06-octree][closest_hit_in_octree]") {
+    // Two triangles in one plane, each in a box of its own: one box begins before the plane, the other one in it.
+    Scene scene;
+    Fill fill;
+    fill.kd = 0.25F;  // to tell the first of the scene
+    for (const Fill& one : {fill, Fill{}}) {
+        scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
+                                             glm::vec3{0.0F, 1.0F, 0.0F}, one));
+    }
+    const Box whole{{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}};
+    const Box below{whole.min, {1.0F, 1.0F, 0.0F}};
+    const Node root{whole, {}, {{whole, {scene.surfaces()[1]}, {}}, {below, {scene.surfaces()[0]}, {}}}};
+    const std::optional<HitRecord> hit = closest_hit_in_octree(root, {{0.0F, 0.0F, 5.0F}, k_down});
+    REQUIRE(hit.has_value());
+    INFO("both are hit at distance 5, where the second box begins; its triangle comes first in the scene");
     CHECK(hit->fill.kd == 0.25F);
 }
 

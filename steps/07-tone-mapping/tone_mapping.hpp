@@ -6,7 +6,7 @@
 
 namespace raysteps {
 
-/// c / (c + 1), channel by channel: 0 stays 0, 1 becomes 1/2, no light becomes 1.
+/// c / (c + 1), channel by channel: 0 gives 0, 1 gives a half, and the more light there is the closer it comes to 1.
 /// An infinite channel becomes 1; a negative or NaN one becomes 0.
 [[nodiscard]] Color tone_map(const Color& color);
 

@@ -75,6 +75,12 @@ TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mappi
     CHECK(byte(254.7F / 255.0F) == 255);
     CHECK(byte(0.4F / 255.0F) == 0);
     CHECK(byte(0.6F / 255.0F) == 1);
+    for (int below = 0; below < 255; ++below) {
+        const float half_way = static_cast<float>(below) + 0.5F;
+        CAPTURE(below);
+        REQUIRE(byte((half_way - 0.02F) / 255.0F) == below);
+        REQUIRE(byte((half_way + 0.02F) / 255.0F) == below + 1);
+    }
 }
 
 TEST_CASE("tone_map and to_byte: the handout's worked example", "[07-tone-mapping][tone_map][to_byte]") {

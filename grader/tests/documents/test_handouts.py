@@ -1,11 +1,15 @@
 """The handouts: complete, true to the tests, and without the answer."""
 
+import json
 import re
 import shlex
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import pytest
+from handout_counts import wrong_counts
+from inspect_programs import open_workshop
 
 from raysteps.cli.app import new_parser
 from raysteps.cli.render import take_impl
@@ -17,6 +21,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 _SECTIONS = [
     "What you will see",
     "Time and prerequisites",
+    "Think first",
     "The idea",
     "The maths",
     "Your functions",
@@ -110,7 +115,34 @@ def test_a_handout_shows_the_step_and_wrong_pictures(project: Project, step: Ste
     parts = _sections(_handout(project, step))
     assert f"/figures/{step.number}-after.png" in parts["What you will see"]
     assert parts["Wrong pictures and their causes"].count("![wrong: ") >= 6
-    assert "/figures/" in "".join(parts[name] for name in _SECTIONS[2:4])
+    assert "/figures/" in parts["The idea"] + parts["The maths"]
+
+
+@_EACH
+def test_a_handout_asks_before_it_tells(project: Project, step: Step) -> None:
+    """Questions, each with an answer that unfolds and says what is wrong with others."""
+    asked = _sections(_handout(project, step))["Think first"]
+    unfolds = r"^<details><summary>Answer</summary>\n\n(.+?)\n\n</details>$"
+    answers = re.findall(unfolds, asked, re.MULTILINE | re.DOTALL)
+    questions = re.split(r"<details>.*?</details>", asked, flags=re.DOTALL)[:-1]
+    assert 2 <= len(answers) == asked.count("<details>") == len(questions)
+    assert all("?" in question for question in questions)
+    assert all("If you said" in answer for answer in answers)
+    assert asked.count("\n**What do you expect") == 1
+
+
+@_EACH
+def test_hints_are_a_question_an_idea_and_pseudocode(project: Project, step: Step) -> None:
+    """And the pseudocode stands in the last hint alone."""
+    question, idea, code = step.hints
+    assert "?" in question
+    others = re.sub(r"\s", "", question + idea + _handout(project, step))
+    for line in code.splitlines():
+        for piece in re.split(r";  |  +", line):
+            bare = re.sub(r"\s", "", piece)
+            assert len(bare) < 20 or "=" not in bare or bare not in others, piece
+    assert code.count("=") + code.count(":") > 3
+    assert "=" not in question + idea
 
 
 @_EACH
@@ -147,6 +179,32 @@ def test_every_command_line_of_a_handout_can_be_read(project: Project, kit: Buil
             if words[0] == "hint":
                 assert [one.id for one in choose(_STEPS, [arguments.step])] == [step.id]
     assert {"check", "render", "inspect", "hint", "watch"} <= seen
+
+
+@pytest.mark.slow
+def test_counts_in_the_tables_of_a_handout_are_counted(project: Project, kit: BuiltKit, tmp_path: Path) -> None:
+    """In a students' kit, test_typed_in_students_kit asks the same."""
+    inspect = open_workshop(project, tmp_path).reference("inspect")
+
+    def printed(program: Path, args: list[str]) -> str:
+        return subprocess.run([program, *args], capture_output=True, text=True, check=True, cwd=project.root).stdout
+
+    def stats(args: list[str]) -> dict[str, Any]:
+        file = tmp_path / "stats.json"
+        printed(raytrace, [*args, "--quiet", "-o", str(tmp_path / "x.png"), "--stats", str(file)])
+        found = json.loads(file.read_text(encoding="utf-8"))
+        assert isinstance(found, dict)
+        return found
+
+    raytrace = kit.reference("raytrace")
+    structures = set(printed(raytrace, ["--list-accel"]).split())
+    for step in (step for step in _STEPS if step.is_about_a_tree):
+        text = re.sub(
+            r"<!-- students' kit:.*?-->|<!-- whole kit -->|<!-- end -->", "", _handout(project, step), flags=re.S
+        )
+        assert wrong_counts(text, step, structures, stats, lambda args: printed(inspect, args)) == []
+        raised = re.sub(r"(\d) surfaces and", r"\g<1>7 surfaces and", text)
+        assert len(wrong_counts(raised, step, structures, stats, lambda args: printed(inspect, args))) > 1
 
 
 def test_a_line_that_cannot_be_read_is_found(kit: BuiltKit) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import doc_only_read
 import pytest
-from doc_commands import Shown, blocks_of, outputs_of
+from doc_commands import Shown, blocks_of, missing, outputs_of
 from doc_only_read import may_be_typed, why_not
 from doc_terminal import Ending, Keys, typed_at
 from doc_typing import Typist
@@ -31,21 +31,10 @@ def _family(one: Typed) -> str:
     return next((family for family, starts in _FAMILIES.items() if path.startswith(starts)), _OTHERS)
 
 
-def _missing(shown: tuple[str, ...], printed: str) -> str:
-    """The first line that the program did not print, or not in its place. A line of dots stands for some lines, dots at
-    an end for a rest."""
-    lines = iter(line.rstrip() for line in printed.splitlines())
-    for line in (one.rstrip() for one in shown):
-        head = line.removesuffix("...")
-        if head.strip() and not any(there == line or (head != line and there.startswith(head)) for there in lines):
-            return line
-    return ""
-
-
 def test_shown_output_is_compared() -> None:
-    assert _missing(("one", "...", "three is ...", "four"), "one\ntwo\nthree is 3\nfour\n") == ""
-    assert _missing(("one", "three", "two"), "one\ntwo\nthree\n") == "two"
-    assert _missing(("on",), "one\n") == "on"
+    assert missing(("one", "...", "three is ...", "four"), "one\ntwo\nthree is 3\nfour\n") == ""
+    assert missing(("one", "three", "two"), "one\ntwo\nthree\n") == "two"
+    assert missing(("on",), "one\n") == "on"
 
 
 def test_what_is_only_read_is_in_the_documents(project: Project) -> None:
@@ -94,6 +83,6 @@ def test_the_commands_do_what_the_documents_say(project: Project, typist: Typist
             answers = typist.block(block)
             count += len(answers)
             for one, printed in answers.items():
-                wrong = _missing(shown.get(one, Shown(one, ())).lines, printed)
+                wrong = missing(shown.get(one, Shown(one, ())).lines, printed)
                 assert wrong == "", f"{one}: this line was not printed, or not in its place\n{printed}"
     assert count > 5

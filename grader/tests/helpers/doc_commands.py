@@ -145,7 +145,7 @@ class Shown:
     lines: tuple[str, ...]
 
 
-def _shown(document: Path, text: str) -> Iterator[Shown]:
+def shown_in(document: Path, text: str) -> Iterator[Shown]:
     """Output stands in a block of its own, right below that of its command, or below words that begin or end with
     "prints". `render` prints nothing."""
     lines = text.splitlines()
@@ -163,5 +163,16 @@ def outputs_of(project: Project) -> list[Shown]:
     return [
         shown
         for document in documents(project)
-        for shown in _shown(document, (project.root / document).read_text(encoding="utf-8"))
+        for shown in shown_in(document, (project.root / document).read_text(encoding="utf-8"))
     ]
+
+
+def missing(shown: tuple[str, ...], printed: str) -> str:
+    """The first line that the program did not print, or not in its place. A line of dots stands for some lines, dots at
+    an end for a rest."""
+    lines = iter(line.rstrip() for line in printed.splitlines())
+    for line in (one.rstrip() for one in shown):
+        head = line.removesuffix("...")
+        if head.strip() and not any(there == line or (head != line and there.startswith(head)) for there in lines):
+            return line
+    return ""

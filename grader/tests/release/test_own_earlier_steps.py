@@ -10,10 +10,8 @@ from raysteps.common.process import run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import stub_for
-from raysteps.release.build_release import write_release
-from raysteps.toolchain.kit_artifacts import BuiltKit
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("students_kit")]
 
 
 def _checked(root: Path, number: str) -> dict[str, object]:
@@ -28,11 +26,10 @@ def _checked(root: Path, number: str) -> dict[str, object]:
 
 
 def test_rounding_of_an_earlier_step_and_a_tree_that_is_not_written(
-    project: Project, kit: BuiltKit, steps: list[Step], solved: dict[str, str], tmp_path: Path
+    project: Project, students_kit: Path, steps: list[Step], solved: dict[str, str]
 ) -> None:
     """The sphere as most books have it gives other pixels where mirrors magnify its rounding."""
-    root = tmp_path / "kit"
-    write_release(kit, steps, "Graphics 101", root)
+    root = students_kit
     textbook = project.solutions / steps[1].id / "alternatives" / "textbook-quadratic.cpp"
     for step in steps[:7]:
         (root / "steps" / step.path).write_text(solved[step.id], encoding="utf-8")

@@ -48,11 +48,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--accel",
         choices=["none", "boxes", "octree", "bvh"],
-        help="none before step 6, octree from there on, bvh for step 9",
+        help="none before step 6, octree from there on, bvh for step 9; boxes: the whole kit only",
     )
-    parser.add_argument("--impl", choices=["mine", "reference"], default="mine", help="whose steps (mine)")
     parser.add_argument(
-        "--against", choices=["reference"], help="both trees side by side, and where they part; exit code 1 if they do"
+        "--impl",
+        choices=["mine", "reference"],
+        default="mine",
+        help="whose steps (mine); reference: the whole kit only",
+    )
+    parser.add_argument(
+        "--against",
+        choices=["reference"],
+        help="both trees side by side, and where they part; exit code 1 if they do; the whole kit only",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the record there, too")
     parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")

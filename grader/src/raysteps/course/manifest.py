@@ -20,6 +20,7 @@ class ImageCase:
     args: tuple[str, ...]
     max_wrong: float
     max_share: float | None = None
+    paper_tests: float | None = None  # per ray, with the paper's 64 boxes; see results/work_tier.py
 
     @property
     def has_tree(self) -> bool:
@@ -91,6 +92,7 @@ def _image(table: dict[str, Any]) -> ImageCase:
         args=tuple(str(arg) for arg in table.get("args", [])),
         max_wrong=float(table["max_wrong"]),
         max_share=float(table["max_share"]) if "max_share" in table else None,
+        paper_tests=float(table["paper_tests"]) if "paper_tests" in table else None,
     )
 
 

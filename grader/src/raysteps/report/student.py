@@ -241,6 +241,14 @@ def _work(image: ImageResult) -> list[tuple[str, str, str]]:
     ]
 
 
+def _tier(image: ImageResult, step: Step) -> list[str]:
+    """What the tree has reached, where that hangs on this picture."""
+    from raysteps.results.work_tier import image_tier  # few steps have tiers
+
+    tier = image_tier(image, step)
+    return [f"the tree: {tier.reached}. In tests per ray: {tier.to_reach}"] if tier is not None else []
+
+
 def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, once: SaidOnce) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
@@ -248,6 +256,8 @@ def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, on
         facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be")
     if share is not None and image.max_share is not None:
         facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")
+    if step is not None and step.is_about_a_tree:
+        facts += _tier(image, step)
     return {
         "at": at,
         "name": clean(image.name),

@@ -117,6 +117,16 @@ def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce
             console.print(f"             {line}", style="dim", highlight=False)
 
 
+def _print_tier(console: Console, result: StepResult, step: Step) -> None:
+    """What the tree has reached by counted work, and what each tier takes."""
+    from raysteps.results.work_tier import work_tier  # few steps have tiers
+
+    tier = work_tier(result, step)
+    if tier is not None:
+        console.print(f"  tree     {escape(tier.reached)}", highlight=False)
+        console.print(f"             {tier.to_reach}", style="dim", highlight=False)
+
+
 def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
     if item.message:
@@ -163,6 +173,8 @@ def print_details(
                 worst = inspect_worst(known[result.id], image, out) if inspects else None
                 if worst is not None:
                     console.print(f"{' ' * _INDENT}{'inspect':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
+        if known[result.id].is_about_a_tree:
+            _print_tier(console, result, known[result.id])
         for item in result.hidden:
             if not item.passed and not item.waits_for:
                 _print_hidden(console, item, again)

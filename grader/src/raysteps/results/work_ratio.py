@@ -48,7 +48,8 @@ def _wrong(images: Sequence[ImageResult]) -> str:
     return f"{_pictures_are(costly)} right, but the work that was counted did not pass" if costly else ""
 
 
-def _relative(image: ImageResult) -> float | NoWorkRatio:
+def relative_work(image: ImageResult) -> float | NoWorkRatio:
+    """Of one picture; 1 is the reference's."""
     name = image.name
     mine, reference = image.work, image.reference_work
     if mine is None or reference is None:
@@ -79,7 +80,7 @@ def work_ratio_of(result: StepResult, expected: Sequence[str] = ()) -> WorkRatio
         return NoWorkRatio(f"{_pictures_are(missing)} not in the results" if missing else "no picture has counters")
     pictures: dict[str, float] = {}
     for image in images:
-        relative = _relative(image)
+        relative = relative_work(image)
         if isinstance(relative, NoWorkRatio):
             return relative
         pictures[image.name] = round(relative, _DIGITS)
