@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/accelerator_registry.hpp"
+#include "render/pixel_samples.hpp"
 
 namespace raysteps {
 
@@ -13,6 +14,8 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
+  --samples N             rays for each pixel, whose light is averaged before the tone curve: 1, 4, 9, 16, 25,
+                          36, 49 or 64; edges become smooth, at N times the work (1)
   --threads N             the picture is the same for any number (one per core)
   --accel none|boxes|octree|bvh|wide|wide-octree
                           every surface, the paper's 64 boxes, the tree of step 06 or that of
@@ -53,6 +56,15 @@ Rect parse_crop(const std::string& text) {
     return {.x = part[0], .y = part[1], .width = part[2], .height = part[3]};
 }
 
+int parse_samples(const std::string& text) {
+    for (int side = 1; side <= k_max_sample_side; ++side) {
+        if (text == std::to_string(side * side)) {
+            return side;
+        }
+    }
+    refuse("--samples", "1, 4, 9, 16, 25, 36, 49 or 64 rays for each pixel", text);
+}
+
 Acceleration parse_acceleration(const std::string& text) {
     const AcceleratorEntry* const entry = find_accelerator(text);
     if (entry == nullptr) {
@@ -64,6 +76,9 @@ Acceleration parse_acceleration(const std::string& text) {
 void check(const RaytraceOptions& options) {
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
+    }
+    if (options.sample_side > 1 && options.map) {
+        throw UsageError("--samples: expected no --map beside it, which shows what one ray for each pixel costs");
     }
     if (options.map_scale && !options.map) {
         throw UsageError("--map-scale: expected --map beside it, which says what is drawn");
@@ -108,6 +123,7 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
     CommandLine line(1, "one scene and the options that --help lists");
     add_shared_options(line, options);
     add_threads(line, options);
+    line.option("--samples", [&options](const std::string& text) { options.sample_side = parse_samples(text); });
     line.option("-o", options.output).option("--stats", options.stats);
     line.option("--crop", [&options](const std::string& text) { options.crop = parse_crop(text); });
     line.choice<CostKind>(

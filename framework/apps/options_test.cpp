@@ -52,6 +52,20 @@ TEST_CASE("A work map is asked for by what it counts", "[apps]") {
           "--map-scale: expected --map beside it, which says what is drawn");
 }
 
+TEST_CASE("Several rays for each pixel are a square number of them", "[apps]") {
+    CHECK(parse_options({"a.nff", "-o", "b"}).sample_side == 1);
+    CHECK(parse_options({"a.nff", "-o", "b", "--samples", "1"}).sample_side == 1);
+    CHECK(parse_options({"a.nff", "-o", "b", "--samples", "9"}).sample_side == 3);
+    CHECK(parse_options({"a.nff", "-o", "b", "--samples", "64"}).sample_side == 8);
+    for (const char* samples : {"0", "2", "81", "-4", "4x", "04", ""}) {
+        CHECK(complaint_about({"a.nff", "-o", "b", "--samples", samples}) ==
+              "--samples: expected 1, 4, 9, 16, 25, 36, 49 or 64 rays for each pixel, found '" + std::string(samples) +
+                  "'");
+    }
+    CHECK(complaint_about({"a.nff", "-o", "b", "--samples", "4", "--map", "tests"}) ==
+          "--samples: expected no --map beside it, which shows what one ray for each pixel costs");
+}
+
 TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({}) == "expected a scene, like scenes/lessons/three-spheres.nff");
     CHECK(complaint_about({"a.nff"}) == "expected -o FILE for the picture");

@@ -53,7 +53,8 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
                                                .threads = default_threads(),
                                                .crop = options.crop,
                                                .show_progress = !options.quiet && stderr_is_terminal(),
-                                               .measure_cost = options.map.has_value()});
+                                               .measure_cost = options.map.has_value(),
+                                               .sample_side = options.sample_side});
     if (!options.stats.empty()) {
         write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
     }

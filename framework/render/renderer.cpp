@@ -7,6 +7,7 @@
 #include "core/threads.hpp"
 #include "render/accelerator_registry.hpp"
 #include "render/encode.hpp"
+#include "render/pixel_samples.hpp"
 #include "render/progress.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
@@ -23,6 +24,8 @@ struct Job {
     const Scene& scene;
     const Accelerator& accelerator;
     const RenderOptions& options;
+    std::vector<SubPixel> sub_pixels;
+    Camera camera;  ///< of the picture that sub-pixels are pixels of
     ViewFrame frame;
     Rect crop;
     std::vector<Rect> tiles;
@@ -34,15 +37,30 @@ struct Job {
     CostGrid costs;
 };
 
+/// The mean light of the pixel's rays, which is what a sensor of its size would catch. The tone curve comes after it:
+/// of light and dark halves it is to see the sum of the light, not of the bytes.
+Color mean_color(int x, int y, Integrator& integrator, const Job& job) {
+    const auto count = static_cast<int>(job.sub_pixels.size());
+    Color sum(0.0F);
+    for (const SubPixel& place : job.sub_pixels) {
+        sum += integrator.primary_color(primary_ray(job.camera, job.frame, x * count + place.x, y * count + place.y));
+    }
+    return sum / static_cast<float>(count);
+}
+
+Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
+    if (job.options.measure_cost) {
+        const Ray ray = primary_ray(job.camera, job.frame, x, y);
+        return measured_color(integrator, ray, job.costs.at(x - job.crop.x, y - job.crop.y));
+    }
+    return mean_color(x, y, integrator, job);
+}
+
 void render_tile(const Rect& tile, Integrator& integrator, Job& job) {
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            const Ray ray = primary_ray(job.scene.camera, job.frame, x, y);
-            const int column = x - job.crop.x;
-            const int row = y - job.crop.y;
-            const Color color = job.options.measure_cost ? measured_color(integrator, ray, job.costs.at(column, row))
-                                                         : integrator.primary_color(ray);
-            job.image.at(column, row) = encode(color, job.options.step.step);
+            const Color color = color_of_pixel(x, y, integrator, job);
+            job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
         }
     }
 }
@@ -72,10 +90,13 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const Clock::time_point render_start = Clock::now();
     std::vector<Rect> tiles = work_waits() ? tiles_of(crop, 1) : tiles_of(crop);
     const std::size_t count = tiles.size();
+    const Camera camera = finer(scene.camera, options.sample_side * options.sample_side);
     Job job{.scene = scene,
             .accelerator = *accelerator,
             .options = options,
-            .frame = view_frame(scene.camera),
+            .sub_pixels = sub_pixels(options.sample_side),
+            .camera = camera,
+            .frame = view_frame(camera),
             .crop = crop,
             .tiles = std::move(tiles),
             .next_tile = {},

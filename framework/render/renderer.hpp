@@ -23,7 +23,8 @@ struct RenderOptions {
     int threads = 1;
     std::optional<Rect> crop;    ///< inside the picture; nothing: the whole picture
     bool show_progress = false;  ///< a bar on stderr
-    bool measure_cost = false;   ///< fills Rendering::costs, which takes some time
+    bool measure_cost = false;   ///< fills Rendering::costs, which takes some time; needs a sample_side of 1
+    int sample_side = 1;         ///< each pixel is the mean of the light of sample_side * sample_side rays
 };
 
 struct Rendering {
