@@ -149,7 +149,7 @@ def test_my_pictures_hang_beside_the_reference_and_a_missing_one_leaves_a_note(
     assert page.inner_text("#note") == "Unfinished: shade."
     page.click("#next")
     assert not page.is_visible("#picture")
-    assert page.inner_text("#empty") == f"mine: It does not build: {_SCRIPT}"
+    assert page.inner_text("#empty") == f"yours: It does not build: {_SCRIPT}"
     page.click("#next")
     assert page.is_visible("#picture")
     assert _shown(page) == [[40, 0, 0], [40, 0, 200]]
