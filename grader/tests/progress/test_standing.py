@@ -118,7 +118,9 @@ def test_what_to_do_next(course: Project, steps: list[Step], monkeypatch: pytest
     ]
 
 
-@pytest.mark.parametrize(("data", "words"), [(None, "the file is not there"), (b"\x7fELF\0\0", "cannot be read as text")])
+@pytest.mark.parametrize(
+    ("data", "words"), [(None, "the file is not there"), (b"\x7fELF\0\0", "cannot be read as text")]
+)
 def test_a_file_that_is_gone_or_no_text(course: Project, steps: list[Step], data: bytes | None, words: str) -> None:
     path = course.steps / steps[0].path
     path.unlink() if data is None else path.write_bytes(data)

@@ -27,7 +27,7 @@ _PARTS = {
     },
     "course": {"manifest", "project", "stubs"},
     "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},
-    "inspector": {"model", "pixel_page", "programs", "records"},
+    "inspector": {"contradictions", "model", "pixel_page", "programs", "records"},
 }  # fmt: skip
 
 

@@ -116,7 +116,9 @@ def test_without_a_kit(mine: Path) -> None:
 
 
 def test_what_came_from_no_release_is_not_updated(tmp_path: Path, newer: Path) -> None:
-    with pytest.raises(UsageError, match=r"release\.json: is missing; expected a repository that came from a release"):
+    with pytest.raises(
+        UsageError, match=r"release\.json: is not there; expected a repository that came from a release"
+    ):
         _run(tmp_path, newer)
 
 
