@@ -4,7 +4,7 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from . import gears, mountain, rings, sphereflake, tetrahedra
+from . import gears, mountain, rings, ripples, sphereflake, tetrahedra
 from .nff import Scene
 
 
@@ -23,6 +23,7 @@ KINDS: dict[str, Kind] = {
     "rings": Kind(rings.build, 6, 40),
     "mountain": Kind(mountain.build, 6, 10),
     "gears": Kind(gears.build, 4, 30),
+    "ripples": Kind(ripples.build, 16, 100),
 }
 
 

@@ -74,7 +74,7 @@ def contact_sheet(kit: BuiltKit) -> Pixels:
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(size=15)
     for place, step in enumerate(steps):
         view = ("--view", "normals") if step.index == 2 else ()
-        args = ("--step", str(step.index), "--accel", "bvh", *size, *view)
+        args = ("--step", str(step.index), "--accel", "bvh", "--samples", "9", *size, *view)
         x = _GAP + (place % 4) * (_TILE + _GAP)
         y = _GAP + (place // 4) * (_TILE + _GAP + _LETTERS)
         picture = reference_picture(kit, glass if step.index == 8 else flake, args)
@@ -95,7 +95,7 @@ def work_maps(kit: BuiltKit) -> Pixels:
 
 def sphereflake(kit: BuiltKit) -> Pixels:
     """The picture at the top of the README."""
-    args = ("--step", "8", "--size", "512x512", "--accel", "bvh")
+    args = ("--step", "8", "--size", "512x512", "--accel", "bvh", "--samples", "16")
     return reference_picture(kit, generated(kit.project, "sphereflake", 4), args)
 
 

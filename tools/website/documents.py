@@ -15,7 +15,7 @@ MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
     ("For students", ("students", "where-students-work", "paper")),
     ("For instructors", ("instructors", "class", "exports", "release")),
-    ("Tools", ("watch", "inspect", "view", "maps", "gallery", "pages")),
+    ("Tools", ("watch", "inspect", "view", "maps", "finale", "gallery", "pages")),
     ("Reference", ("glossary", "commands", "contracts", "core", "formats", "mistakes/README", "spd", "benchmarks")),
     (
         "How it works",

@@ -4,6 +4,7 @@ from tools.website.links import Typed
 
 _TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
 _FIGURES = "takes minutes; `test` does what --check does"
+_FINALE = "draws for a minute; test_finale makes a small one"
 
 COMMANDS = {
     "./raysteps test": "is what runs the tests",
@@ -18,6 +19,8 @@ COMMANDS = {
     "./raysteps dev mistakes": "takes minutes; `test` does what --check does",
     "./raysteps figures": _FIGURES,
     "./raysteps figures --check": _FIGURES,
+    "./raysteps finale": _FINALE,
+    "./raysteps finale --name Ann Example": _FINALE,
     "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
         "shows a mistake that somebody made; test_divergence makes such"
     ),

@@ -19,7 +19,7 @@ _FLOORS = (
     {"images", "judge"},
     {"diagnosis", "report"},
     {"grading"},
-    {"classroom", "gallery", "progress", "release"},
+    {"classroom", "finale", "gallery", "progress", "release"},
     {"exports", "inspector", "watch"},
     {"cli"},
     {"__main__", "tools"},

@@ -49,6 +49,9 @@ COMMANDS = (
     ),
     Command("inspect", "follow one pixel: its rays, tests and light", "raysteps.cli.inspect", "any"),
     Command("view", f"a window on a scene: move the camera, click pixels{_IMPL}", "raysteps.cli.view", "any"),
+    Command(
+        "finale", f"a large smooth picture, a page and a poster by your own steps{_IMPL}", "raysteps.cli.finale", "any"
+    ),
     Command("check", "check your own steps", "raysteps.cli.check", "any"),
     Command("compare", "two pictures, pixel by pixel", "raysteps.cli.compare_pictures", "any"),
     Command("report", "make report.html of results that are there already", "raysteps.cli.report", "any"),

@@ -46,7 +46,7 @@ class Step:
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
-    about: str = ""  # one or two sentences for the gallery
+    about: str = ""  # one or two sentences for the gallery and the finale, the title where there are none
     left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
@@ -118,7 +118,7 @@ def read_step(path: Path) -> Step:
             more_limits=tuple(
                 (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
             ),
-            about=" ".join(str(table.get("about", "")).split()),
+            about=" ".join(str(table.get("about", table["title"])).split()),
             left_out=bool(table.get("left_out", False)),
         )
     except (OSError, KeyError, TypeError, ValueError, AttributeError) as error:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from raysteps.course.manifest import Step
-from raysteps.gallery.scenes import GalleryScene, what_is_new
+from raysteps.gallery.scenes import GalleryScene
 from raysteps.gallery.shots import Shot, WorkMap
 from raysteps.images.compare import Pixels
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, pixel_data, render_page
@@ -82,7 +82,7 @@ def gallery_page(steps: Sequence[Step], scenes: Sequence[GalleryEntry]) -> str:
     album = Album()
     entries = [_scene(one, album) for one in scenes]
     shown = [
-        {"number": step.number, "index": step.index, "title": step.title, "bonus": step.bonus, "new": what_is_new(step)}
+        {"number": step.number, "index": step.index, "title": step.title, "bonus": step.bonus, "new": step.about}
         for step in steps
     ]
     data = {"steps": shown, "scenes": entries, "pictures": album.sources}

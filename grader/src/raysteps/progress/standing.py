@@ -171,7 +171,7 @@ def shown(project: Project, step: Step, name: str) -> str:
 
 # The commands `list` and `next`.
 
-_ALL_DONE = "All steps are done. `./raysteps render` draws any scene in scenes/ with them."
+_ALL_DONE = "All steps are done. Next: `./raysteps finale` makes a picture, a page and a poster with them."
 
 _OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your course gives the rest."
 

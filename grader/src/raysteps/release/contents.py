@@ -158,6 +158,7 @@ _ROOT = {
 }
 _FOLDERS = {".devcontainer", ".vscode", "cmake", "framework", "scenes"}
 _DOCS = {  # what a student looks up
+    "finale.md",
     "formats.md",
     "inspect.md",
     "maps.md",

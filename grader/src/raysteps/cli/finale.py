@@ -1,0 +1,249 @@
+"""The command `finale`: the student's own program draws a scene large and smooth; a page and a poster show it."""
+
+import argparse
+import os
+import re
+import tempfile
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.cli.render import build_program, run_raytrace, take_impl
+from raysteps.cli.todo_steps import unfinished
+from raysteps.common.errors import UsageError, reason
+from raysteps.common.files import usable_folder, write_out
+from raysteps.common.platform import own_command
+from raysteps.common.text import clean, count, join_and
+from raysteps.common.text import size as shown_size
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project
+from raysteps.finale.finale_page import Finale, Station, finale_page, in_words
+from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of
+from raysteps.finale.poster import can_be_written, poster
+from raysteps.images.compare import Pixels, write_png
+from raysteps.progress.standing import standings
+from raysteps.report.terminal import short_path
+from raysteps.toolchain.cmake import release_tree
+
+_SCENE, _TITLE = "generated/ripples.nff", "Ripples"
+_TEMPLATE = "template.nff"
+_SIZE, _SMALL_SIZE = "1600x900", "640x360"
+_SAMPLES, _FEW_SAMPLES = 9, 4
+_SIDE = (160, 8192)  # pixels
+_SQUARES = [side * side for side in range(1, 9)]
+_LONGEST = 60
+_BAD_SCENE = UsageError.exit_code  # raytrace has said where
+
+
+def _size(word: str) -> str:
+    found = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", word)
+    if found is None or not all(_SIDE[0] <= int(side) <= _SIDE[1] for side in found.groups()):
+        raise argparse.ArgumentTypeError(
+            f"{word}: expected WxH in pixels, each from {_SIDE[0]} to {_SIDE[1]}, like {_SIZE}"
+        )
+    return word
+
+
+def _samples(word: str) -> int:
+    known = [str(square) for square in _SQUARES]
+    if word not in known:
+        raise argparse.ArgumentTypeError(f"expected {', '.join(known[:-1])} or {known[-1]}, found '{word}'")
+    return int(word)
+
+
+def _words(word: str) -> str:
+    text = clean(word).strip()
+    if len(text) > _LONGEST or "\n" in text:
+        raise argparse.ArgumentTypeError(f"expected one line of at most {_LONGEST} letters")
+    return text
+
+
+def _threads(word: str) -> str:
+    if not re.fullmatch("[0-9]{1,4}", word) or not 1 <= int(word) <= 1024:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to 1024, found '{word}'")
+    return word
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What to draw, how large and how smooth, and where to."""
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"an NFF file (scenes/{_SCENE})")
+    parser.add_argument("--new", type=Path, metavar="FILE.nff", help="write a scene to begin with, and draw nothing")
+    parser.add_argument("-o", "--out", type=Path, metavar="FOLDER", help="where the page goes (build/finale)")
+    parser.add_argument(
+        "--name", type=_words, default="", metavar="NAME", help="whose picture it is, on page and poster"
+    )
+    parser.add_argument("--title", type=_words, metavar="TITLE", help="of page and poster (the scene's name)")
+    parser.add_argument(
+        "--size", type=_size, metavar="WxH", help=f"of the picture ({_SIZE}, or what your own scene says)"
+    )
+    parser.add_argument(
+        "--samples", type=_samples, metavar="N", help=f"rays for each pixel: 1, 4, 9, 16 ... 64 ({_SAMPLES})"
+    )
+    parser.add_argument("--threads", type=_threads, metavar="N", help="the pictures are the same for any number")
+    parser.add_argument("--impl", choices=["mine", "reference"], default="mine", help="whose steps (mine)")
+
+
+def _new_scene(project: Project, path: Path, console: Console) -> int:
+    """Writes the template where nothing is yet."""
+    if path.suffix.lower() != ".nff":
+        raise UsageError(f"--new {path}: expected a name that ends in .nff")
+    text = (project.scenes / _TEMPLATE).read_bytes()
+    try:
+        with path.open("xb") as file:
+            file.write(text)
+    except FileExistsError:
+        raise UsageError(f"--new {path}: is there already, and stays as it is; expected a new name") from None
+    except OSError as error:
+        raise UsageError(f"--new {path}: cannot be written: {reason(error)}") from error
+    console.print(
+        f"Written: {escape(str(path))}. Change it, then: {own_command()} finale {escape(str(path))}", soft_wrap=True
+    )
+    return 0
+
+
+def _reach(project: Project, impl: str) -> Reach:
+    steps = read_steps(project)
+    if impl == "reference":
+        return reach_of(steps, {step.id for step in steps})
+    left = {step.id for upto in steps for step, _ in unfinished(project, upto.index)}
+    reach = reach_of(steps, {step.id for step in steps} - left)
+    if not any(not step.is_about_a_tree for step in reach.drawn):
+        first = steps[0]
+        raise UsageError(
+            f"step {first.number} is not written yet, and without it there is no picture: expected its functions in "
+            f"steps/{first.path.as_posix()}; {own_command()} watch {first.number}"
+        )
+    return reach
+
+
+def _notes(project: Project, reach: Reach, impl: str) -> dict[str, str]:
+    """By step: what keeps it from being done."""
+    notes = {step.id: f"Still to be written. {own_command()} watch {step.number} begins it." for step in reach.missing}
+    if impl == "mine":
+        for standing in standings(project):
+            if not standing.is_done and standing.step.id not in notes:
+                notes[standing.step.id] = f"Drawn as it is: {standing.words}."
+    return notes
+
+
+def _check_size(picture: Pixels) -> None:
+    height, width = picture.shape[:2]
+    if not _SIDE[0] <= min(width, height) <= max(width, height) <= _SIDE[1]:
+        raise UsageError(
+            f"the scene's resolution is {width}x{height}: expected {_SIDE[0]} to {_SIDE[1]} pixels along each side for "
+            "a page; --size draws it in another"
+        )
+
+
+def _say_more(said: Sequence[str], console: Console) -> None:
+    for line in said:
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+def _stations(
+    own: OwnProgram,
+    reach: Reach,
+    steps: Sequence[Step],
+    shape: tuple[int, ...],
+    notes: dict[str, str],
+    console: Console,
+) -> list[Station]:
+    found = []
+    for step in steps:
+        pixels = None
+        if step in reach.drawn:
+            console.print(f"step {step.number}: {step.title}", style="dim", markup=False, highlight=False)
+            pixels = own.small(reach, step, shape)
+        found.append(Station(step, pixels, notes.get(step.id, "")))
+    return found
+
+
+def _say_first(reach: Reach, impl: str, scene: str, samples: int, console: Console) -> None:
+    missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in reach.missing]
+    said = [f"not written yet, so without it: {join_and(missing)}"] if missing else []
+    if not reach.trees:
+        said.append("without the octree of step 06 every ray asks every surface, which takes long")
+    whose = "your program" if impl == "mine" else "the reference's program"
+    said.append(f"{whose} draws {scene}, {count(samples, 'ray')} for each pixel")
+    _say_more([f"raysteps: {line}" for line in said], console)
+
+
+def _make(
+    project: Project, arguments: argparse.Namespace, own: OwnProgram, reach: Reach, out: Path, console: Console
+) -> None:
+    ours = arguments.scene is None
+    samples = arguments.samples or (_SAMPLES if reach.trees else _FEW_SAMPLES)
+    size = arguments.size or ((_SIZE if reach.trees else _SMALL_SIZE) if ours else None)
+    _say_first(reach, arguments.impl, short_path(Path(own.scene)), samples, console)
+    picture, work, seconds = own.large(reach, size, samples)
+    _check_size(picture)
+    surfaces = own.surfaces()
+    notes = _notes(project, reach, arguments.impl)
+    stations = _stations(own, reach, read_steps(project), picture.shape, notes, console)
+    counted = own.counted(reach, picture.shape, surfaces)
+    title = arguments.title or (
+        _TITLE if ours else clean(Path(own.scene).stem.replace("-", " ")).capitalize() or "Scene"
+    )
+    steps = count(len(reach.drawn), "step")
+    words = (
+        f"Ray traced by {'a program of my own' if arguments.impl == 'mine' else 'the reference'}, written in {steps}"
+    )
+    small = f"{words}: {in_words(work.rays)} rays"
+    page = finale_page(
+        Finale(
+            title,
+            arguments.name,
+            f"{words}.",
+            picture,
+            samples,
+            stations,
+            work,
+            counted,
+            own_command(),
+            "finale.png and poster.png",
+        )
+    ).encode("utf-8", "replace")
+    write_png(picture, out / "finale.png")
+    write_png(poster(picture, title, arguments.name, small), out / "poster.png")
+    write_out(out / "finale.html", page)
+    said = [f"drawn in {seconds:.0f} s: {in_words(work.rays)} rays"]
+    if counted:
+        best = min(counted, key=lambda one: one.work.tests_per_ray)
+        share = best.work.tests_per_ray / (counted[0].work.tests_per_ray or 1.0)
+        said.append(f"{best.name}: {100 * (1 - share):.1f} % of the tests spared")
+    if not all(can_be_written(text) for text in (title, arguments.name)):
+        said.append(
+            "no font here has all letters of title and name: the poster does without; the page, printed, has them"
+        )
+    said.append(
+        f"Finale: {short_path((out / 'finale.html').resolve())} ({shown_size(len(page))}); beside it finale.png "
+        "and poster.png"
+    )
+    _say_more(said, console)
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when the page was made; what raytrace says when it could not draw."""
+    if arguments.new is not None:
+        if arguments.scene is not None:
+            raise UsageError(f"{arguments.scene}: --new writes a scene and draws none; expected one of the two")
+        return _new_scene(project, arguments.new, console)
+    take_impl(["--impl", arguments.impl])
+    out: Path = arguments.out or project.build / "finale"
+    usable_folder(out)
+    reach = _reach(project, arguments.impl)
+    scene = arguments.scene or os.fspath(project.scenes / _SCENE)
+    program = build_program(release_tree(project), "raytrace", arguments.impl)
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        threads = () if arguments.threads is None else ("--threads", arguments.threads)
+        own = OwnProgram(partial(run_raytrace, program), scene, Path(folder), threads)
+        try:
+            _make(project, arguments, own, reach, out, console)
+        except NotDrawn as stopped:
+            if stopped.code != _BAD_SCENE:
+                _say_more([f"raysteps: no finale without {stopped}"], console)
+            return stopped.code
+    return 0

@@ -1,0 +1,138 @@
+"""What the student's own program draws for the finale, and what it counts."""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.course.manifest import Step
+from raysteps.images.compare import Pixels, read_png
+from raysteps.images.render import read_work
+from raysteps.results.model import Work
+
+_SMALL = 480  # pixels: the width of a picture of one step
+_SMALL_SAMPLES = "4"
+_COUNTED = 160  # pixels: small, as every surface is tested for every ray
+_LARGEST_COUNTED = 20_000  # surfaces
+_LAST_PICTURE = 8  # step 09 draws the same
+
+
+class NotDrawn(Exception):
+    """The program gave up or crashed, and has said why on the terminal."""
+
+    def __init__(self, code: int, what: str) -> None:
+        super().__init__(what)
+        self.code = code
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Which steps there are to draw with."""
+
+    drawn: tuple[Step, ...]
+    missing: tuple[Step, ...]
+
+    @property
+    def last(self) -> int:
+        """Whose picture shows all of them."""
+        return max(min(step.index, _LAST_PICTURE) for step in self.drawn if not step.is_about_a_tree)
+
+    @property
+    def trees(self) -> dict[str, str]:
+        """The option for each tree, and what people call it."""
+        there = {step.index for step in self.drawn}
+        known = {6: ("octree", "octree"), 9: ("bvh", "bounding volumes")}
+        return {option: name for index, (option, name) in known.items() if index in there}
+
+    @property
+    def tree(self) -> str:
+        """The one to draw with."""
+        return next(reversed(self.trees), "none")
+
+    def accel_of(self, step: Step) -> str:
+        """A step that is about a tree is drawn with its own, all others with the quickest: the picture is the same."""
+        return {6: "octree", 9: "bvh"}.get(step.index, self.tree) if step.is_about_a_tree else self.tree
+
+
+def reach_of(steps: Sequence[Step], written: set[str]) -> Reach:
+    """A step that changes the picture needs those before it; trees and bonuses may be left out."""
+    drawn: list[Step] = []
+    broken = False
+    for step in steps:
+        there = step.id in written and not broken
+        if there:
+            drawn.append(step)
+        elif not (step.bonus or step.is_about_a_tree):
+            broken = True
+    return Reach(tuple(drawn), tuple(step for step in steps if step not in drawn))
+
+
+@dataclass(frozen=True)
+class Counted:
+    """The same small picture with one way to find what a ray meets."""
+
+    name: str
+    work: Work
+
+
+@dataclass(frozen=True)
+class OwnProgram:
+    """Draws one scene into a folder."""
+
+    run: Callable[[list[str]], int]  # with these words, on this terminal: its bar and its errors show
+    scene: str
+    folder: Path
+    threads: tuple[str, ...] = ()
+
+    def _draw(self, what: str, *words: str) -> Path:
+        picture = self.folder / "picture.png"
+        picture.unlink(missing_ok=True)
+        code = self.run([self.scene, "-o", str(picture), *self.threads, *words])
+        if code != 0 or not picture.is_file():
+            raise NotDrawn(code or 1, what)
+        return picture
+
+    def _counters(self) -> Path:
+        return self.folder / "stats.json"
+
+    def large(self, reach: Reach, size: str | None, samples: int) -> tuple[Pixels, Work, float]:
+        """The picture, what was counted, and how many seconds it took. Without a size it is the scene's own."""
+        sized = () if size is None else ("--size", size)
+        words = ("--step", str(reach.last), "--accel", reach.tree, "--samples", str(samples), *sized)
+        path = self._draw("the large picture", *words, "--stats", str(self._counters()))
+        return read_png(path), self._work(), self._seconds()
+
+    def _work(self) -> Work:
+        work = read_work(self._counters().read_bytes())
+        if work is None:
+            raise NotDrawn(1, "the counters: they cannot be read")
+        return work
+
+    def _seconds(self) -> float:
+        found = re.search(rb'"render_seconds": *([0-9.e+-]+)', self._counters().read_bytes())
+        return float(found[1]) if found else 0.0
+
+    def small(self, reach: Reach, step: Step, shape: tuple[int, ...]) -> Pixels:
+        """As the steps up to this one see the scene; `shape` is that of the large picture."""
+        size = f"{_SMALL}x{max(1, round(_SMALL * shape[0] / shape[1]))}"
+        at = str(min(step.index, reach.last) if step.is_about_a_tree else step.index)
+        view = ("--view", "normals") if step.index == 2 else ()
+        words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", _SMALL_SAMPLES, "--size", size)
+        return read_png(self._draw(f"the picture of step {step.number}", *words, "--quiet"))
+
+    def counted(self, reach: Reach, shape: tuple[int, ...], surfaces: int) -> list[Counted]:
+        """Every surface for every ray, then with each tree. Nothing where there is no tree, or too much to test."""
+        if not reach.trees or surfaces > _LARGEST_COUNTED:
+            return []
+        size = f"{_COUNTED}x{max(1, round(_COUNTED * shape[0] / shape[1]))}"
+        found = []
+        for accel, name in {"none": "every surface", **reach.trees}.items():
+            words = ("--step", str(reach.last), "--accel", accel, "--size", size, "--stats", str(self._counters()))
+            self._draw(f"the picture that is counted ({name})", *words, "--quiet")
+            found.append(Counted(name, self._work()))
+        return found
+
+    def surfaces(self) -> int:
+        """Of the scene, as counted last."""
+        found = re.search(rb'"surfaces": *([0-9]+)', self._counters().read_bytes())
+        return int(found[1]) if found else 0

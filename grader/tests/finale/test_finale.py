@@ -1,0 +1,233 @@
+"""The command `finale`: what it draws with, what it writes, and what it says to wrong words."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from raysteps.cli import finale as command
+from raysteps.cli.app import main
+from raysteps.common.errors import UsageError
+from raysteps.course.manifest import Step, read_steps
+from raysteps.course.project import Project
+from raysteps.course.stubs import stub_for
+from raysteps.finale.finale_page import in_words
+from raysteps.finale.own_pictures import reach_of
+from raysteps.finale.poster import can_be_written, poster
+from raysteps.images.compare import read_png
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+_SCENE = """b 0.1 0.2 0.3
+v
+from 0 0 5
+at 0 0 0
+up 0 1 0
+angle 40
+hither 0.01
+resolution 200 160
+l 4 5 6
+f 0.9 0.5 0.1 0.8 0.2 20 0 1
+s 0 0 0 1
+s 1.5 0 -1 0.7
+"""
+
+
+def _run(project: Project, *words: str) -> int:
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    return command.run(project, parser.parse_args(words), Console(width=200))
+
+
+def _ids(steps: tuple[Step, ...]) -> str:
+    return " ".join(step.number for step in steps)
+
+
+@pytest.mark.parametrize(
+    ("written", "drawn", "last", "tree"),
+    [
+        ("01 02 03 04 05 06 07 08 09", "01 02 03 04 05 06 07 08 09", 8, "bvh"),
+        ("01 02 03 04 05 06 07", "01 02 03 04 05 06 07", 7, "octree"),
+        ("01 02 03 04 05 07", "01 02 03 04 05 07", 7, "none"),
+        ("01 02 03 04 05 06 07 09", "01 02 03 04 05 06 07 09", 7, "bvh"),
+        ("01 02 04 05 06", "01 02", 2, "none"),
+    ],
+)
+def test_it_draws_with_as_many_steps_as_are_written(
+    steps: list[Step], written: str, drawn: str, last: int, tree: str
+) -> None:
+    reach = reach_of(steps, {step.id for step in steps if step.number in written.split()})
+    assert (_ids(reach.drawn), reach.last, reach.tree) == (drawn, last, tree)
+    assert {*reach.drawn, *reach.missing} == set(steps)
+
+
+@pytest.fixture
+def with_reference(kit: BuiltKit, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its program in place of one that would have to be built."""
+    monkeypatch.setattr(command, "build_program", lambda tree, name, impl: kit.reference(name))
+
+
+def _written(project: Project, root: Path, *numbers: int) -> Project:
+    """A course in which these steps are written."""
+    for step in read_steps(project):
+        place = root / "steps" / step.id
+        place.mkdir(parents=True)
+        (place / "step.toml").write_bytes((project.steps / step.id / "step.toml").read_bytes())
+        (root / "solutions" / step.id).mkdir(parents=True)
+        source = (project.samples / "complete" / "steps" / step.path).read_text(encoding="utf-8")
+        stub = stub_for(project, step)
+        (root / "grader" / "stubs" / step.id).mkdir(parents=True)
+        (root / "grader" / "stubs" / step.path).write_text(stub, encoding="utf-8")
+        (root / "steps" / step.path).write_text(source if step.index in numbers else stub, encoding="utf-8")
+    (root / "solutions").rename(root / "none")  # as in a students' kit
+    (root / "scenes").symlink_to(project.scenes)
+    return Project(root)
+
+
+@pytest.mark.usefixtures("with_reference")
+def test_it_writes_picture_page_and_poster_and_the_same_ones_again(
+    project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "two-balls.nff"
+    scene.write_text(_SCENE)
+    words = (str(scene), "--name", "Zoë <b>", "--impl", "reference", "-o")
+    assert _run(project, *words, str(tmp_path / "a")) == 0
+    assert _run(project, *words, str(tmp_path / "b"), "--threads", "1") == 0
+    said = capsys.readouterr().out
+    assert "two-balls.nff, 9 rays for each pixel" in said
+    assert "of the tests spared" in said
+    names = ["finale.html", "finale.png", "poster.png"]
+    assert sorted(path.name for path in (tmp_path / "a").iterdir()) == names
+    for name in names:
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes(), name
+    picture, framed = read_png(tmp_path / "a/finale.png"), read_png(tmp_path / "a/poster.png")
+    assert picture.shape == (160, 200, 3)
+    assert np.array_equal(framed[20:180, 20:220], picture)
+    page = (tmp_path / "a/finale.html").read_text("utf-8")
+    assert "<h1>Two balls</h1>" in page
+    assert "Zoë &lt;b&gt;" in page
+    assert page.count('alt="After step') == 9
+
+
+@pytest.mark.usefixtures("with_reference")
+def test_what_is_missing_is_said_and_the_rest_is_drawn(
+    project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = _written(project, tmp_path / "course", 1, 2, 3)
+    scene = tmp_path / "balls.nff"
+    scene.write_text(_SCENE)
+    assert _run(course, str(scene), "-o", str(tmp_path / "out")) == 0
+    said = capsys.readouterr().out
+    assert "not written yet, so without it: 04 Shadows, 05 Reflection" in said
+    assert "without the octree of step 06 every ray asks every surface" in said
+    assert "4 rays for each pixel" in said
+    page = (tmp_path / "out/finale.html").read_text("utf-8")
+    assert page.count('alt="After step') == 3
+    assert page.count("Still to be written.") == 6
+    assert page.count("Drawn as it is: not checked yet.") == 3
+    assert "reference" not in page
+    assert "The work" not in page
+
+
+def test_without_the_first_step_there_is_no_picture(project: Project, tmp_path: Path) -> None:
+    course = _written(project, tmp_path / "course", 2, 3)
+    with pytest.raises(UsageError, match=r"^step 01 is not written yet, .* steps/01-camera-rays/camera_rays\.cpp; "):
+        _run(course)
+
+
+@pytest.mark.usefixtures("with_reference")
+def test_a_mistake_in_the_scene_is_told_with_its_place(
+    project: Project, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "bad.nff"
+    scene.write_text(_SCENE.replace("s 0 0 0 1\n", "s 0 0 zero 1\n"))
+    assert _run(project, str(scene), "--impl", "reference", "-o", str(tmp_path / "out")) == 2
+    assert "bad.nff:11:7: " in capfd.readouterr().err
+    assert not list((tmp_path / "out").iterdir())
+    scene.write_text(_SCENE.replace("200 160", "20 16"))
+    with pytest.raises(UsageError, match=r"resolution is 20x16: expected 160 to 8192 pixels .* --size"):
+        _run(project, str(scene), "--impl", "reference", "-o", str(tmp_path / "out"))
+
+
+def test_a_program_that_crashes_makes_no_page(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    program = tmp_path / "raytrace-mine"
+    program.write_text("#!/bin/sh\nkill -SEGV $$\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(command, "build_program", lambda tree, name, impl: program)
+    course = _written(project, tmp_path / "course", 1, 2)
+    assert _run(course, "-o", str(tmp_path / "out")) == 1
+    told = capfd.readouterr()
+    assert "your program crashed (SIGSEGV" in told.err
+    assert "no finale without the large picture" in told.out
+    assert not list((tmp_path / "out").iterdir())
+
+
+def test_a_new_scene_never_takes_the_place_of_a_file(
+    project: Project, tmp_path: Path, kit: BuiltKit, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "mine.nff"
+    assert _run(project, "--new", str(path)) == 0
+    assert f"finale {path}" in capfd.readouterr().out
+    assert path.read_bytes() == (project.scenes / "template.nff").read_bytes()
+    path.write_text("changed")
+    with pytest.raises(UsageError, match=r"mine\.nff: is there already, and stays as it is"):
+        _run(project, "--new", str(path))
+    assert path.read_text() == "changed"
+    with pytest.raises(UsageError, match=r"mine\.txt: expected a name that ends in \.nff"):
+        _run(project, "--new", str(tmp_path / "mine.txt"))
+    with pytest.raises(UsageError, match=r"no-folder/a\.nff: cannot be written"):
+        _run(project, "--new", str(tmp_path / "no-folder/a.nff"))
+    with pytest.raises(UsageError, match=r"a\.nff: --new writes a scene and draws none"):
+        _run(project, "a.nff", "--new", str(tmp_path / "b.nff"))
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--size", "640"], "expected WxH in pixels, each from 160 to 8192, like 1600x900"),
+        (["--size", "100x9000"], "expected WxH in pixels"),
+        (["--samples", "10"], "expected 1, 4, 9, 16, 25, 36, 49 or 64, found '10'"),
+        (["--threads", "0"], "expected a whole number from 1 to 1024"),
+        (["--name", "x" * 61], "expected one line of at most 60 letters"),
+        (["--impl", "yours"], "invalid choice"),
+        (["--sampels", "4"], "--sampels: there is no such option; did you mean --samples?"),
+    ],
+)
+def test_wrong_words_are_refused_before_anything_is_built(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["finale", *words])
+    assert ended.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_results_need_a_folder(project: Project, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(UsageError, match="is a file; expected a folder"):
+        _run(project, "-o", str(tmp_path / "file"))
+
+
+def test_a_poster_writes_what_its_letters_can(tmp_path: Path) -> None:
+    picture = np.full((160, 300, 3), 200, np.uint8)
+    plain, named = poster(picture, "Title", "", ""), poster(picture, "Title", "Ann", "")
+    assert plain.shape == named.shape == (160 + 30 + 50, 360, 3)
+    assert not np.array_equal(plain, named)
+    assert can_be_written("Ann Example")
+    assert not can_be_written("\uffff")
+    assert np.array_equal(poster(picture, "Title", "\uffff", ""), plain), "better no name than a wrong one"
+    long = poster(picture, "W" * 60, "", "")
+    assert np.array_equal(long[:190, 35:325][0], plain[:190, 35:325][0])
+    assert (long[200:, :10] == long[0, 0]).all(), "a long title keeps off the edge"
+
+
+def test_large_numbers_are_told_in_words() -> None:
+    assert [in_words(amount) for amount in (7, 640_000, 31_240_000, 8_166_000_000)] == [
+        "7",
+        "640 thousand",
+        "31.2 million",
+        "8.17 billion",
+    ]
