@@ -11,9 +11,8 @@ from watch_fakes import result_of
 
 from raysteps.cli.watch import on_a_desktop
 from raysteps.course.manifest import Step
-from raysteps.images.compare import write_png
+from raysteps.images.compare import worst_pixel, write_png
 from raysteps.report.wording import inspect_command, typed
-from raysteps.report.worst_pixel import worst_pixel
 from raysteps.watch.page_state import page_of, state_of
 from raysteps.watch.session import command_of_worst
 from raysteps.watch.step_view import StepView, verdict

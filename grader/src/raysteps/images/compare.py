@@ -92,6 +92,18 @@ def widest(gap: Gaps) -> tuple[int, int]:
     return x, y
 
 
+def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
+    """The column and the row; none where the pictures cannot be compared or are the same."""
+    try:
+        one, other = read_png(mine), read_png(reference)
+    except OSError:
+        return None
+    if one.shape != other.shape:
+        return None
+    gap = gaps(one, other)
+    return widest(gap) if gap.any() else None
+
+
 def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
     """The absolute difference of two pictures of one size, made brighter."""
     bright: Pixels = np.minimum(pixels_differ(mine, reference) * factor, 255).astype(np.uint8)

@@ -12,8 +12,7 @@ from rich.text import Text
 
 from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, SaidOnce, percent, total_words, typed
-from raysteps.report.worst_pixel import inspect_worst
+from raysteps.report.wording import HOW_SURE, SaidOnce, inspect_worst, percent, total_words, typed
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.toolchain.kit_artifacts import ProgressCallback

@@ -1,13 +1,15 @@
 """Commands that a report gives its reader to copy."""
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from raysteps.common import platform as systems
 from raysteps.common.platform import own_command
 from raysteps.common.text import tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import Project, here
-from raysteps.results.model import Total
+from raysteps.images.compare import worst_pixel
+from raysteps.results.model import ImageResult, Total
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
@@ -61,6 +63,15 @@ def inspect_command(name: str, step: Step | None) -> str | None:
         return None
     start = systems.quote_command([case.scene])
     return typed(inspect_words(case, 0, 0)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
+
+
+def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None:
+    """What to type after `./raysteps`, at the size of the picture itself: another size has other pixels."""
+    case = next((case for case in step.images if case.name == image.name), None)
+    if case is None or image.passed or not image.mine or not image.reference:
+        return None
+    worst = worst_pixel(out / image.mine, out / image.reference)
+    return None if worst is None else inspect_words(case, *worst)
 
 
 # Words that every view of a result shares, on pages and in the terminal.

@@ -14,8 +14,7 @@ from raysteps.course.project import Project
 from raysteps.progress.hints import Hints, no_other
 from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.progress.standing import next_of, own_source, print_list, shown, standings
-from raysteps.report.wording import typed
-from raysteps.report.worst_pixel import inspect_worst
+from raysteps.report.wording import inspect_worst, typed
 from raysteps.submission.entries import RejectedFile
 from raysteps.watch.edits import edited_functions
 from raysteps.watch.events import (

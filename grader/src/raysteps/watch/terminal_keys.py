@@ -9,7 +9,7 @@ import tty
 from contextlib import suppress
 
 from raysteps.watch.events import Post
-from raysteps.watch.key_listener import LOOK_SECONDS, KeyListener
+from raysteps.watch.keyboard import LOOK_SECONDS, KeyListener
 
 
 def in_front() -> bool:

@@ -4,7 +4,7 @@ import importlib
 import time
 from collections.abc import Callable
 
-from raysteps.watch.key_listener import LOOK_SECONDS, KeyListener
+from raysteps.watch.keyboard import LOOK_SECONDS, KeyListener
 
 _console = importlib.import_module("msvcrt")  # by its name: type checkers on other systems do not know it
 _is_hit: Callable[[], bool] = _console.kbhit
