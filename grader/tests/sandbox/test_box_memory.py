@@ -37,7 +37,7 @@ _SEARCH = """
 
 namespace {
 
-const char* const control = "CONTROL";
+const char* volatile control = "CONTROL";  // one piece, however it is printed
 struct Piece { const char* masked; std::size_t size; };
 const Piece pieces[] = {PIECES};
 
