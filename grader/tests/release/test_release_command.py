@@ -85,7 +85,7 @@ def test_it_is_made_and_checked_in_an_empty_folder(
     monkeypatch.delenv("PYTHONPATH", raising=False)
     stub = _alone(out, room, "check", "01")
     assert stub.code == 1, stub.stdout + stub.stderr
-    assert "not-started" in stub.stdout
+    assert "not started" in stub.stdout
     (out / "steps" / steps[0].path).write_text(solved[steps[0].id], encoding="utf-8")
     right = _alone(out, room, "check", "01")
     assert right.code == 0, right.stdout + right.stderr

@@ -154,11 +154,12 @@ class HiddenStepGrader(StepGrader):
     # A function that is not written costs its own points only: for all others, the reference's takes its place.
 
     def _completed(self, binary: Path) -> Programs | None:
-        """The programs of the tests and of the judge with the reference's functions in place of those that are not
-        written. None where nothing or everything is written, or where steps are no libraries."""
+        """The programs of the tests and of the judge with the reference's function in place of the one that is not
+        written. None where it is not a single one, or where steps are no libraries: with more of them missing, what
+        is left would be taken for most of the work."""
         step, unfinished = self.step, self._unfinished
         names = self._work.kit.linker_names(step, unfinished)
-        if self._plan is None or not names or len(unfinished) == len(step.functions):
+        if self._plan is None or not names or not len(unfinished) == 1 < len(step.functions):
             return None
         programs: Programs = {}
         for kind in ("test", "worker"):
