@@ -113,8 +113,8 @@ def work() -> None:
 
 def look_into_a_pixel(words: list[str]) -> None:
     """As `./raysteps inspect` does while it builds its program: it speaks, and goes on until it is interrupted."""
-    print(f"looking: {' '.join(words)}", flush=True)
     try:
+        print(f"looking: {' '.join(words)}", flush=True)  # whoever reads this may interrupt at once
         time.sleep(1000)
     except KeyboardInterrupt:
         print("the build was ended", flush=True)
