@@ -76,7 +76,7 @@ class Watched:
         self._contexts.append(context)
         context.add_init_script(_WATCH_POLICY + before)
         page = context.new_page()
-        page.set_default_timeout(10_000)
+        page.set_default_timeout(60_000)
         page.on("request", self._request)
         page.on("console", self._console)
         page.on("pageerror", self._error)

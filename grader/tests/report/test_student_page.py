@@ -276,8 +276,10 @@ def test_the_history_stays_small_and_keeps_its_beginning(steps: list[Step], tmp_
     assert (tmp_path / "history.json").stat().st_size < 1_000_000
     note_attempt(tmp_path, document, [steps[0].id], _at(4))
     assert read_attempts(tmp_path) == kept  # nothing has changed
-    (tmp_path / "history.json").write_text('{"schema": "raysteps/history/v1", "attempts": [{"at": "<b>"}]}')
-    assert read_attempts(tmp_path) == []
+    for wrong in ("<b>", "2026-13-45 99:99"):
+        attempt = {"at": wrong, "points": 1, "max": 2}
+        (tmp_path / "history.json").write_text(json.dumps({"schema": "raysteps/history/v1", "attempts": [attempt]}))
+        assert read_attempts(tmp_path) == []
 
 
 def test_a_crash_is_told_once_for_a_step(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from raysteps.images.compare import Pixels, read_png
 from raysteps.images.render import read_work
 from raysteps.results.model import Work
 
-_SMALL = 480  # pixels: the width of a picture of one step
+_SMALL = 480  # pixels: the longer side of a picture of one step
 _SMALL_SAMPLES = "4"
 _COUNTED = 160  # pixels: small, as every surface is tested for every ray
 _LARGEST_COUNTED = 20_000  # surfaces
@@ -52,6 +52,12 @@ class Reach:
     def accel_of(self, step: Step) -> str:
         """A step that is about a tree is drawn with its own, all others with the quickest: the picture is the same."""
         return {6: "octree", 9: "bvh"}.get(step.index, self.tree) if step.is_about_a_tree else self.tree
+
+
+def _size(longest: int, shape: tuple[int, ...]) -> str:
+    """Of the form of a picture of this shape, with so many pixels along its longer side."""
+    scale = longest / max(shape[:2])
+    return f"{max(1, round(shape[1] * scale))}x{max(1, round(shape[0] * scale))}"
 
 
 def reach_of(steps: Sequence[Step], written: set[str]) -> Reach:
@@ -114,7 +120,7 @@ class OwnProgram:
 
     def small(self, reach: Reach, step: Step, shape: tuple[int, ...]) -> Pixels:
         """As the steps up to this one see the scene; `shape` is that of the large picture."""
-        size = f"{_SMALL}x{max(1, round(_SMALL * shape[0] / shape[1]))}"
+        size = _size(_SMALL, shape)
         at = str(min(step.index, reach.last) if step.is_about_a_tree else step.index)
         view = ("--view", "normals") if step.index == 2 else ()
         words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", _SMALL_SAMPLES, "--size", size)
@@ -124,7 +130,7 @@ class OwnProgram:
         """Every surface for every ray, then with each tree. Nothing where there is no tree, or too much to test."""
         if not reach.trees or surfaces > _LARGEST_COUNTED:
             return []
-        size = f"{_COUNTED}x{max(1, round(_COUNTED * shape[0] / shape[1]))}"
+        size = _size(_COUNTED, shape)
         found = []
         for accel, name in {"none": "every surface", **reach.trees}.items():
             words = ("--step", str(reach.last), "--accel", accel, "--size", size, "--stats", str(self._counters()))

@@ -51,9 +51,12 @@ def read_attempts(folder: Path) -> list[Attempt]:
     try:
         if path.stat().st_size > _MAX_BYTES:
             return []
-        return parse_document(path.read_bytes(), AttemptList).attempts[-_MAX:]
+        attempts = parse_document(path.read_bytes(), AttemptList).attempts[-_MAX:]
+        for attempt in attempts:
+            datetime.fromisoformat(attempt.at)  # the form alone lets a thirteenth month pass
     except (OSError, ValueError):
         return []
+    return attempts
 
 
 def _small_png(path: Path) -> str:

@@ -20,11 +20,10 @@ def check_command(step_id: str) -> str:
 
 
 def after_the_last() -> list[tuple[str, str]]:
-    """What to try when every step is right: a command, and what it does."""
+    """What to try when every step is right: a command that a students' kit has, too, and what it does."""
     return [
         (f"{own_command()} finale", "draws a large picture with all that you have written"),
-        (f"{own_command()} gallery --mine", "shows every scene, step by step, beside the reference's"),
-        (f"{own_command()} view", "lets you walk through a scene in a window"),
+        (f"{own_command()} view scenes/lessons/three-spheres.nff", "lets you walk through a scene in a window"),
     ]
 
 
