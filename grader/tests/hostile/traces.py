@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from sandboxes import control_groups
+
 _SHARED = (Path("/dev/shm"), Path("/dev/mqueue"), Path("/var/tmp"))
 _TABLES = (Path("/proc/sysvipc/shm"), Path("/proc/sysvipc/msg"), Path("/proc/sysvipc/sem"))
 
@@ -67,11 +69,6 @@ def _rows(table: Path) -> set[str]:
         return set()
 
 
-def _groups(own: str) -> set[str]:
-    """A group that ends meanwhile is passed over."""
-    return {f"{root}/{name}" for root, names, _ in os.walk("/sys/fs/cgroup") for name in names if own in name}
-
-
 @dataclass(frozen=True)
 class Traces:
     """A look at the machine. `spared` are roots of processes that others started on purpose."""
@@ -85,7 +82,7 @@ class Traces:
         found |= {f"mount {line}" for line in Path("/proc/mounts").read_text("utf-8", "replace").splitlines()}
         found |= set().union(*(_names(folder) for folder in (*_SHARED, self.temporary)))
         found |= set().union(*(_rows(table) for table in _TABLES))
-        return found | _groups(f"raysteps-{os.getpid()}-")
+        return found | control_groups()
 
     def left_since(self, before: set[str], seconds: float = 5.0) -> set[str]:
         """What is new and stays: the kernel takes a moment to clear up behind a namespace."""

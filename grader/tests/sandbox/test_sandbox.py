@@ -1,6 +1,5 @@
 """Every sandbox runs honest programs, and holds those that are not."""
 
-import os
 import signal
 import socket
 import subprocess
@@ -9,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from sandboxes import PROGRAM, Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox, secret
+from sandboxes import PROGRAM, Misbehave, any_sandbox, control_groups, hostile, misbehave, processes_running, sandbox, secret
 
 from raysteps.course.project import here
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
@@ -255,10 +254,9 @@ def test_an_output_is_a_regular_file_or_nothing(any_sandbox: Sandbox, hostile: P
     assert ran.outputs == {}
 
 
-def _traces(folder: Path) -> tuple[str, list[Path], list[Path]]:
+def _traces(folder: Path) -> tuple[str, list[Path], set[str]]:
     """Mounts, temporary files, and control groups of this process."""
-    groups = [path for path in Path("/sys/fs/cgroup").rglob(f"raysteps-{os.getpid()}-*") if path.is_dir()]
-    return Path("/proc/self/mounts").read_text(encoding="utf-8"), list(folder.iterdir()), groups
+    return Path("/proc/self/mounts").read_text(encoding="utf-8"), list(folder.iterdir()), control_groups()
 
 
 def test_nothing_is_left_behind(
