@@ -3,7 +3,7 @@
 import hashlib
 import tempfile
 import time
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
@@ -19,7 +19,6 @@ from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.diagnosis.mutant_fingerprints import are_learned
 from raysteps.grading.build_messages import link_message
 from raysteps.grading.images import (
-    ImageGrader,
     grade_integration,
     judge,
     part_of_a_picture,
@@ -45,38 +44,6 @@ from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import StepLimits, submission_seconds
-
-
-def _judge_scene(
-    gallery: ImageGrader, program: Program, step: Step, scene: HiddenScene, folder: Path, not_spared: str, spares: bool
-) -> HiddenResult:
-    """A scene made for this seed. The file's name says nothing about what it is for. `not_spared`: why few tests earn
-    nothing; `spares`: whether a picture that does not pass earns something all the same."""
-    path = folder / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
-    write_bytes(path, scene.nff.encode())
-    reference = reference_picture(gallery.kit, path, scene.args)
-    rendered = gallery.render(program, path, scene.args)
-    result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
-    result.seconds = round(rendered.ran.outcome.seconds, 2)
-    if rendered.pixels is None:
-        result.outcome, result.message = trouble(rendered)
-        return result
-    verdict = compare(rendered.pixels, reference, scene.max_wrong)
-    problem = verdict.message
-    if verdict.passed and scene.max_share is not None:
-        problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
-    result.wrong_share = round(verdict.wrong_share, 6)
-    result.message = problem
-    if not problem:
-        result.share, result.outcome = 1.0, "ok"
-        return result
-    result.outcome = "wrong"
-    if spares or scene.max_share is None:
-        result.share = part_of_a_picture(
-            gallery.kit, step, path, scene.args, scene.max_share, reference, rendered, pixels_pass=verdict.passed
-        )
-    return result
-
 
 _NOT_GRADED = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
 
@@ -129,7 +96,7 @@ class HiddenStepGrader(StepGrader):
             for case in step.images:
                 result.images.append(judge(gallery, programs["raytrace"], step, case))
             if plan is not None:
-                seed, folder = self._settings.seed, self._work.folder / step.number
+                seed = self._settings.seed
                 ask = self._ask = self._asked_of(programs["worker"], completed)
                 examples = None
                 if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
@@ -142,14 +109,41 @@ class HiddenStepGrader(StepGrader):
                 take_back(result.images, result.hidden)
                 spares = not why_unspared(result.hidden)
                 for scene in hidden_scenes(kit.project, step, plan, seed):
-                    result.hidden.append(
-                        _judge_scene(gallery, programs["raytrace"], step, scene, folder, not_spared, spares)
-                    )
+                    result.hidden.append(self._judge_scene(programs["raytrace"], scene, not_spared, spares=spares))
             set_aside(result, step, kit.tests[step.id], self._work.source(step) or "", replaced=completed is not None)
             result.messages += sum_up(result)
             self._unexplained = not is_right(result)
             self._ran = True
         return self._result
+
+    def _judge_scene(self, program: Program, scene: HiddenScene, not_spared: str, *, spares: bool) -> HiddenResult:
+        """A scene made for this seed. The file's name says nothing about what it is for. `not_spared`: why few tests
+        earn nothing; `spares`: whether a picture that does not pass earns something all the same."""
+        gallery, step = self._gallery, self.step
+        path = self._work.folder / step.number / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
+        write_bytes(path, scene.nff.encode())
+        reference = reference_picture(gallery.kit, path, scene.args)
+        rendered = gallery.render(program, path, scene.args)
+        result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
+        result.seconds = round(rendered.ran.outcome.seconds, 2)
+        if rendered.pixels is None:
+            result.outcome, result.message = trouble(rendered)
+            return result
+        verdict = compare(rendered.pixels, reference, scene.max_wrong)
+        problem = verdict.message
+        if verdict.passed and scene.max_share is not None:
+            problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
+        result.wrong_share = round(verdict.wrong_share, 6)
+        result.message = problem
+        if not problem:
+            result.share, result.outcome = 1.0, "ok"
+            return result
+        result.outcome = "wrong"
+        if spares or scene.max_share is None:
+            result.share = part_of_a_picture(
+                gallery.kit, step, path, scene.args, scene.max_share, reference, rendered, pixels_pass=verdict.passed
+            )
+        return result
 
     # A function that is not written costs its own points only: for all others, the reference's takes its place.
 
@@ -267,11 +261,12 @@ def grade_submission(
     *,
     jobs: int = 1,
     tell: Callable[[Results], None] = lambda results: None,
+    name_crash: Callable[[Sequence[StepResult]], None] = lambda found: None,
 ) -> Results:
     """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only; where it was the
     grader that failed in one, GraderFault says so when all is written. So many `jobs` are done at a time; that changes
-    a grade only where a step is near its time limit. `tell` gets the results before known mistakes have to be learned:
-    nobody waits for names."""
+    a grade only where a step is near its time limit. `name_crash` may add to messages where a test crashed. `tell` gets
+    the results before known mistakes have to be learned: nobody waits for names."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
     counted = AccountingSandbox(sandbox, together)
@@ -291,6 +286,7 @@ def grade_submission(
             steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
             if counted.is_spent:
                 _tell_of_the_limit(steps, together)
+            name_crash(steps)
             timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
             results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
             if any(grader.has_to_learn for grader in graders):

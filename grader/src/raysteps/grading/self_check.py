@@ -1,25 +1,28 @@
 """Checks steps in a students' kit: visible tests and pictures, with the student's own steps before each."""
 
+import os
+import sys
 import tempfile
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, reason
+from raysteps.common.errors import GraderFault, RaystepsError, reason
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
-from raysteps.grading.unit_tests import set_aside
+from raysteps.grading.unit_tests import has_crashed, set_aside, tell_crash_line
 from raysteps.images.render import reference_image_path
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program
+from raysteps.toolchain.compile import Compiled, Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
@@ -52,6 +55,32 @@ class SelfCheckGrader(StepGrader):
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
+
+
+def name_crash(
+    kit: BuiltKit, submission: Submission, sandbox: Sandbox, say: ProgressCallback, found: Sequence[StepResult]
+) -> None:
+    """The first test in which the student's own code crashed is run once more with sanitizers, and its message names
+    the line where they can. What they cost, only who crashes pays; what goes wrong here changes nothing."""
+    tests = {result.id: [test for test in result.tests if has_crashed(test)] for result in found}
+    step = next((step for step in kit.steps if tests.get(step.id)), None)
+    if step is None or sys.platform == "win32":
+        return
+    say(f"{step.id} crashed: looking for the line")
+    alone, limits = kit.has_reference, kit.limits_of(step)
+    with suppress(RaystepsError, OSError), tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        work = GradingContext(kit.sanitized(), submission, sandbox, Path(folder), Path(folder))
+        sources = [other for other in kit.steps if other is step or (other.index < step.index and not alone)]
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            compiled = compile_steps(work, sources, pool, {})
+        binary = compiled[step.id].binary
+        if binary is not None:
+            binaries = own_steps(work, step, compiled) | {step.number: binary}
+            build = StudentBuild(work.kit, sandbox, work.folder)
+            program, _ = build.program("test", step, binaries, limits, together=not alone)
+            if program is not None:
+                files = [Path(other.path).name for other in sources]
+                tell_crash_line(sandbox, program, tests[step.id][0], limits, files)
 
 
 _TROUBLE = {
@@ -116,6 +145,7 @@ def self_check(
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
         found = _check(work, steps, jobs, chosen)
+    name_crash(kit, submission, sandbox, say, [found[step.id] for step in chosen])
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results.of(
         submission.name, [found[step.id] for step in chosen], 0, kit.fingerprint, counted.isolation, timing

@@ -3,15 +3,16 @@ are not written yet stand aside.
 """
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
-from raysteps.common.text import in_seconds, join_and
+from raysteps.common.text import in_seconds, join_and, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import called_functions, unfinished_functions
 from raysteps.images.render import ENDLESS
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.sandbox.task import Output, Sandbox, TaskResult, Word
-from raysteps.toolchain.catch2 import TestOutcome, parse_report
+from raysteps.toolchain.catch2 import THREW, TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
@@ -20,11 +21,13 @@ _FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
-def _run(sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None) -> TaskResult:
+def _run(
+    sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None, *, tools: bool = False
+) -> TaskResult:
     words: tuple[Word, ...] = ("-r", "xml", "-o", Output("report"))
     if only is not None:
         words += (_SPECIAL.sub(r"\\\1", only),)
-    return sandbox.run(program.task(words, limits.of_program(most)))
+    return sandbox.run(replace(program.task(words, limits.of_program(most)), tools=tools))
 
 
 def _complete(ran: TaskResult, names: Iterable[str]) -> list[TestOutcome] | None:
@@ -89,6 +92,119 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
             results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
             limits = limits.after_a_timeout() if results[-1].outcome == "timeout" else limits
     return results
+
+
+# The line at which a step crashes, by a program of the step that was compiled with sanitizers.
+
+_LONGEST_LINE = 2000  # of a stack that is read; a program may say anything
+_SLOWER = 5  # times as long as without
+_ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
+_HEAD = re.compile(
+    r"==\d+== *ERROR: AddressSanitizer:? (?P<error>.*)|.*: runtime error: (?P<undefined>.*)|thrown: (?P<thrown>.*)"
+)
+_RULE = re.compile(r"Assertion '(.*)' failed")
+_ACCESS = re.compile(r"\b(READ|WRITE) (?:of size|memory access)")
+_BROKEN_RULES = {
+    "size()": "asks a list for an element beyond its end",
+    "empty()": "asks an empty list for an element",
+    "engaged": "asks an optional for a value that it does not have",
+    "pointer()": "follows a null pointer",
+}
+_CAUSES = {
+    r"stack-overflow": "calls itself without an end",
+    r"stack-use-after": "{uses} a variable that is gone",
+    r"use-after-free": "{uses} memory that was given back: an object that is gone, or a list that has moved since",
+    r"underflow|overflow.*(?:to the left|bytes before)": "{uses} an element before the beginning of a list or an array",
+    r"overflow": "{uses} an element beyond the end of a list or an array",
+    r"(?:SEGV|BUS).*zero page": "follows a null pointer",
+    r"SEGV|BUS": "follows a pointer that points nowhere",
+    r"FPE": "divides a whole number by 0",
+    r"-free|dealloc": "gives back memory that is not its own, or gives it back twice",
+    r"allocation-size|out-of-memory|rss limit": "asks for more memory than there is",
+}
+
+
+@dataclass
+class _Report:
+    """What a sanitizer says, and the place in the student's files that is nearest to it."""
+
+    kind: str  # "error", "undefined" or "thrown"
+    text: str
+    said: list[str] = field(default_factory=list)
+    place: str = ""
+
+
+def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
+    names = "|".join(map(re.escape, files))
+    at = re.compile(rf"\s*#\d+ 0x[0-9a-f]+ in (?P<function>.*?) (?:\S.*[/\\])?(?P<file>{names}):(?P<line>\d+)[\d:]*\s*")
+    report, in_stack = None, False
+    for line in said.splitlines():
+        head = _HEAD.match(line)
+        if head is not None:
+            if report is not None:
+                yield report
+            kind = head.lastgroup or ""
+            report, in_stack = _Report(kind, head[kind]), True
+        elif report is not None:
+            frame = at.fullmatch(line) if in_stack and not report.place and len(line) < _LONGEST_LINE else None
+            if frame is not None:
+                function = _function_name(frame["function"])
+                report.place = f"{frame['file']}, line {frame['line']}, in {function}"
+            in_stack = in_stack and not (report.said and "#" in report.said[-1] and "#" not in line)
+            report.said.append(line)
+    if report is not None:
+        yield report
+
+
+def _function_name(text: str) -> str:
+    """Without what it takes and gives, and without the namespaces around it."""
+    name = text.replace("(anonymous namespace)::", "").replace("raysteps::", "")
+    name = shorten(printable(re.split(r"[(<\[]", name)[0].split(" ")[-1]), 100)
+    return "a lambda" if name == "operator" else name or "a function"
+
+
+def _cause(report: _Report, said: str, thrown: str) -> str:
+    if report.kind != "error":
+        return report.text if report.kind == "undefined" else f"throws {report.text}"
+    rule = _RULE.search(said)
+    if report.text.startswith("ABRT"):
+        if rule is not None:
+            known = next((words for part, words in _BROKEN_RULES.items() if part in rule[1]), "")
+            return known or f"breaks a rule of the standard library: {rule[1]}"
+        return f"throws {thrown}, and nobody catches it" if thrown else "ends the program with abort()"
+    text = " ".join([report.text, *report.said])
+    access = _ACCESS.search(text)
+    uses = {"READ": "reads", "WRITE": "writes"}[access[1]] if access else "uses"
+    words = next((words for pattern, words in _CAUSES.items() if re.search(pattern, text)), report.text.split(" ")[0])
+    return words.replace("{uses}", uses)
+
+
+def has_crashed(test: TestResult) -> bool:
+    """Whether it was ended by the system, or by an exception; not where it waits for what is not written."""
+    return not test.waits_for and (test.outcome == "crashed" or test.expanded.startswith(THREW))
+
+
+def crash_line(said: str, files: Collection[str], *, threw: bool) -> str:
+    """Where in these files a program crashed (`threw`: threw), and why, by what its sanitizers said; nothing where
+    they do not say it."""
+    reports = [report for report in _reports(said, files) if report.place]
+    thrown = [report for report in reports if report.kind == "thrown"]
+    last = [report for report in reports if report.kind == ("thrown" if threw else "undefined")][-1:]
+    for report in [*(report for report in reports if report.kind == "error"), *last]:
+        cause = _cause(report, said, thrown[-1].text if thrown else "")
+        return f"{report.place}: {shorten(printable(cause), 300)}."
+    return ""
+
+
+def tell_crash_line(
+    sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
+) -> None:
+    """Runs a test that crashed once more, and says beside its message where that was."""
+    patient = replace(limits, seconds=_SLOWER * limits.seconds, memory_mb=_ALL_MEMORY_MB)
+    ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)
+    found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
+    if found:
+        test.message = f"{test.message.removesuffix(_FIND_THE_LINE).strip()}\n{found}".strip()
 
 
 # What waits for functions that are not written yet.

@@ -11,7 +11,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.self_check import self_check
+from raysteps.grading.self_check import name_crash, self_check
 from raysteps.grading.step import clear
 from raysteps.progress.standing import Kind, Standing, next_of, remember, standings
 from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
@@ -51,8 +51,8 @@ def _look_through(
     from raysteps.results.settings import Settings
 
     settings = Settings(only=tuple(step.id for step in chosen))
-    first = partial(tell, kit)
-    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first)
+    first, crash = partial(tell, kit), partial(name_crash, kit, submission, LimitsOnly(), say)
+    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first, name_crash=crash)
 
 
 def _with_steps(results: Results, steps: Sequence[StepResult]) -> Results:
@@ -94,11 +94,11 @@ def check_steps(
         note_attempt(out, whole, [step.id for step in chosen], datetime.now().astimezone())
         found = standings(project)
         following = next_of(found)
-        page = try_student_page(out, kit.steps, say, following, own_progress(out, found))
+        page = try_student_page(out, kit.steps, say, own_progress(project, out, found))
         return CheckResult(kit, results, page, following)
 
 
-def own_progress(folder: Path, found: Sequence[Standing]) -> OwnProgress:
+def own_progress(project: Project, folder: Path, found: Sequence[Standing]) -> OwnProgress:
     """What the report of one's own steps in that folder shows beside their results."""
     changed = frozenset(standing.step.id for standing in found if standing.kind in _NEWER)
-    return OwnProgress(read_attempts(folder), changed)
+    return OwnProgress(read_attempts(folder), changed, next_of(found), project.has_reference)

@@ -16,6 +16,7 @@ from raysteps.common.documents import Amount, plain
 from raysteps.common.documents import parse as parse_document
 from raysteps.common.files import write_json
 from raysteps.common.text import clean, tenths
+from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
 from raysteps.results.model import ImageResult, Results
 
@@ -36,6 +37,9 @@ class Attempt:
     picture: Annotated[str, Meta(max_length=200)] = ""  # its name
     png: Annotated[str, Meta(max_length=_MAX_PNG, pattern="^[A-Za-z0-9+/=]*$")] = _NO_PICTURE
 
+    def __post_init__(self) -> None:
+        datetime.fromisoformat(self.at)  # the form alone lets a thirteenth month pass
+
 
 @dataclass(frozen=True)
 class AttemptList:
@@ -51,12 +55,9 @@ def read_attempts(folder: Path) -> list[Attempt]:
     try:
         if path.stat().st_size > _MAX_BYTES:
             return []
-        attempts = parse_document(path.read_bytes(), AttemptList).attempts[-_MAX:]
-        for attempt in attempts:
-            datetime.fromisoformat(attempt.at)  # the form alone lets a thirteenth month pass
+        return parse_document(path.read_bytes(), AttemptList).attempts[-_MAX:]
     except (OSError, ValueError):
         return []
-    return attempts
 
 
 def _small_png(path: Path) -> str:
@@ -159,7 +160,9 @@ def chart_of(attempts: Sequence[Attempt]) -> AttemptChart | None:
 
 @dataclass(frozen=True)
 class OwnProgress:
-    """What only a student's own report shows, and no grader's."""
+    """What only the report of one's own steps shows, and none that is handed back."""
 
     attempts: Sequence[Attempt] = ()
     changed: frozenset[str] = frozenset()  # ids of steps whose files are newer than what the report says of them
+    following: Step | None = None  # to do when those in the report are right
+    has_reference: bool = False  # the kit beside the report is the whole one: its reader can `replay`

@@ -122,6 +122,7 @@ class Assembly:
         for step in self._steps:
             self._add_step(step)
         self._write_known()
+        self._write_rest("libraries", [*self._others, self._core])
         tests = self._add_programs() if self._project.has_reference else self._add_own_programs()
         tools = self._description.seal
         loader = None if tools is None else interpreter_of(tools.readelf, next((self._folder / "bin").iterdir()))
@@ -135,7 +136,6 @@ class Assembly:
         more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
         self._link_reference("raytrace", [*raytrace, *more])
         self._link_reference("worker", worker)
-        self._write_rest("libraries", [*self._others, self._core])
         self._write_rest("raytrace", raytrace)
         self._write_rest("worker", worker)
         tests: dict[str, dict[str, list[str]]] = {}
@@ -176,6 +176,7 @@ class Assembly:
         for at, step in enumerate(self._steps, start=1):
             self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
             objects = [self._copy(path) for path in self._description.tests[step.number]]
+            self._write_rest(f"test-{step.number}", objects)
             self._add_program(f"test-cumulative-{step.number}", objects, self._steps[:at])
         return read_given_tests(self._project)
 

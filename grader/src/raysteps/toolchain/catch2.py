@@ -120,7 +120,8 @@ def _joined(notes: list[str]) -> str:
     return shorten("\n".join(notes), _MAX_NOTES)
 
 
-_TROUBLE = {"Exception": "threw", "FatalErrorCondition": "crashed"}
+THREW = "threw: "  # at the start of what came instead
+_TROUBLE = {"Exception": THREW, "FatalErrorCondition": "crashed: "}
 
 
 def _failure(element: Element, notes: list[str]) -> Failure | None:
@@ -131,12 +132,12 @@ def _failure(element: Element, notes: list[str]) -> Failure | None:
             problem = element.find("FatalErrorCondition")
         expected, got = _compared(element)
         if problem is not None:
-            expected, got = _text(element.find("Original")), f"{_TROUBLE[problem.tag]}: {_text(problem)}"
+            expected, got = _text(element.find("Original")), f"{_TROUBLE[problem.tag]}{_text(problem)}"
         return Failure(expected, got, _location(element), _joined(notes))
     if element.tag == "Failure":
         return Failure("", "", _location(element), _joined([*notes, _text(element)]))
     if element.tag in _TROUBLE:
-        got = f"{_TROUBLE[element.tag]}: {_text(element)}"
+        got = f"{_TROUBLE[element.tag]}{_text(element)}"
         return Failure("the test comes to its end", got, _location(element), _joined(notes))
     return None
 

@@ -15,7 +15,7 @@ from raysteps.common.platform import executable
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
-from raysteps.toolchain.link import Description, library_name, link, without_names
+from raysteps.toolchain.link import Description, RemoteParts, library_name, link, without_names
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
@@ -43,6 +43,11 @@ Tests = Mapping[str, Mapping[str, Sequence[str]]]  # by step: its visible tests,
 # steps themselves, for code that nothing has to be kept from.
 
 
+_SANITIZERS = "-fsanitize=address,undefined"
+# Without vptr, which asks for names that a step may not ask for, and null, in which g++ 12 gives false alarms; a true
+# null access still stops at the address sanitizer.
+_SANITIZED = ("-O1", "-g", "-fno-omit-frame-pointer", "-D_GLIBCXX_ASSERTIONS", _SANITIZERS, "-fno-sanitize=vptr,null")
+
 Replaced: TypeAlias = frozenset[str]  # linker names of functions of one step
 NOTHING: Replaced = frozenset()
 
@@ -58,8 +63,11 @@ class ProgramLinker:
     def __init__(self, folder: Path, description: Description) -> None:
         self._folder = folder
         self._description = description
-        assert description.remote is not None
-        self._remote = description.remote
+
+    @property
+    def _remote(self) -> RemoteParts:
+        assert self._description.remote is not None
+        return self._description.remote
 
     def _part(self, path: Path) -> Path:
         return self._folder / "remote" / path.parent.name / path.name
@@ -128,7 +136,8 @@ class ProgramLinker:
         `replaced` functions of the last."""
         objects = [*self._without(own, kind), *self._reference_of(own[-1], folder, replaced)]
         *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
-        return self._linked(name + _but(replaced), [*objects, *libraries, *self._loading(own, core)], folder)
+        more = self._description.more_sources
+        return self._linked(name + _but(replaced), [*more, *objects, *libraries, *self._loading(own, core)], folder)
 
     def _without(self, own: Sequence[str], kind: str) -> list[str | Path]:
         """The program's objects and all references but these steps'."""
@@ -239,6 +248,18 @@ class BuiltKit:
         that loads them is several times as fast as one that asks. What comes of it is the same."""
         return replace(self, boxed=False)
 
+    def sanitized(self) -> "BuiltKit":
+        """The kit for finding the line at which one's own steps crash: these, and nothing else, are compiled with
+        sanitizers. A compiler that has none cannot link its programs."""
+        known = self.description
+        described = replace(
+            known,
+            compile_flags=[*known.compile_flags, *_SANITIZED],
+            link_flags=[*known.link_flags, _SANITIZERS],
+            more_sources=[self.project.root / "framework" / "testing" / "crash_report.cpp"],
+        )
+        return replace(self, description=described, boxed=False)
+
     def _linker(self) -> ProgramLinker | None:
         return ProgramLinker(self.folder, self.description) if self.description.remote is not None else None
 
@@ -253,9 +274,10 @@ class BuiltKit:
         """A program that lacks the student's library of this step (`together`: of all up to it). Linked into `folder`
         where the kit lacks it and may not be written to."""
         name = self._program_name(kind, step, together=together)
-        linker = self._linker()
-        if linker is None or ((self.folder / "bin" / name).is_file() and not replaced):
+        name += "-sanitized" if self.description.more_sources else ""
+        if (self.folder / "bin" / name).is_file() and not replaced:
             return self.folder / "bin" / name
+        linker = ProgramLinker(self.folder, self.description)
         own = [other.number for other in self.steps if other.index <= step.index] if together else [step.number]
         return linker.alone(name, f"test-{step.number}" if kind == "test" else kind, own, folder, replaced)
 
@@ -271,4 +293,5 @@ class BuiltKit:
     def rest(self, kind: Kind, step: Step, *, together: bool = False) -> list[Path]:
         """Where steps are no libraries: all that a program is linked from beside the student's objects."""
         name = self._program_name(kind, step, together=together)
-        return [self.folder / line for line in (self.folder / "rest" / f"{name}.txt").read_text("utf-8").splitlines()]
+        lines = (self.folder / "rest" / f"{name}.txt").read_text("utf-8").splitlines()
+        return [*self.description.more_sources, *(self.folder / line for line in lines)]

@@ -83,6 +83,7 @@ class Description:
     absent: list[Path]  # stand-ins for steps that the kit does not have
     tests: dict[str, list[Path]]
     remote: RemoteParts | None = None  # none where steps are no libraries, and in a students' kit
+    more_sources: Sequence[Path] = ()  # compiled into programs when they are linked
     driver: str = "gnu"  # or "msvc": whose words the compiler takes
 
     @property

@@ -1,0 +1,126 @@
+"""The line at which a student's own code crashed, found with sanitizers."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from conftest import Sources
+
+from raysteps.course.manifest import Step
+from raysteps.grading.quick_look import QuickLook
+from raysteps.grading.self_check import name_crash
+from raysteps.grading.unit_tests import crash_line
+from raysteps.results.model import StepResult, TestResult
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.submission.load import Submission
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+_ID = "02-intersection"
+_FIRST = "    std::optional<HitRecord> closest;\n"  # the beginning of closest_hit in the reference
+
+# Each ends a program without sanitizers, too.
+_CRASHES = {
+    "index": ("std::vector<int> few(3); if (few[surfaces.size() + 900000000]) return closest;", "beyond its end"),
+    "heap": ("std::vector<int> few(3); for (int i = 0; i < 900000000; ++i) few.data()[i] = i;", "writes an element"),
+    "null": ("const Surface* none = nullptr; if (none->hit(ray)) return closest;", "follows a null pointer"),
+    "wild": ("volatile std::size_t far = 1UL << 40; if (surfaces.data()[far]->hit(ray)) return closest;", "nowhere"),
+    "twice": ("int* volatile gone = new int(1); delete gone; delete gone;", "gives it back twice"),
+    "zero": ("volatile int none = 0; if (5 / none) return closest;", "divides a whole number by 0"),
+    "throws": ("if (surfaces.at(surfaces.size())) return closest;", "throws std::out_of_range"),
+    "abort": ("std::abort();", "ends the program with abort()"),
+}
+
+
+@pytest.fixture
+def step(steps: list[Step]) -> Step:
+    return next(step for step in steps if step.id == _ID)
+
+
+def _graded(kit: BuiltKit, step: Step, source: str, folder: Path) -> tuple[StepResult, list[str]]:
+    """The visible part, named where it crashed, and what was said while somebody waits."""
+    submission = Submission("somebody", {step.id: source.encode()}, {})
+    result = QuickLook(kit, step, LimitsOnly(), folder, lambda _: None).look(source)
+    said: list[str] = []
+    name_crash(kit.in_one_process(), submission, LimitsOnly(), said.append, [result])
+    return result, said
+
+
+def test_a_lambda(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    source = solved[_ID].replace(_FIRST, _FIRST + "    [&]() noexcept { surfaces.at(surfaces.size()); }();\n", 1)
+    result, _ = _graded(kit, step, source, tmp_path)
+    cause = "in a lambda: throws std::out_of_range, and nobody catches it."
+    assert any(cause in test.message for test in result.tests)
+
+
+@pytest.mark.parametrize("name", _CRASHES)
+def test_the_line_is_named(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path, name: str) -> None:
+    code, cause = _CRASHES[name]
+    source = "#include <cstdlib>\n#include <vector>\n" + solved[_ID].replace(_FIRST, f"{_FIRST}    {code}\n", 1)
+    line = source[: source.index(code)].count("\n") + 1
+    assert line > 1
+    result, said = _graded(kit, step, source, tmp_path)
+    messages = [test.message for test in result.tests if "intersection.cpp, line" in test.message]
+    assert len(messages) == 1, [test.message for test in result.tests if not test.passed]
+    assert f"intersection.cpp, line {line}, in closest_hit: " in messages[0]
+    assert cause in messages[0]
+    assert said == [f"{_ID} crashed: looking for the line"]
+
+
+def test_who_does_not_crash_waits_for_nothing(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    """A wrong answer is no crash."""
+    source = solved[_ID].replace(_FIRST, _FIRST + "    if (surfaces.size() < 90) { return closest; }\n", 1)
+    result, said = _graded(kit, step, source, tmp_path)
+    assert not all(test.passed for test in result.tests)
+    assert said == []
+
+
+def test_a_crash_that_sanitizers_do_not_meet(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    """What was said before stays."""
+    test = TestResult(next(iter(kit.tests[_ID])), False, "It crashed.", outcome="crashed")
+    found = StepResult(_ID, "failed", 0, 1, False, tests=[replace(test)])
+    submission = Submission("somebody", {_ID: solved[_ID].encode()}, {})
+    name_crash(kit.in_one_process(), submission, LimitsOnly(), lambda _: None, [found])
+    assert found.tests == [test]
+
+
+_STACK = """\
+    #0 0x5581 in std::vector<int>::operator[](unsigned long) /usr/include/c++/12/bits/stl_vector.h:1123
+    #1 0x5582 in raysteps::hit(raysteps::Ray const&) /tmp/a b/02/intersection.cpp:{line}:9
+    #2 0x5583 in main /tmp/framework/main.cpp:3
+"""
+
+
+def test_frames_of_others_are_passed_over() -> None:
+    said = "==7==ERROR: AddressSanitizer: heap-buffer-overflow on address 0x1\nREAD of size 4 at 0x1 thread T0\n"
+    said += _STACK.format(line=12) + "\nallocated by thread T0 here:\n" + _STACK.format(line=5)
+    expected = "intersection.cpp, line 12, in hit: reads an element beyond the end of a list or an array."
+    assert crash_line(said, ["intersection.cpp"], threw=False) == expected
+    assert crash_line(said, ["shading.cpp"], threw=False) == ""
+
+
+def test_the_last_exception_is_the_one_that_nobody_caught() -> None:
+    said = "".join(f"thrown: {kind}\n" + _STACK.format(line=line) for kind, line in (("int", 1), ("std::bad_alloc", 2)))
+    assert (
+        crash_line(said, ["intersection.cpp"], threw=True) == "intersection.cpp, line 2, in hit: throws std::bad_alloc."
+    )
+    assert crash_line(said, ["intersection.cpp"], threw=False) == ""
+
+
+def test_what_a_program_says_itself_cannot_grow_the_message() -> None:
+    said = "thrown: " + "x" * 10_000 + "\x1b[2J\n" + _STACK.format(line=2)
+    named = crash_line(said, ["intersection.cpp"], threw=True)
+    assert len(named) < 400
+    assert re.search(r"[\x00-\x1f]", named) is None
+
+
+@pytest.mark.parametrize("length", [1_900, 1_000_000])
+def test_no_line_of_any_shape_is_waited_for(length: int) -> None:
+    """A pattern that tries all ways of splitting it would take hours."""
+    said = "thrown: int\n" + "    #0 0x1" + length // 5 * " in a" + "\n" + _STACK.format(line=2)
+    assert crash_line(said, ["intersection.cpp"], threw=True).startswith("intersection.cpp, line 2, in hit: ")
+
+
+def test_an_unknown_error_is_told_as_it_is() -> None:
+    said = "==7==ERROR: AddressSanitizer: {x} {uses}\n" + _STACK.format(line=2)
+    assert crash_line(said, ["intersection.cpp"], threw=False) == "intersection.cpp, line 2, in hit: {x}."
