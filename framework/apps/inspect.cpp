@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     return run_program("inspect", [argc, argv] {
         const InspectOptions options = parse_inspect_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
-            std::fputs(k_inspect_usage, stdout);
+            std::fputs(usage_here(k_inspect_usage).c_str(), stdout);
             return;
         }
         run(options);

@@ -14,9 +14,11 @@ X and Y count pixels from the top left corner, from 0.
   --size WxH              pixels of the picture; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
   --accel none|boxes|octree|bvh
-                          every surface, the paper's 64 boxes, the tree of step 06 or that of
-                          step 09 (none before step 6, octree from there on, bvh for step 9);
-                          boxes are in the whole kit only
+                          what a ray is tested against:
+                          none         every surface (the default before step 6)
+                          boxes        what is in the paper's 64 boxes
+                          octree       what the tree of step 06 finds (the default from there on)
+                          bvh          what the tree of step 09 finds (the default for step 9)
   --json FILE             write the record, form raysteps/inspect/v1
   --quiet                 no text
   -h, --help              this text
@@ -27,7 +29,7 @@ namespace {
 int pixel(const char* name, const std::string& text) {
     const auto value = parse_whole(text);
     if (!value || *value >= k_largest_side) {
-        refuse(name, "a pixel, a whole number from 0 on", text);
+        refuse(name, "a pixel, a whole number from 0 to " + std::to_string(k_largest_side - 1), text);
     }
     return *value;
 }
@@ -47,9 +49,8 @@ InspectOptions parse_inspect_options(const std::vector<std::string>& arguments) 
     if (words.size() != 3) {
         throw UsageError("expected a scene and a pixel: SCENE X Y, like scenes/lessons/three-spheres.nff 250 200");
     }
-    if (picture.acceleration == Acceleration::wide || picture.acceleration == Acceleration::wide_octree) {
-        throw UsageError("--accel: expected none, boxes, octree or bvh, found a wide tree, which asks eight at a time");
-    }
+    refuse_wide_trees(picture, "which asks eight at a time");
+    check_accelerator(picture);
     picture.scene = scene_of(words);
     options.x = pixel("X", words[1]);
     options.y = pixel("Y", words[2]);

@@ -1,6 +1,7 @@
 #include "apps/options.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "render/accelerator_registry.hpp"
 #include "render/pixel_samples.hpp"
@@ -18,11 +19,14 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
                           36, 49 or 64; edges become smooth, at N times the work (1)
   --threads N             the picture is the same for any number (one per core)
   --accel none|boxes|octree|bvh|wide|wide-octree
-                          every surface, the paper's 64 boxes, the tree of step 06 or that of
-                          step 09, and the last two eight boxes and surfaces at a time
-                          (none before step 6, octree from there on, bvh for step 9);
-                          boxes, wide and wide-octree are in the whole kit only
-  --list-accel            print which of these this program has
+                          what a ray is tested against:
+                          none         every surface (the default before step 6)
+                          boxes        what is in the paper's 64 boxes
+                          octree       what the tree of step 06 finds (the default from there on)
+                          bvh          what the tree of step 09 finds (the default for step 9)
+                          wide         the same, eight boxes and surfaces at a time
+                          wide-octree  as octree, eight at a time
+  --list-accel            print these names
   --stats FILE.json       write counters: rays by kind, tests, seconds
   --map tests|boxes|depth|time
                           instead of the picture what each pixel cost, as a colour over a legend:
@@ -31,8 +35,7 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
                           (a round number above all but the most expensive pixels)
   --crop X,Y,W,H          only this part of the picture, in pixels from the top left
   --quiet                 no progress bar
-  --spd                   count rays by the rules of the Standard Procedural Databases and
-                          print them beside the published ones; -o is not needed (the whole kit only)
+  --spd                   count rays by the rules of the Standard Procedural Databases; -o is not needed
   -h, --help              this text
 )";
 
@@ -65,15 +68,26 @@ int parse_samples(const std::string& text) {
     refuse("--samples", "1, 4, 9, 16, 25, 36, 49 or 64 rays for each pixel", text);
 }
 
+std::vector<std::string> accelerators_here() {
+    std::vector<std::string> names;
+    for (const AcceleratorEntry& entry : accelerator_registry()) {
+        if (entry.make != nullptr) {
+            names.emplace_back(entry.name);
+        }
+    }
+    return names;
+}
+
 Acceleration parse_acceleration(const std::string& text) {
     const AcceleratorEntry* const entry = find_accelerator(text);
     if (entry == nullptr) {
-        refuse("--accel", "none, boxes, octree, bvh, wide or wide-octree", text);
+        refuse("--accel", join_or(accelerators_here()), text);
     }
     return entry->kind;
 }
 
 void check(const RaytraceOptions& options) {
+    check_accelerator(options);
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
     }
@@ -91,12 +105,48 @@ int last_step() { return k_last_step; }
 
 std::string list_accelerations() {
     std::string list;
-    for (const AcceleratorEntry& entry : accelerator_registry()) {
-        if (entry.make != nullptr) {
-            list += std::string(entry.name) + "\n";
-        }
+    for (const std::string& name : accelerators_here()) {
+        list += name + "\n";
     }
     return list;
+}
+
+std::string usage_here(const char* usage) {
+    std::istringstream lines(usage);
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        std::string first;
+        std::istringstream(line) >> first;
+        const AcceleratorEntry* const entry = find_accelerator(first);
+        if ((entry != nullptr && entry->make == nullptr) || (first == "--spd" && RAYSTEPS_SPD == 0)) {
+            continue;
+        }
+        if (first == "--accel") {
+            line = "  --accel";
+            for (const std::string& name : accelerators_here()) {
+                line += (line.ends_with("accel") ? " " : "|") + name;
+            }
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
+void check_accelerator(const RaytraceOptions& options) {
+    if (options.acceleration) {
+        const AcceleratorEntry& entry = accelerator_entry(*options.acceleration);
+        if (entry.make == nullptr) {
+            throw UsageError("--accel " + std::string(entry.name) + ": " + std::string(entry.unavailable_reason));
+        }
+    }
+}
+
+void refuse_wide_trees(const RaytraceOptions& options, const std::string& why) {
+    if (options.acceleration == Acceleration::wide || options.acceleration == Acceleration::wide_octree) {
+        std::vector<std::string> names = accelerators_here();
+        std::erase_if(names, [](const std::string& name) { return name.starts_with("wide"); });
+        throw UsageError("--accel: expected " + join_or(names) + ", found a wide tree, " + why);
+    }
 }
 
 void add_shared_options(CommandLine& line, RaytraceOptions& options) {

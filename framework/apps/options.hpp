@@ -7,6 +7,11 @@
 #include "io/command_line.hpp"
 #include "io/nff_reader.hpp"
 #include "render/renderer.hpp"
+#if __has_include("render/spd.hpp")
+#define RAYSTEPS_SPD 1
+#else
+#define RAYSTEPS_SPD 0  // a students' kit: the rays of the SPD are made much as those of step 01
+#endif
 
 namespace raysteps {
 
@@ -37,6 +42,15 @@ extern const char* const k_raytrace_usage;
 
 /// The names that --accel takes in this program, a line each.
 [[nodiscard]] std::string list_accelerations();
+
+/// What --help prints: the text without what this program does not have.
+[[nodiscard]] std::string usage_here(const char* usage);
+
+/// Throws UsageError for a structure that this program does not have.
+void check_accelerator(const RaytraceOptions& options);
+
+/// For programs that follow one ray at a time. Throws UsageError.
+void refuse_wide_trees(const RaytraceOptions& options, const std::string& why);
 
 /// --step, --view, --size, --depth, --accel and --help, which all programs have.
 void add_shared_options(CommandLine& line, RaytraceOptions& options);

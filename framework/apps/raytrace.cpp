@@ -11,12 +11,9 @@
 #include "io/platform.hpp"
 #include "render/accelerator_registry.hpp"
 #include "render/cost_heatmap.hpp"
-#if __has_include("render/spd.hpp")
+#if RAYSTEPS_SPD
 #include "apps/spd_report.hpp"
 #include "render/spd.hpp"
-#define RAYSTEPS_SPD 1
-#else
-#define RAYSTEPS_SPD 0  // a students' kit: the rays of the SPD are made much as those of step 01
 #endif
 
 namespace {
@@ -84,7 +81,7 @@ int main(int argc, char** argv) {
     return run_program("render", [argc, argv] {
         const RaytraceOptions options = parse_options(utf8_arguments(argc, argv));
         if (options.help) {
-            std::fputs(k_raytrace_usage, stdout);
+            std::fputs(usage_here(k_raytrace_usage).c_str(), stdout);
             return;
         }
         if (options.list_accelerations) {

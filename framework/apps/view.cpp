@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     return run_program("view", [argc, argv] {
         const ViewOptions options = parse_view_options(utf8_arguments(argc, argv));
         if (options.picture.help) {
-            std::fputs(k_view_usage, stdout);
+            std::fputs(usage_here(k_view_usage).c_str(), stdout);
             return;
         }
         run(options);

@@ -1,7 +1,6 @@
 #include "apps/view_options.hpp"
 
 #include "io/numbers.hpp"
-#include "render/accelerator_registry.hpp"
 
 namespace raysteps {
 
@@ -9,13 +8,13 @@ const char* const k_view_usage = R"(Usage: raysteps view SCENE.nff [options]
 
 Shows the picture in a window while it is traced.
 
-  --step N                start with what the course has after step N, from 1 on (8)
+  --step N                start with what the course has after step N (8, or the last step of the kit)
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels of the picture; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
   --threads N             (one per core)
   --accel none|boxes|octree|bvh
-                          (what the step comes with); boxes are in the whole kit only
+                          what a ray is tested against (what the step comes with)
   --screenshot FILE.ppm   write the complete picture as the window shows it, and quit
   --strip                 with --screenshot: the strip below the picture, too
   --click X,Y             inspect this pixel once the picture is complete
@@ -43,15 +42,8 @@ void check(const ViewOptions& options) {
     if (options.strip && options.screenshot.empty()) {
         throw UsageError("--strip: expected --screenshot FILE.ppm with it");
     }
-    if (!options.picture.acceleration) {
-        return;
-    }
-    const AcceleratorEntry& entry = accelerator_entry(*options.picture.acceleration);
-    if (entry.make == nullptr) {
-        throw UsageError(entry.kind == Acceleration::boxes
-                             ? "--accel boxes: " + std::string(entry.unavailable_reason)
-                             : "--accel: expected none, boxes, octree or bvh; a window has no wide trees");
-    }
+    refuse_wide_trees(options.picture, "which a window does not have");
+    check_accelerator(options.picture);
 }
 
 }  // namespace

@@ -17,16 +17,22 @@ bool looks_like_option(const std::string& word) {
     return word.starts_with('-') && (word.size() == 1 || !is_digit(word[1]));
 }
 
-/// How many characters must be put in, left out or changed to make the one of the other (Levenshtein).
+/// How many characters must be put in, left out, changed or swapped with the next to make the one of the other
+/// (optimal string alignment).
 std::size_t edit_distance(std::string_view one, std::string_view other) {
+    std::vector<std::size_t> before(other.size() + 1);  // the row above the last one
+    std::vector<std::size_t> last(other.size() + 1);
     std::vector<std::size_t> row(other.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < one.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
+        before.swap(last);
+        last.swap(row);
+        row[0] = i + 1;
         for (std::size_t j = 0; j < other.size(); ++j) {
-            const std::size_t changed = diagonal + (one[i] == other[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+            row[j + 1] = std::min({last[j] + (one[i] == other[j] ? 0U : 1U), row[j] + 1, last[j + 1] + 1});
+            if (i > 0 && j > 0 && one[i] == other[j - 1] && one[i - 1] == other[j]) {
+                row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
+            }
         }
     }
     return row.back();

@@ -61,6 +61,7 @@ TEST_CASE("A wrong command line is answered with what was expected and what was 
     CHECK(complaint_about({"--quiet"}) == "--quiet: there is no such option; expected two words");
     CHECK(complaint_about({"-"}) == "-: there is no such option; expected two words");
     CHECK(complaint_about({"--nubmer", "3"}) == "--nubmer: there is no such option; did you mean --number?");
+    CHECK(complaint_about({"--ltetre", "b"}) == "--ltetre: there is no such option; did you mean --letter?");
     CHECK(complaint_about({"--lettre=b"}) == "--lettre=b: there is no such option; did you mean --letter?");
     CHECK(complaint_about({"1", "2", "3"}) == "arguments: expected two words, found '3'");
 }

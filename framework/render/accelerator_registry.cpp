@@ -10,11 +10,20 @@
 namespace raysteps {
 namespace {
 
+constexpr bool k_has_octree = RAYSTEPS_HAS_06;  // CMake knows the steps
+constexpr bool k_has_bvh = RAYSTEPS_HAS_09;
+
+constexpr std::string_view k_no_octree =
+    "this course has no step 06, which builds the octree; --accel none draws the same picture";
+constexpr std::string_view k_no_bvh =
+    "this course has no step 09, which builds the bounding volumes; --accel none draws the same picture";
 constexpr std::string_view k_no_paper_grid =
-    "only the whole kit has the paper's boxes; --accel octree draws the same picture with step 06's own tree";
+    k_has_octree
+        ? "only the whole kit has the paper's boxes; --accel octree draws the same picture with step 06's own tree"
+        : "only the whole kit has the paper's boxes; --accel none draws the same picture";
 constexpr std::string_view k_no_wide_trees =
-    "only the reference has wide trees (--impl reference), and only where the library Highway is installed "
-    "(Debian: libhwy-dev); --accel bvh draws the same picture";
+    "only the whole kit's reference has wide trees (--impl reference), where the library Highway is installed "
+    "(Debian: libhwy-dev); --accel none draws the same picture";
 
 using Table = std::array<AcceleratorEntry, 6>;
 
@@ -30,9 +39,13 @@ Table& table() {
         {.kind = Acceleration::octree,
          .name = "octree",
          .step = 6,
-         .make = octree_accelerator,
-         .unavailable_reason = {}},
-        {.kind = Acceleration::bvh, .name = "bvh", .step = 9, .make = bvh_accelerator, .unavailable_reason = {}},
+         .make = k_has_octree ? octree_accelerator : nullptr,
+         .unavailable_reason = k_no_octree},
+        {.kind = Acceleration::bvh,
+         .name = "bvh",
+         .step = 9,
+         .make = k_has_bvh ? bvh_accelerator : nullptr,
+         .unavailable_reason = k_no_bvh},
         {.kind = Acceleration::wide,
          .name = "wide",
          .step = 9,
@@ -68,10 +81,10 @@ bool register_accelerator(Acceleration kind, AcceleratorMaker make) {
 }
 
 Acceleration default_accelerator(int step) {
-    if (step < 6) {
-        return Acceleration::none;
+    if (step >= 9 && k_has_bvh) {
+        return Acceleration::bvh;
     }
-    return step < 9 ? Acceleration::octree : Acceleration::bvh;
+    return step >= 6 && k_has_octree ? Acceleration::octree : Acceleration::none;
 }
 
 std::unique_ptr<Accelerator> make_accelerator(Acceleration kind, const SurfaceList& surfaces) {

@@ -30,7 +30,7 @@ struct AcceleratorEntry {
 /// A program that is linked with the wide trees registers them before main begins. Always true.
 bool register_accelerator(Acceleration kind, AcceleratorMaker make);
 
-/// None before step 06, octree from there on, bvh for step 09.
+/// None before step 06, octree from there on, bvh for step 09; none for a tree whose step the course leaves out.
 [[nodiscard]] Acceleration default_accelerator(int step);
 
 /// Builds the structure. The surfaces must outlive it. Throws std::invalid_argument for one that the program lacks.

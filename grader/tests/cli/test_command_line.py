@@ -2,13 +2,16 @@
 
 import errno
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from course_fakes import small_project
 
-from raysteps.cli.app import main
+from raysteps.cli import app
+from raysteps.cli.app import exit_code_of, main, new_parser
 from raysteps.course.project import Project
 
 pytestmark = pytest.mark.portable
@@ -22,6 +25,7 @@ pytestmark = pytest.mark.portable
         ("export canvas --otu=a", "export canvas", "--otu: there is no such option; did you mean --out?"),
         ("compare a.png b.png -x", "compare", "-x: there is no such option"),
         ("list all", "list", "'all': expected nothing more"),
+        ("hint --level x", "hint", "argument --level: expected a whole number from 1 on, found 'x'"),
     ],
 )
 def test_the_usage_is_that_of_the_command_and_one_line_says_what_is_wrong(
@@ -34,10 +38,75 @@ def test_the_usage_is_that_of_the_command_and_one_line_says_what_is_wrong(
     assert said.splitlines()[-1] == f"raysteps {command}: error: {wrong}"
 
 
+def test_an_option_before_any_command(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["--verison"])
+    assert "error: --verison: there is no such option; did you mean --version?\n" in capsys.readouterr().err
+
+
+def test_a_folder_where_a_file_is_wanted_is_no_fault_of_the_grader(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    with pytest.raises((IsADirectoryError, PermissionError)) as raised:
+        tmp_path.read_bytes()
+    assert exit_code_of(raised.value) == 2
+    said = "it is a folder; expected a file there" if sys.platform != "win32" else "no permission"
+    assert capsys.readouterr().err.startswith(f"raysteps: {tmp_path}: {said}")
+
+
+def test_a_report_of_nothing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    course = small_project(tmp_path)
+    monkeypatch.setattr(app, "here", lambda: course)
+    assert main(["report"]) == 2
+    assert "there is no check yet that could be shown: expected its results.json; " in capsys.readouterr().err
+
+
 def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(["chekc", "01"])
     assert "chekc: there is no such command; did you mean check? See ./raysteps --help" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("grade x.zip", "grade: only the instructor's kit has this command; yours is a students' kit, made from that "
+         "one with `./raysteps release`. Here `./raysteps check` comes nearest: check your own steps. See ./raysteps"),
+        ("gallery", "Here `./raysteps finale` comes nearest: a large smooth picture"),
+        ("dev lint", "made from that one with `./raysteps release`. See ./raysteps --help"),
+        ("chekc", "chekc: there is no such command; did you mean check?"),
+        ("inspect a.nff 1 2 --against reference", "--against: a students' kit has no reference; pictures made with it "
+         "lie in reference/"),
+        ("finale --impl=reference", "--impl: a students' kit has no reference; pictures made with it lie in refer"),
+    ],
+)  # fmt: skip
+def test_what_only_the_instructors_kit_has(
+    typed: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = small_project(tmp_path)
+    monkeypatch.setattr(app, "here", lambda: course)
+    with pytest.raises(SystemExit, match="2"):
+        main(typed.split())
+    assert said in capsys.readouterr().err
+
+
+def test_what_only_a_students_kit_has(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["update"])
+    assert "update: only a students' kit has this command; `./raysteps release` makes" in capsys.readouterr().err
+
+
+def test_a_students_kit_offers_nothing_that_it_refuses(tmp_path: Path) -> None:
+    course = small_project(tmp_path)
+    parsers = new_parser(course)._subparsers
+    assert parsers is not None
+    commands = parsers._group_actions[0].choices
+    assert isinstance(commands, dict)
+    assert len(commands) > 10
+    for name, parser in commands.items():
+        assert not re.search(r"reference\b|whole kit|boxes|--impl|--against", parser.format_help()), name
 
 
 def test_a_step_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,18 +3,18 @@
 import subprocess
 import sys
 from pathlib import Path
+from shutil import rmtree
 
 import pytest
+from course_fakes import written_course
 
-from raysteps.cli import render
+from raysteps.cli import render, view
 from raysteps.cli.app import main
-from raysteps.cli.render import build_mine, run_raytrace, take_impl
-from raysteps.cli.todo_steps import advice, as_far_as_written
+from raysteps.cli.render import build_mine, run_raytrace, scene_in, take_impl
+from raysteps.cli.todo_steps import advice, as_far_as_written, last_written, refuse_missing_tree
 from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.common.process import Outcome, run
-from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
-from raysteps.course.stubs import stub_for
 from raysteps.images.compare import read_png, read_ppm
 from raysteps.toolchain.cmake import BuildTree, release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -61,6 +61,99 @@ def test_a_scene_that_is_not_there_is_told_before_anything_is_built(
 
 
 @pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("three-spheres", "is not there; expected the path of a scene; did you mean {scenes}three-spheres.nff?"),
+        ("scenes/lessons/three-sphere.nff", "is not there; expected the path of a scene; did you mean {scenes}three-s"),
+        ("own", "is not there; expected the path of a scene; did you mean own.nff?"),
+        ("there", "is a folder; expected a scene, such as scenes/lessons/three-spheres.nff; others of the kit"),
+        ("qqq", "is not there; expected a scene, such as scenes/lessons/three-spheres.nff; others of the kit"),
+    ],
+)
+@pytest.mark.parametrize("command", ["render -o a.png --quiet", "view --click 1,1", "inspect", "finale"])
+def test_a_name_that_is_no_path_is_answered_with_one(
+    command: str, typed: str, said: str, project: Project, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setattr(BuildTree, "build", lambda *words: pytest.fail("it was built"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own.nff").touch()
+    (tmp_path / "there").mkdir()
+    more = ["1", "2", "--step", "1"] if command == "inspect" else []
+    assert main([*command.split(), typed, *more]) == 2
+    scenes = f"{project.scenes}/lessons/"
+    assert capsys.readouterr().err.startswith(f"raysteps: {typed}: {said.format(scenes=scenes)}")
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("render {scene} -o there", "there: is a folder; expected the name of a file to write"),
+        ("render {scene} -o a.png --stats there", "there: is a folder; expected the name of a file to write"),
+        ("render {scene} -o new/a.png", "new/a.png: there is no folder new; make it first, or write elsewhere"),
+        ("render {scene} -o new/a.png -o a.jpg", "a.jpg: pictures are written as .png or .ppm"),
+        ("view {scene} --screenshot new/a.ppm", "new/a.ppm: there is no folder new; make it first, or write elsewhere"),
+        ("inspect {scene} 1 2 --step 1 --json there", "there: is a folder; expected the name of a file to write"),
+        ("inspect {scene} 1 2 --step 1 --html there", "there: is a folder; expected the name of a file to write"),
+    ],
+)
+def test_a_place_that_nothing_can_be_written_to_is_told_before_anything_is_built(
+    typed: str, said: str, project: Project, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setattr(BuildTree, "build", lambda *words: pytest.fail("it was built"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "there").mkdir()
+    assert main(typed.format(scene=project.scenes / "template.nff").split()) == 2
+    assert capsys.readouterr().err.startswith(f"raysteps: {said}")
+    assert [path.name for path in tmp_path.iterdir()] == ["there"]
+
+
+def test_of_several_places_the_last_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program = tmp_path / "raytrace-mine"
+    program.write_text("#!/bin/sh\nexit 0\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(render, "build_mine", lambda _: program)
+    course = written_course(tmp_path, 1)
+    words = [str(course.scenes / "template.nff"), "-o", "a.png", "--step", "9", "-o", "b.png", "--step", "1"]
+    assert render.run_words(course, words) == 0
+    assert capsys.readouterr().out == "Picture: b.png\n"
+
+
+@pytest.mark.parametrize("folder", [False, True])
+def test_a_source_that_is_not_there_is_told_with_what_brings_it_back(
+    folder: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(BuildTree, "build", lambda *words: pytest.fail("it was built"))
+    course = written_course(tmp_path, 1, 2)
+    path = course.steps / "02-intersection" / "intersection.cpp"
+    path.unlink()
+    if folder:
+        path.mkdir()
+    said = r"^steps/02-intersection/intersection\.cpp: is {}; expected your step 02; .* reset 02 puts its stub there$"
+    with pytest.raises(StudentBuildError, match=said.format("a folder" if folder else "not there")):
+        build_mine(release_tree(course))
+
+
+@pytest.mark.parametrize(
+    ("typed", "scene"),
+    [
+        ("a -o b", "a"),
+        ("-o b a", "a"),
+        ("--quiet a -o b", "a"),
+        ("--step 3 --spd a", "a"),
+        ("-o b", None),
+        ("--help a", None),
+        ("", None),
+    ],
+)
+def test_the_scene_is_the_word_that_belongs_to_no_option(typed: str, scene: str | None) -> None:
+    assert scene_in(typed.split()) == scene
+
+
+@pytest.mark.parametrize(
     ("words", "said"), [(["-o", "one.png"], "Picture: one.png\n"), (["-o", "one.png", "--quiet"], "")]
 )
 def test_it_says_where_the_picture_is(
@@ -86,24 +179,9 @@ def test_a_picture_that_goes_where_it_prints_holds_nothing_else(
     assert out.stat().st_size == len(b"P6\n8 6\n255\n") + 8 * 6 * 3
 
 
-def _written(project: Project, root: Path, *numbers: int) -> Project:
-    """A course in which these steps are written."""
-    for step in read_steps(project):
-        place = root / "steps" / step.id
-        place.mkdir(parents=True)
-        (place / "step.toml").write_bytes((project.steps / step.id / "step.toml").read_bytes())
-        source = (project.samples / "complete" / "steps" / step.path).read_text(encoding="utf-8")
-        (root / "steps" / step.path).write_text(
-            source if step.index in numbers else stub_for(project, step), encoding="utf-8"
-        )
-    return Project(root)
-
-
 @pytest.mark.parametrize(("written", "wanted", "said"), [(0, 8, "not started"), (2, 8, "--step 2"), (2, 2, "")])
-def test_a_picture_that_needs_more_than_is_written(
-    project: Project, tmp_path: Path, written: int, wanted: int, said: str
-) -> None:
-    told = advice(_written(project, tmp_path, *range(1, written + 1)), wanted)
+def test_a_picture_that_needs_more_than_is_written(tmp_path: Path, written: int, wanted: int, said: str) -> None:
+    told = advice(written_course(tmp_path, *range(1, written + 1)), wanted)
     assert said in told
     assert bool(said) == bool(told)
 
@@ -126,11 +204,56 @@ def test_a_picture_that_needs_more_than_is_written(
     ],
 )
 def test_a_picture_goes_as_far_as_is_written_and_does_without_a_tree(
-    project: Project, tmp_path: Path, written: tuple[int, ...], words: list[str], more: list[str]
+    tmp_path: Path, written: tuple[int, ...], words: list[str], more: list[str]
 ) -> None:
-    added, said = as_far_as_written(_written(project, tmp_path, *written), words)
+    added, said = as_far_as_written(written_course(tmp_path, *written), words)
     assert added == more
     assert said == (f"--step {more[1]}, the last that your steps can draw" if "--step" in more[:1] else "")
+
+
+@pytest.mark.parametrize(
+    ("written", "words", "said"),
+    [
+        ((1,), ["--accel", "octree"], r"^--accel octree: step 06 is not written yet: expected Box::clip, .* steps/0"),
+        ((1,), ["--step", "6", "--accel", "octree"], "step 06 is not written yet"),
+        ((1, 6), ["--accel", "bvh", "--step", "6"], r"step 09 .* steps/09-bvh/bvh\.cpp; --accel none draws the same"),
+        ((1, 6), ["--accel", "octree"], None),
+        ((1,), ["--accel", "none"], None),
+        ((1,), ["--accel"], None),
+    ],
+)
+def test_a_tree_that_would_find_nothing_is_refused_before_anything_is_built(
+    project: Project, tmp_path: Path, written: tuple[int, ...], words: list[str], said: str | None
+) -> None:
+    course = written_course(tmp_path, *written)
+    if said is None:
+        refuse_missing_tree(course, words)
+        return
+    for command in (render, view):
+        with pytest.raises(UsageError, match=said):
+            command.run_words(course, [str(project.scenes / "template.nff"), "-o", "picture.png", *words])
+
+
+def test_a_tree_that_is_begun_shows_in_the_picture_of_its_own_step_only(tmp_path: Path) -> None:
+    course = written_course(tmp_path, 1, 2, 3, 4, 5, 6)
+    path = course.steps / "06-octree" / "octree.cpp"
+    path.write_text(path.read_text() + 'void f() { RAYSTEPS_TODO("06-octree", "occluded_in_octree"); }\n')
+    refuse_missing_tree(course, ["--step", "6", "--accel", "octree"])
+    with pytest.raises(UsageError, match=r"^--accel octree: .* expected occluded_in_octree in steps/06"):
+        refuse_missing_tree(course, ["--step", "5", "--accel", "octree"])
+
+
+def test_a_course_may_have_no_tree(tmp_path: Path) -> None:
+    course = written_course(tmp_path, 1)
+    rmtree(course.steps / "06-octree")
+    with pytest.raises(UsageError, match=r"^--accel octree: this course has no step 06, which builds it; --accel none"):
+        refuse_missing_tree(course, ["--accel", "octree"])
+
+
+def test_a_file_that_is_not_there_is_not_written(tmp_path: Path) -> None:
+    course = written_course(tmp_path, 1, 2, 3)
+    (course.steps / "02-intersection" / "intersection.cpp").unlink()
+    assert last_written(course) == 1
 
 
 @pytest.mark.parametrize(("words", "found"), [(["--step", "99"], "99"), (["--step", "x"], "x"), (["--step"], "")])
@@ -144,7 +267,6 @@ def test_a_step_that_is_none_is_all_that_is_told(
 
 @pytest.mark.parametrize(("code", "advised"), [(2, False), (0, True)])
 def test_words_that_the_program_refuses_get_no_advice(
-    project: Project,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -157,17 +279,17 @@ def test_words_that_the_program_refuses_get_no_advice(
     monkeypatch.setattr(render, "build_mine", lambda _: program)
     (tmp_path / "scene.nff").touch()
     words = [str(tmp_path / "scene.nff"), "-o", "picture.png"]
-    assert render.run_words(_written(project, tmp_path, 1, 2), words) == code
+    assert render.run_words(written_course(tmp_path, 1, 2), words) == code
     assert ("--step 2, the last that your steps can draw" in capsys.readouterr().err) == advised
 
 
 def test_only_the_first_build_is_said_to_take_long(
-    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Not each one until the student's steps build."""
     failed = Outcome(1, timed_out=False, stdout="", stderr="", seconds=1)
     monkeypatch.setattr(BuildTree, "build", lambda *_: failed)
-    tree = release_tree(_written(project, tmp_path))
+    tree = release_tree(written_course(tmp_path))
     for said in ("raysteps: building; the first time takes a minute or two\n", ""):
         with pytest.raises(StudentBuildError):
             build_mine(tree)

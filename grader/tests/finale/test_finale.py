@@ -1,18 +1,20 @@
 """The command `finale`: what it draws with, what it writes, and what it says to wrong words."""
 
 import argparse
+import re
 from pathlib import Path
+from shutil import rmtree
 
 import numpy as np
 import pytest
+from course_fakes import written_course
 from rich.console import Console
 
 from raysteps.cli import finale as command
-from raysteps.cli.app import main
+from raysteps.cli.app import main, new_parser
 from raysteps.common.errors import UsageError
-from raysteps.course.manifest import Step, read_steps
+from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.course.stubs import stub_for
 from raysteps.finale.finale_page import in_words
 from raysteps.finale.own_pictures import reach_of
 from raysteps.finale.poster import can_be_written, poster
@@ -68,23 +70,6 @@ def with_reference(kit: BuiltKit, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(command, "build_program", lambda tree, name, impl: kit.reference(name))
 
 
-def _written(project: Project, root: Path, *numbers: int) -> Project:
-    """A course in which these steps are written."""
-    for step in read_steps(project):
-        place = root / "steps" / step.id
-        place.mkdir(parents=True)
-        (place / "step.toml").write_bytes((project.steps / step.id / "step.toml").read_bytes())
-        (root / "solutions" / step.id).mkdir(parents=True)
-        source = (project.samples / "complete" / "steps" / step.path).read_text(encoding="utf-8")
-        stub = stub_for(project, step)
-        (root / "grader" / "stubs" / step.id).mkdir(parents=True)
-        (root / "grader" / "stubs" / step.path).write_text(stub, encoding="utf-8")
-        (root / "steps" / step.path).write_text(source if step.index in numbers else stub, encoding="utf-8")
-    (root / "solutions").rename(root / "none")  # as in a students' kit
-    (root / "scenes").symlink_to(project.scenes)
-    return Project(root)
-
-
 @pytest.mark.usefixtures("with_reference")
 def test_it_writes_picture_page_and_poster_and_the_same_ones_again(
     project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -108,19 +93,20 @@ def test_it_writes_picture_page_and_poster_and_the_same_ones_again(
     assert "<h1>Two balls</h1>" in page
     assert "Zoë &lt;b&gt;" in page
     assert page.count('alt="After step') == 9
+    assert re.search(r"through each\. With [\d.]+ thousand shadow rays and [\d.]+ thousand reflected rays that", page)
 
 
 @pytest.mark.usefixtures("with_reference")
 def test_what_is_missing_is_said_and_the_rest_is_drawn(
     project: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    course = _written(project, tmp_path / "course", 1, 2, 3)
+    course = written_course(tmp_path / "course", 1, 2, 3)
     scene = tmp_path / "balls.nff"
     scene.write_text(_SCENE)
     assert _run(course, str(scene), "-o", str(tmp_path / "out")) == 0
     said = capsys.readouterr().out
     assert "not written yet, so without it: 04 Shadows, 05 Reflection" in said
-    assert "without the octree of step 06 every ray asks every surface" in said
+    assert "without step 06 every ray asks every surface" in said
     assert "4 rays for each pixel" in said
     page = (tmp_path / "out/finale.html").read_text("utf-8")
     assert page.count('alt="After step') == 3
@@ -128,10 +114,12 @@ def test_what_is_missing_is_said_and_the_rest_is_drawn(
     assert page.count("Drawn as it is: not checked yet.") == 3
     assert "reference" not in page
     assert "The work" not in page
+    caption = page.partition("<figcaption>")[2].partition("</figcaption>")[0]
+    assert re.search(r"4 rays\s+through each\. That makes 128 thousand rays and 256 thousand tests\.", caption)
 
 
-def test_without_the_first_step_there_is_no_picture(project: Project, tmp_path: Path) -> None:
-    course = _written(project, tmp_path / "course", 2, 3)
+def test_without_the_first_step_there_is_no_picture(tmp_path: Path) -> None:
+    course = written_course(tmp_path / "course", 2, 3)
     with pytest.raises(UsageError, match=r"^step 01 is not written yet, .* steps/01-camera-rays/camera_rays\.cpp; "):
         _run(course)
 
@@ -150,6 +138,55 @@ def test_a_mistake_in_the_scene_is_told_with_its_place(
         _run(project, str(scene), "--impl", "reference", "-o", str(tmp_path / "out"))
 
 
+def test_a_scene_without_a_page_is_told_before_anything_is_built(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "build_program", lambda *words: pytest.fail("it was built"))
+    scene, out = tmp_path / "small.nff", tmp_path / "out"
+    scene.write_text(_SCENE.replace("resolution 200 160", "# resolution 500 500\nresolution\t9000\n160"))
+    with pytest.raises(
+        UsageError, match=r"small\.nff: its resolution is 9000x160: expected 160 to 8192 pixels .* --si"
+    ):
+        _run(project, str(scene), "-o", str(out))
+    with pytest.raises(UsageError, match=r"there\.nff: is not there; expected a scene"):
+        _run(project, str(tmp_path / "there.nff"), "-o", str(out))
+    assert not out.exists()
+
+
+def test_its_help_says_what_it_takes_in_this_kit(project: Project, tmp_path: Path) -> None:
+    def offered(kit: Project) -> str:
+        parsers = new_parser(kit, "finale")._subparsers
+        assert parsers is not None
+        choices = parsers._group_actions[0].choices
+        assert isinstance(choices, dict)
+        return " ".join(choices["finale"].format_help().split())
+
+    course = written_course(tmp_path)
+    assert "from 160 to 8192 pixels a side (1600x900, without a tree 640x360; of your own" in offered(project)
+    assert "16 ... 64 (9, without a tree 4)" in offered(course)
+    assert "--impl {mine,reference}" in offered(project)
+    assert "--impl" not in offered(course)
+    rmtree(course.steps / "06-octree")
+    assert "without a tree" in offered(course)
+    rmtree(course.steps / "09-bvh")
+    assert "pixels a side (640x360; of your own" in offered(course)
+    assert "16 ... 64 (4)" in offered(course)
+
+
+def test_a_course_without_trees_hears_of_no_step_06(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = written_course(tmp_path / "course", 1)
+    for step in ("06-octree", "09-bvh"):
+        rmtree(course.steps / step)
+    monkeypatch.setattr(command, "build_program", lambda *words: tmp_path / "raytrace-mine")
+    monkeypatch.setattr(command, "run_raytrace", lambda *words: 2)
+    assert _run(course, "-o", str(tmp_path / "out")) == 2
+    said = capsys.readouterr().out
+    assert "raysteps: every ray asks every surface, which takes long" in said
+    assert "06" not in said
+
+
 def test_a_program_that_crashes_makes_no_page(
     project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -157,7 +194,7 @@ def test_a_program_that_crashes_makes_no_page(
     program.write_text("#!/bin/sh\nkill -SEGV $$\n")
     program.chmod(0o755)
     monkeypatch.setattr(command, "build_program", lambda tree, name, impl: program)
-    course = _written(project, tmp_path / "course", 1, 2)
+    course = written_course(tmp_path / "course", 1, 2)
     assert _run(course, "-o", str(tmp_path / "out")) == 1
     told = capfd.readouterr()
     assert "your program crashed (SIGSEGV" in told.err
@@ -194,6 +231,7 @@ def test_a_new_scene_never_takes_the_place_of_a_file(
         (["--name", "x" * 61], "expected one line of at most 60 letters"),
         (["--impl", "yours"], "invalid choice"),
         (["--sampels", "4"], "--sampels: there is no such option; did you mean --samples?"),
+        (["--step", "4"], "--step: there is no such option\n"),
     ],
 )
 def test_wrong_words_are_refused_before_anything_is_built(

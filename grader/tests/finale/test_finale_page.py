@@ -8,7 +8,7 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 
 from raysteps.course.manifest import Step
 from raysteps.finale.finale_page import Finale, Station, finale_page
-from raysteps.finale.own_pictures import Counted
+from raysteps.finale.own_pictures import Counted, LargePicture
 from raysteps.results.model import Work
 
 _SCRIPT = "<script>alert(1)</script>"
@@ -24,9 +24,8 @@ def page_file(tmp_path: Path, steps: list[Step]) -> Path:
         Counted("every surface", Work(100, 170_000, 0, 0, 0, 0)),
         Counted("octree", Work(100, 950, 3960, 8, 9, 10)),
     ]
-    finale = Finale(
-        _SCRIPT, _SCRIPT, "Ray traced.", picture, 9, stations, Work(100, 950, 3960, 0, 0, 0), counted, "./raysteps", "a"
-    )
+    large = LargePicture(picture, 9, Work(100, 950, 3960, 0, 0, 0), {"shadow rays": 60, "refracted rays": 0}, 1.0, 7)
+    finale = Finale(_SCRIPT, _SCRIPT, "Ray traced.", large, stations, counted, "./raysteps")
     path = tmp_path / "finale.html"
     path.write_text(finale_page(finale), encoding="utf-8")
     return path
@@ -46,6 +45,7 @@ def test_it_is_accessible_and_never_wider_than_the_screen(
 def test_it_shows_the_way_and_what_a_tree_spares(open_page: OpenPage, page_file: Path) -> None:
     page = open_page(page_file)
     assert page.locator(".station").count() == 9
+    assert "With 60 shadow rays that makes 100 rays and 4.91 thousand tests." in page.inner_text("figcaption")
     assert page.locator(".station img").count() == 8
     assert page.inner_text(".station.open h3") == "08 Refraction bonus"
     assert page.inner_text(".work tbody tr:nth-child(2) td:last-child") == "97.1 %"

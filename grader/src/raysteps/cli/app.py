@@ -15,6 +15,7 @@ from typing import Any, Literal
 from rich.console import Console
 
 from raysteps import __version__
+from raysteps.cli import STUDENTS_KIT
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, is_full, reason, reason_and_place
 from raysteps.common.text import did_you_mean
 from raysteps.course.project import Project, here
@@ -74,6 +75,28 @@ COMMANDS = (
 )
 
 
+# What a students' kit has in their place; else what there is.
+_INSTEAD = {"grade": "check", "grade-class": "check", "learn": "check", "replay": "check", "test": "check",
+            "leaderboard": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
+
+
+def _no_such_command(project: Project, word: str) -> str:
+    there = {one.name: one.about.replace(_IMPL, "") for one in _commands(project)}
+    known = {one.name: one for one in COMMANDS}
+    if word not in known:
+        return f"there is no such command{did_you_mean(word, there) or '.'} See ./raysteps --help"
+    if known[word].kit == "students":
+        return "only a students' kit has this command; `./raysteps release` makes one. See ./raysteps --help"
+    if project.has_reference:
+        return "this copy of the kit was packed without it; the whole kit has it. See ./raysteps --help"
+    instead = _INSTEAD.get(word)
+    ours = f" Here `./raysteps {instead}` comes nearest: {there[instead]}." if instead else ""
+    return (
+        "only the instructor's kit has this command; yours is a students' kit, made from that one with "
+        f"`./raysteps release`.{ours} See ./raysteps --help"
+    )
+
+
 def _commands(project: Project) -> list[Command]:
     left_out = "students" if project.has_reference else "whole"
     tools = (project.root / "tools").is_dir()  # an autograder is packed without them
@@ -87,14 +110,19 @@ def _module(project: Project, command: Command) -> ModuleType:
     return import_module(command.module)
 
 
+_OF_THE_REFERENCE = ("--impl", "--against")
+
+
 class _Parser(argparse.ArgumentParser):
     """Of one command: it refuses what it does not know itself, with its own usage. argparse hands that up to the
     parser of all commands, which knows nothing of it, and asks first for what is missing."""
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        if self._subparsers is None:
-            options = takewhile(lambda word: word != "--", args or ())  # what comes after it is none
-            self._refuse_unknown(word for word in options if re.fullmatch("--[^ ]+", word))
+        words = args or ()
+        if self._subparsers is not None:
+            words = words[:1]  # what follows belongs to a command
+        options = takewhile(lambda word: word != "--", words)  # what comes after it is none
+        self._refuse_unknown(word for word in options if re.fullmatch("--[^ ]+", word))
         known, left = super().parse_known_args(args, namespace)
         self._refuse_unknown(word for word in left if word.startswith("-"))
         if left:
@@ -105,6 +133,8 @@ class _Parser(argparse.ArgumentParser):
         names = self._option_string_actions
         for option in (word.partition("=")[0] for word in words):
             if not any(name.startswith(option) for name in names):  # argparse takes the beginning of one, too
+                if option in _OF_THE_REFERENCE and self.get_default(STUDENTS_KIT):
+                    self.error(f"{option}: a students' kit has no reference; pictures made with it lie in reference/")
                 self.error(f"{option}: there is no such option{did_you_mean(option, names)}")
 
 
@@ -122,6 +152,8 @@ def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentPa
     impl = "; --impl mine|reference" if project.has_reference else ""
     for command in _commands(project):
         child = commands.add_parser(command.name, help=command.about.replace(_IMPL, impl))
+        if not project.has_reference:
+            child.set_defaults(**{STUDENTS_KIT: project})
         if only in (None, command.name):
             _module(project, command).add_arguments(child)
     return parser
@@ -181,6 +213,9 @@ def exit_code_of(error: BaseException) -> int:
         where = reason_and_place(error)
         _tell(f"something cannot be written: {where}; make room and type it again")
         return GraderFault.exit_code
+    if isinstance(error, IsADirectoryError):
+        _tell(f"{reason_and_place(error)}; expected a file there")
+        return UsageError.exit_code
     if isinstance(error, PermissionError):
         _tell(f"{reason_and_place(error)}; what it needs there must be open to you")
         return UsageError.exit_code
@@ -200,10 +235,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if command is None:
             parser = new_parser(project, "")
             if words and not words[0].startswith("-"):
-                names = [one.name for one in _commands(project)]
-                parser.error(
-                    f"{words[0]}: there is no such command{did_you_mean(words[0], names) or '.'} See ./raysteps --help"
-                )
+                parser.error(f"{words[0]}: {_no_such_command(project, words[0])}")
             if words:
                 parser.parse_args(words)  # which says what is wrong with them, or prints the help
             parser.print_help(sys.stderr)

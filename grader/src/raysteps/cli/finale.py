@@ -11,8 +11,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli.render import build_program, run_raytrace, take_impl
-from raysteps.cli.todo_steps import unfinished
+from raysteps.cli import STUDENTS_KIT, add_impl
+from raysteps.cli.render import build_program, refuse_no_scene, run_raytrace
+from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import usable_folder, write_out
 from raysteps.common.platform import own_command
@@ -23,7 +24,7 @@ from raysteps.course.project import Project
 from raysteps.finale.finale_page import Finale, Station, finale_page, in_words
 from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of
 from raysteps.finale.poster import can_be_written, poster
-from raysteps.images.compare import Pixels, write_png
+from raysteps.images.compare import write_png
 from raysteps.progress.standing import standings
 from raysteps.report.terminal import short_path
 from raysteps.toolchain.cmake import release_tree
@@ -76,14 +77,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--name", type=_words, default="", metavar="NAME", help="whose picture it is, on page and poster"
     )
     parser.add_argument("--title", type=_words, metavar="TITLE", help="of page and poster (the scene's name)")
+    kit = parser.get_default(STUDENTS_KIT)
+    size, samples = _SMALL_SIZE, str(_FEW_SAMPLES)
+    if kit is None or built_trees(kit):
+        size, samples = f"{_SIZE}, without a tree {size}", f"{_SAMPLES}, without a tree {samples}"
     parser.add_argument(
-        "--size", type=_size, metavar="WxH", help=f"of the picture ({_SIZE}, or what your own scene says)"
+        "--size",
+        type=_size,
+        metavar="WxH",
+        help=f"of the picture, from {_SIDE[0]} to {_SIDE[1]} pixels a side ({size}; of your own scene what it says)",
     )
     parser.add_argument(
-        "--samples", type=_samples, metavar="N", help=f"rays for each pixel: 1, 4, 9, 16 ... 64 ({_SAMPLES})"
+        "--samples", type=_samples, metavar="N", help=f"rays for each pixel: 1, 4, 9, 16 ... 64 ({samples})"
     )
     parser.add_argument("--threads", type=_threads, metavar="N", help="the pictures are the same for any number")
-    parser.add_argument("--impl", choices=["mine", "reference"], default="mine", help="whose steps (mine)")
+    add_impl(parser)
 
 
 def _new_scene(project: Project, path: Path, console: Console) -> int:
@@ -129,12 +137,14 @@ def _notes(project: Project, reach: Reach, impl: str) -> dict[str, str]:
     return notes
 
 
-def _check_size(picture: Pixels) -> None:
-    height, width = picture.shape[:2]
-    if not _SIDE[0] <= min(width, height) <= max(width, height) <= _SIDE[1]:
+def _check_resolution(scene: str) -> None:
+    """Of a scene that is drawn as large as it says. What is wrong with the file else raytrace tells, with the place."""
+    text = re.sub("#.*", "", Path(scene).read_text(encoding="utf-8", errors="replace"))
+    found = re.search(r"(?<!\S)resolution\s+([0-9]{1,6})\s+([0-9]{1,6})(?!\S)", text)
+    if found is not None and not all(_SIDE[0] <= int(side) <= _SIDE[1] for side in found.groups()):
         raise UsageError(
-            f"the scene's resolution is {width}x{height}: expected {_SIDE[0]} to {_SIDE[1]} pixels along each side for "
-            "a page; --size draws it in another"
+            f"{scene}: its resolution is {found[1]}x{found[2]}: expected {_SIDE[0]} to {_SIDE[1]} pixels along each "
+            "side for a page; --size draws it in another"
         )
 
 
@@ -165,7 +175,9 @@ def _say_first(reach: Reach, impl: str, scene: str, samples: int, console: Conso
     missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in reach.missing]
     said = [f"not written yet, so without it: {join_and(missing)}"] if missing else []
     if not reach.trees:
-        said.append("without the octree of step 06 every ray asks every surface, which takes long")
+        tree = next((step for step in reach.missing if step.is_about_a_tree), None)
+        without = "" if tree is None else f"without step {tree.number} "
+        said.append(f"{without}every ray asks every surface, which takes long")
     whose = "your program" if impl == "mine" else "the reference's program"
     said.append(f"{whose} draws {scene}, {count(samples, 'ray')} for each pixel")
     _say_more([f"raysteps: {line}" for line in said], console)
@@ -178,12 +190,10 @@ def _make(
     samples = arguments.samples or (_SAMPLES if reach.trees else _FEW_SAMPLES)
     size = arguments.size or ((_SIZE if reach.trees else _SMALL_SIZE) if ours else None)
     _say_first(reach, arguments.impl, short_path(Path(own.scene)), samples, console)
-    picture, work, seconds = own.large(reach, size, samples)
-    _check_size(picture)
-    surfaces = own.surfaces()
+    large = own.large(reach, size, samples)
     notes = _notes(project, reach, arguments.impl)
-    stations = _stations(own, reach, read_steps(project), picture.shape, notes, console)
-    counted = own.counted(reach, picture.shape, surfaces)
+    stations = _stations(own, reach, read_steps(project), large.pixels.shape, notes, console)
+    counted = own.counted(reach, large)
     title = arguments.title or (
         _TITLE if ours else clean(Path(own.scene).stem.replace("-", " ")).capitalize() or "Scene"
     )
@@ -191,25 +201,13 @@ def _make(
     words = (
         f"Ray traced by {'a program of my own' if arguments.impl == 'mine' else 'the reference'}, written in {steps}"
     )
-    small = f"{words}: {in_words(work.rays)} rays"
-    page = finale_page(
-        Finale(
-            title,
-            arguments.name,
-            f"{words}.",
-            picture,
-            samples,
-            stations,
-            work,
-            counted,
-            own_command(),
-            "finale.png and poster.png",
-        )
-    ).encode("utf-8", "replace")
-    write_png(picture, out / "finale.png")
-    write_png(poster(picture, title, arguments.name, small), out / "poster.png")
+    rays = f"{in_words(large.work.rays)} rays"
+    finale = Finale(title, arguments.name, f"{words}.", large, stations, counted, own_command())
+    page = finale_page(finale).encode("utf-8", "replace")
+    write_png(large.pixels, out / "finale.png")
+    write_png(poster(large.pixels, title, arguments.name, f"{words}: {rays}"), out / "poster.png")
     write_out(out / "finale.html", page)
-    said = [f"drawn in {seconds:.0f} s: {in_words(work.rays)} rays"]
+    said = [f"drawn in {large.seconds:.0f} s: {rays}"]
     if counted:
         best = min(counted, key=lambda one: one.work.tests_per_ray)
         share = best.work.tests_per_ray / (counted[0].work.tests_per_ray or 1.0)
@@ -231,11 +229,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         if arguments.scene is not None:
             raise UsageError(f"{arguments.scene}: --new writes a scene and draws none; expected one of the two")
         return _new_scene(project, arguments.new, console)
-    take_impl(["--impl", arguments.impl])
+    scene = arguments.scene or os.fspath(project.scenes / _SCENE)
+    refuse_no_scene(project, scene)
+    if arguments.scene is not None and arguments.size is None:
+        _check_resolution(scene)
     out: Path = arguments.out or project.build / "finale"
     usable_folder(out)
     reach = _reach(project, arguments.impl)
-    scene = arguments.scene or os.fspath(project.scenes / _SCENE)
     program = build_program(release_tree(project), "raytrace", arguments.impl)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         threads = () if arguments.threads is None else ("--threads", arguments.threads)

@@ -11,8 +11,9 @@ from types import MappingProxyType
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli.render import build_program, refuse_no_scene, whose
-from raysteps.cli.todo_steps import as_far_as_written, unfinished, usual_step
+from raysteps.cli import STUDENTS_KIT, add_impl
+from raysteps.cli.render import build_program, refuse_folder, refuse_no_scene, whose
+from raysteps.cli.todo_steps import as_far_as_written, built_trees, refuse_missing_tree, unfinished, usual_step
 from raysteps.common import process
 from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
@@ -36,6 +37,14 @@ def _pixel(word: str) -> str:
     return word
 
 
+_STRUCTURES = {
+    "none": "none before step 6",
+    "boxes": "boxes: the paper's",
+    "octree": "octree from step 6 on",
+    "bvh": "bvh for step 9",
+}
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which pixel of which picture, and whose steps."""
     parser.add_argument("scene", metavar="SCENE", help="such as scenes/lessons/three-spheres.nff")
@@ -45,22 +54,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", metavar="WxH", help="pixels of the picture (the scene's own)")
     parser.add_argument("--depth", metavar="D", help="longest chain of rays, the eye ray included (5)")
     parser.add_argument("--view", choices=["color", "normals"], help="what step 2 shows (color)")
+    kit = parser.get_default(STUDENTS_KIT)
+    offered = list(_STRUCTURES) if kit is None else ["none", *built_trees(kit)]
     parser.add_argument(
         "--accel",
-        choices=["none", "boxes", "octree", "bvh"],
-        help="none before step 6, octree from there on, bvh for step 9; boxes: the whole kit only",
+        choices=list(_STRUCTURES),
+        metavar=f"{{{','.join(offered)}}}",
+        help=f"what a ray is tested against ({', '.join(_STRUCTURES[name] for name in offered)})",
     )
-    parser.add_argument(
-        "--impl",
-        choices=["mine", "reference"],
-        default="mine",
-        help="whose steps (mine); reference: the whole kit only",
-    )
-    parser.add_argument(
-        "--against",
-        choices=["reference"],
-        help="both trees side by side, and where they part; exit code 1 if they do; the whole kit only",
-    )
+    add_impl(parser)
+    if kit is None:
+        parser.add_argument(
+            "--against",
+            choices=["reference"],
+            help="both trees side by side, and where they part; exit code 1 if they do",
+        )
+    else:
+        parser.set_defaults(against=None)
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the record there, too")
     parser.add_argument("--html", type=Path, metavar="FILE", help="write a page with the rays in three dimensions")
 
@@ -72,6 +82,7 @@ def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
     if arguments.impl == "mine":
+        refuse_missing_tree(project, words)
         more, said = as_far_as_written(project, words)
         words += more
         if said:
@@ -108,11 +119,12 @@ def _write_json(arguments: argparse.Namespace, inspected: InspectResult, console
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when the pixel could be followed and, where two are compared, they agree."""
     options = _options(project, arguments)
-    if (arguments.against or arguments.impl == "reference") and not project.has_reference:
-        raise UsageError("a students' kit has no reference to inspect; pictures made with it lie in reference/")
     if arguments.against and arguments.impl == "reference":
         raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
-    refuse_no_scene([arguments.scene])
+    refuse_no_scene(project, arguments.scene)
+    for path in (arguments.json, arguments.html):
+        if path is not None:
+            refuse_folder(path)
     if arguments.impl == "mine":
         _say_unfinished(project, options)
 

@@ -7,7 +7,8 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count, join_and
+from raysteps.common.platform import own_command, quote_command
+from raysteps.common.text import count, join_and, tenths
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.release.build_release import first_steps, release, usable, written_files
@@ -72,6 +73,12 @@ def _chosen(project: Project, text: str | None, console: Console) -> list[Step]:
     return steps
 
 
+def line_to_grade(steps: list[Step], course: list[Step]) -> str:
+    """The line for what comes back of a kit with these steps: the others were not given out, and count nothing."""
+    only = ["--only", *(str(step.index) for step in steps)] if len(steps) < len(course) else []
+    return f"{own_command()} {quote_command(['grade-class', 'submissions', '--out', 'grades', *only])}"
+
+
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when nothing leaks, else 1."""
     if not project.has_reference:
@@ -101,6 +108,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         console.print("Nothing was written.")
         return 1
     _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
+    worth = tenths(sum(step.points for step in steps if not step.bonus))
+    bonus = tenths(sum(step.points for step in steps if step.bonus))
+    more = f" and {bonus} of bonus" if any(step.bonus for step in steps) else ""
+    _say(console, f"Grade what comes back, of {worth} points{more}: {line_to_grade(steps, read_steps(project))}")
     kept = [name for name in FOLDERS if (out / name).is_dir()]
     if kept:
         _say(console, f"Kept from before, and not searched: {join_and(kept)}")

@@ -8,11 +8,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.cli.todo_steps import advice, as_far_as_written, wanted_step
+from raysteps.cli.todo_steps import advice, as_far_as_written, last_value, refuse_missing_tree, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.platform import own_command
 from raysteps.common.process import Outcome
-from raysteps.common.text import printable
-from raysteps.course.manifest import Step, read_steps
+from raysteps.common.text import nearest, printable
+from raysteps.course.manifest import Step, read_all_steps, read_steps
 from raysteps.course.project import Project, here
 from raysteps.grading.build_messages import (
     compile_message,
@@ -23,6 +24,7 @@ from raysteps.grading.build_messages import (
     missing_name,
     undefined_message,
 )
+from raysteps.report.terminal import short_path
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
@@ -106,8 +108,19 @@ def _build(tree: BuildTree, target: str) -> Outcome:
         return tree.build([target], lambda far: _say(f"building: {far}", first=False))
 
 
+def _refuse_no_source(project: Project) -> None:
+    for step in read_all_steps(project):
+        path = project.steps / step.path
+        if not path.is_file():
+            raise StudentBuildError(
+                f"steps/{step.path.as_posix()}: is {'a folder' if path.is_dir() else 'not there'}; expected your step "
+                f"{step.number}; {own_command()} reset {step.number} puts its stub there"
+            )
+
+
 def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
     """Builds a program from the student's steps; what the compiler says is told only when that fails."""
+    _refuse_no_source(tree.project)
     outcome = _build(tree, target)
     if outcome.code != 0:
         raise StudentBuildError(why_own_steps_do_not_build(tree.project, outcome))
@@ -147,12 +160,49 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("args", nargs=argparse.REMAINDER)
 
 
-def refuse_no_scene(args: Sequence[str]) -> None:
+_FLAGS = {"--quiet", "--spd", "--strip"}  # without a value behind them
+_NOTHING_TO_DRAW = {"-h", "--help", "--list-accel"}
+
+
+def scene_in(args: Sequence[str]) -> str | None:
+    """The first word that is no option and no value of one."""
+    if not _NOTHING_TO_DRAW.isdisjoint(args):
+        return None
+    pairs = zip(("", *args), args, strict=False)
+    free = (word for before, word in pairs if not before.startswith("-") or before in _FLAGS)
+    return next((word for word in free if not word.startswith("-")), None)
+
+
+def refuse_no_scene(project: Project, scene: str | None) -> None:
     """Before anything is built."""
-    scene = next((word for word in args if word.lower().endswith(".nff")), None)
-    if scene is not None and not Path(scene).is_file():
-        what = "is a folder" if Path(scene).is_dir() else "is not there"
-        raise UsageError(f"{scene}: {what}; expected a scene, such as scenes/lessons/three-spheres.nff")
+    path = Path(scene or "")
+    if not scene or (path.exists() and not path.is_dir()):
+        return
+    own = Path(f"{scene}.nff")
+    known = {one.stem: one for one in (*sorted(project.scenes.rglob("*.nff")), *([own] if own.is_file() else []))}
+    name = nearest(path.stem, known)
+    meant = (
+        "a scene, such as scenes/lessons/three-spheres.nff; others of the kit lie beside it and in scenes/generated"
+        if name is None
+        else f"the path of a scene; did you mean {short_path(known[name])}?"
+    )
+    raise UsageError(f"{scene}: is {'a folder' if path.is_dir() else 'not there'}; expected {meant}")
+
+
+def refuse_folder(path: Path) -> None:
+    """Before anything is built or drawn for it."""
+    if path.is_dir():
+        raise UsageError(f"{path}: is a folder; expected the name of a file to write")
+
+
+def refuse_place(args: Sequence[str], option: str) -> None:
+    """Of a file that a program writes: it makes no folders."""
+    word = last_value(args, option)
+    if word:
+        path = Path(word)
+        refuse_folder(path)
+        if not path.parent.is_dir():
+            raise UsageError(f"{path}: there is no folder {path.parent}; make it first, or write elsewhere")
 
 
 def _is_where_we_print(path: Path) -> bool:
@@ -174,15 +224,17 @@ def _draw(program: Path, args: list[str], picture: str | None) -> int:
 def run_words(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and --impl."""
     impl, args = take_impl(args)
-    at = args.index("-o") + 1 if "-o" in args else len(args)
-    if at < len(args) and Path(args[at]).suffix.lower() not in ("", ".png", ".ppm"):
-        raise UsageError(f"{args[at]}: pictures are written as .png or .ppm; expected a name that ends so")
+    picture = last_value(args, "-o")
+    if picture is not None and Path(picture).suffix.lower() not in ("", ".png", ".ppm"):
+        raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
-    refuse_no_scene(args)
-    picture = args[at] if at < len(args) else None
+    refuse_no_scene(project, scene_in(args))
+    for option in ("-o", "--stats"):
+        refuse_place(args, option)
     if impl == "reference":
         kit = build_kit(project, lambda text: _say(text, first=False))
         return _draw(kit.reference("raytrace"), args, picture)
+    refuse_missing_tree(project, args)
     program = build_mine(release_tree(project))
     if picture is None:
         return run_raytrace(program, args)

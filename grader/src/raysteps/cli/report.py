@@ -7,8 +7,9 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.platform import own_command
 from raysteps.course.manifest import read_steps
-from raysteps.course.project import Project, here
+from raysteps.course.project import Project
 from raysteps.progress.check import own_progress
 from raysteps.progress.standing import standings
 from raysteps.report.attempts import OwnProgress
@@ -25,7 +26,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "place",
         type=Path,
         nargs="?",
-        default=here().build / "check",
         metavar="PLACE",
         help="a results.json, the folder that it lies in, or the folder of a class; your last check when none is given",
     )
@@ -44,7 +44,7 @@ def _own(project: Project, folder: Path) -> OwnProgress:
     """What `check` keeps beside its own report; of others nothing is known."""
     if folder.resolve() != (project.build / "check").resolve():
         return OwnProgress()
-    return own_progress(folder, standings(project))
+    return own_progress(project, folder, standings(project))
 
 
 def _class_page(place: Path) -> Path | None:
@@ -60,7 +60,9 @@ def _class_page(place: Path) -> Path | None:
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Writes report.html beside the results of a submission, class.html beside those of a class."""
-    place: Path = arguments.place
+    place: Path = arguments.place or project.build / "check"
+    if arguments.place is None and not (place / RESULTS).is_file():
+        raise UsageError(f"there is no check yet that could be shown: expected its {RESULTS}; {own_command()} check")
     page = _class_page(place) if project.has_reference else None
     page = page or _student_page(project, place)
     console.print(f"Report: {escape(short_path(page.resolve()))}", soft_wrap=True, highlight=False)

@@ -2,18 +2,24 @@
 
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 from raysteps.common.errors import UsageError
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import unfinished_functions
 
 _LAST_PICTURE = 8  # step 09 draws the same
+_TREES = {"octree": 6, "bvh": 9}  # as --accel calls them, and the steps that build them
 
 
 def _left_in(project: Project, step: Step) -> list[str]:
+    """Of a file that is not there, all."""
     path = project.steps / step.path
-    return unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step) if path.is_file() else []
+    if not path.is_file():
+        return list(step.functions)
+    return unfinished_functions(path.read_text(encoding="utf-8", errors="replace"), step)
 
 
 def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
@@ -40,11 +46,17 @@ def usual_step(project: Project) -> int:
     return min(_LAST_PICTURE, read_steps(project)[-1].index)
 
 
+def last_value(words: Sequence[str], option: str) -> str | None:
+    """What stands behind the option; of several the last counts, as in the programs."""
+    found = [value for word, value in pairwise(words) if word == option]
+    return found[-1] if found else None
+
+
 def wanted_step(project: Project, words: Sequence[str]) -> int:
     """Of the picture with these words; refuses what is no step."""
     if "--step" not in words:
         return usual_step(project)
-    word = next(iter(words[words.index("--step") + 1 :]), "")
+    word = last_value(words, "--step") or ""
     last = read_steps(project)[-1].index
     if not re.fullmatch("[0-9]{1,2}", word) or not 1 <= int(word) <= last:
         raise UsageError(f"--step: expected a whole number from 1 to {last}, found '{word}'")
@@ -70,6 +82,29 @@ def without_tree(project: Project, step: int, words: Sequence[str]) -> list[str]
     steps = [one for one in read_steps(project) if one.index < step and one.is_about_a_tree]
     missing = step <= _LAST_PICTURE and any(_left_in(project, one) for one in steps)
     return ["--accel", "none"] if missing and "--accel" not in words else []
+
+
+def built_trees(project: Project) -> list[str]:
+    """Those whose steps a students' kit has."""
+    return [name for name, index in _TREES.items() if any(project.steps.glob(f"{index:02}-*/step.toml"))]
+
+
+def refuse_missing_tree(project: Project, words: Sequence[str]) -> None:
+    """Where `--accel` names a tree that finds nothing: the course has no such step, or nobody has written it yet. The
+    picture of the step itself is drawn as soon as it is begun."""
+    accel = last_value(words, "--accel")
+    if accel not in _TREES:
+        return
+    index, other = _TREES[accel], "--accel none draws the same picture"
+    step = next((one for one in read_steps(project) if one.index == index), None)
+    if step is None:
+        raise UsageError(f"--accel {accel}: this course has no step {index:02}, which builds it; {other}")
+    left = _left_in(project, step)
+    if left and (wanted_step(project, words) != index or len(left) == len(step.functions)):
+        raise UsageError(
+            f"--accel {accel}: step {step.number} is not written yet: expected {join_and(left)} in "
+            f"steps/{step.path.as_posix()}; {other}"
+        )
 
 
 def _elsewhere(project: Project) -> str:

@@ -3,7 +3,8 @@
 import argparse
 from pathlib import Path
 
-from raysteps.cli.render import build_program, refuse_no_scene, run_raytrace, take_impl
+from raysteps.cli.render import build_program, refuse_no_scene, refuse_place, run_raytrace, scene_in, take_impl
+from raysteps.cli.todo_steps import refuse_missing_tree
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import BuildTree, release_tree
@@ -40,5 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
-    refuse_no_scene(args)
+    refuse_no_scene(project, scene_in(args))
+    refuse_place(args, "--screenshot")
+    if impl == "mine":
+        refuse_missing_tree(project, args)
     return run_raytrace(build_view(release_tree(project), impl), args)

@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from raysteps.common.text import mean
+from raysteps.common.text import join_and, mean
 from raysteps.course.manifest import Step
-from raysteps.finale.own_pictures import Counted
+from raysteps.finale.own_pictures import Counted, LargePicture
 from raysteps.images.compare import Pixels
 from raysteps.report.page import PictureData, pixel_data, render_page
-from raysteps.results.model import Work
 
 
 @dataclass(frozen=True)
@@ -27,13 +26,10 @@ class Finale:
     title: str
     name: str
     words: str  # of how the picture came about
-    picture: Pixels
-    samples: int
+    large: LargePicture
     stations: Sequence[Station]
-    work: Work
     counted: Sequence[Counted]
     command: str  # ./raysteps, as it is typed here
-    files: str
 
 
 @dataclass(frozen=True)
@@ -77,14 +73,16 @@ def finale_page(finale: Finale) -> str:
         }
         for station in finale.stations
     ]
-    large: PictureData = pixel_data(finale.picture)
+    picture: PictureData = pixel_data(finale.large.pixels)
+    secondary = [f"{in_words(amount)} {name}" for name, amount in finale.large.secondary.items() if amount]
+    work = finale.large.work
     context = {
         "finale": finale,
-        "large": large,
+        "picture": picture,
+        "secondary": join_and(secondary) if secondary else "",
         "stations": stations,
-        "drawn": sum(station.pixels is not None for station in finale.stations),
         "bars": _bars(finale.counted),
-        "rays": in_words(finale.work.rays),
-        "tests": in_words(finale.work.surface_tests + finale.work.box_tests),
+        "rays": in_words(work.rays),
+        "tests": in_words(work.surface_tests + work.box_tests),
     }
     return render_page("finale", finale.title, context, styles=("finale",))

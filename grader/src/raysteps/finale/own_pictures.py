@@ -14,6 +14,7 @@ _SMALL = 480  # pixels: the longer side of a picture of one step
 _SMALL_SAMPLES = "4"
 _COUNTED = 160  # pixels: small, as every surface is tested for every ray
 _LARGEST_COUNTED = 20_000  # surfaces
+_SECONDARY = {"shadow": "shadow rays", "reflect": "reflected rays", "refract": "refracted rays"}
 _LAST_PICTURE = 8  # step 09 draws the same
 
 
@@ -82,6 +83,18 @@ class Counted:
 
 
 @dataclass(frozen=True)
+class LargePicture:
+    """And what it cost."""
+
+    pixels: Pixels
+    samples: int
+    work: Work
+    secondary: dict[str, int]  # rays behind those of the eye, by what people call them
+    seconds: float
+    surfaces: int  # of the scene
+
+
+@dataclass(frozen=True)
 class OwnProgram:
     """Draws one scene into a folder."""
 
@@ -101,12 +114,14 @@ class OwnProgram:
     def _counters(self) -> Path:
         return self.folder / "stats.json"
 
-    def large(self, reach: Reach, size: str | None, samples: int) -> tuple[Pixels, Work, float]:
-        """The picture, what was counted, and how many seconds it took. Without a size it is the scene's own."""
+    def large(self, reach: Reach, size: str | None, samples: int) -> LargePicture:
+        """Without a size it is the scene's own."""
         sized = () if size is None else ("--size", size)
         words = ("--step", str(reach.last), "--accel", reach.tree, "--samples", str(samples), *sized)
         path = self._draw("the large picture", *words, "--stats", str(self._counters()))
-        return read_png(path), self._work(), self._seconds()
+        rays = {name: int(self._told(kind)) for kind, name in _SECONDARY.items()}
+        seconds, surfaces = self._told("render_seconds"), int(self._told("surfaces"))
+        return LargePicture(read_png(path), samples, self._work(), rays, seconds, surfaces)
 
     def _work(self) -> Work:
         work = read_work(self._counters().read_bytes())
@@ -114,8 +129,8 @@ class OwnProgram:
             raise NotDrawn(1, "the counters: they cannot be read")
         return work
 
-    def _seconds(self) -> float:
-        found = re.search(rb'"render_seconds": *([0-9.e+-]+)', self._counters().read_bytes())
+    def _told(self, name: str) -> float:
+        found = re.search(rf'"{name}": *([0-9]{{1,18}}(\.[0-9]+)?)'.encode(), self._counters().read_bytes())
         return float(found[1]) if found else 0.0
 
     def small(self, reach: Reach, step: Step, shape: tuple[int, ...]) -> Pixels:
@@ -126,19 +141,14 @@ class OwnProgram:
         words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", _SMALL_SAMPLES, "--size", size)
         return read_png(self._draw(f"the picture of step {step.number}", *words, "--quiet"))
 
-    def counted(self, reach: Reach, shape: tuple[int, ...], surfaces: int) -> list[Counted]:
+    def counted(self, reach: Reach, large: LargePicture) -> list[Counted]:
         """Every surface for every ray, then with each tree. Nothing where there is no tree, or too much to test."""
-        if not reach.trees or surfaces > _LARGEST_COUNTED:
+        if not reach.trees or large.surfaces > _LARGEST_COUNTED:
             return []
-        size = _size(_COUNTED, shape)
+        size = _size(_COUNTED, large.pixels.shape)
         found = []
         for accel, name in {"none": "every surface", **reach.trees}.items():
             words = ("--step", str(reach.last), "--accel", accel, "--size", size, "--stats", str(self._counters()))
             self._draw(f"the picture that is counted ({name})", *words, "--quiet")
             found.append(Counted(name, self._work()))
         return found
-
-    def surfaces(self) -> int:
-        """Of the scene, as counted last."""
-        found = re.search(rb'"surfaces": *([0-9]+)', self._counters().read_bytes())
-        return int(found[1]) if found else 0
