@@ -386,7 +386,7 @@ def test_no_words_of_python_about_results(project: Project, tmp_path: Path, data
     path = tmp_path / "results.json"
     if data is not None:
         path.write_bytes(data)
-    expected = "; expected is a results.json as `./raysteps grade` writes it$"
+    expected = "; expected a results.json as checking or grading writes it$"
     with pytest.raises(UsageError, match=f"results.json: {words}{expected}"):
         _run(project, "autolab", "--results", path)
     with pytest.raises(UsageError, match=f"is a folder{expected}"):

@@ -101,6 +101,18 @@ def test_it_begins_with_the_first_and_the_last_and_then_walks(open_page: OpenPag
     assert page.inner_text("#plate-title") == "09 Bounding volumes"
 
 
+def test_on_a_phone_the_strip_shows_the_whole_of_what_has_the_focus(open_page: OpenPage, gallery: Path) -> None:
+    page = open_page(gallery, width=390, height=844, calm=True)
+    strip = page.locator("#strip")
+    strip.get_by_role("button").first.focus()
+    for _ in range(strip.get_by_role("button").count()):
+        box = page.locator(":focus").bounding_box()
+        assert box is not None
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 390
+        page.keyboard.press("Tab")
+
+
 def test_both_sides_can_be_chosen_and_a_link_leads_to_them(open_page: OpenPage, gallery: Path) -> None:
     page = open_page(gallery)
     page.click("[data-side='left'][data-of='2']")

@@ -124,6 +124,27 @@ def assert_accessible(page: "Page") -> None:
     assert results.violations_count == 0, results.generate_report()
 
 
+_BROKEN_WORDS = """boxes => boxes.flatMap(box => [...box.querySelectorAll('th, td')]).flatMap(cell => {
+    const walk = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+    const broken = [];
+    while (walk.nextNode()) {
+        for (const {0: word, index} of walk.currentNode.data.matchAll(/[\\w.]+/g)) {
+            const range = document.createRange();
+            range.setStart(walk.currentNode, index);
+            range.setEnd(walk.currentNode, index + word.length);
+            const tops = [...range.getClientRects()].map(box => Math.round(box.top));
+            broken.push(...(new Set(tops).size > 1 ? [word] : []));
+        }
+    }
+    return broken;
+})"""
+
+
+def broken_words(page: "Page", boxes: str) -> list[str]:
+    """In tables: those of which a part stands in another line."""
+    return page.eval_on_selector_all(boxes, _BROKEN_WORDS)  # type: ignore[no-any-return]
+
+
 def assert_no_sideways_scrolling(page: "Page") -> None:
     """A page may be long; it may not be wider than the screen."""
     wide = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")

@@ -147,7 +147,7 @@ class Shown:
 
 def shown_in(document: Path, text: str) -> Iterator[Shown]:
     """Output stands in a block of its own, right below that of its command, or below words that begin or end with
-    "prints". `render` prints nothing."""
+    "prints". No document shows what `render` prints: where the picture is, and what is not written yet."""
     lines = text.splitlines()
     for above, below in itertools.pairwise(blocks(text)):
         speaking = [one for one in commands(document, above) if one.words[1:2] != ("render",)]

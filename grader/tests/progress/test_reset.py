@@ -57,6 +57,15 @@ def test_no_means_no(course: Project, steps: list[Step]) -> None:
     assert text(console).endswith("Nothing was changed.\n")
 
 
+def test_a_folder_in_its_place_stays(course: Project, steps: list[Step]) -> None:
+    path = course.steps / steps[0].path
+    path.unlink()
+    path.mkdir()
+    with pytest.raises(UsageError, match=r"camera_rays\.cpp: is a folder; expected a file\. Move the folder away"):
+        reset(course, steps[0], printed(), yes=True)
+    assert path.is_dir()
+
+
 def test_two_in_one_second_are_both_kept(course: Project, steps: list[Step]) -> None:
     for number in range(3):
         write_own(course, steps[0], f"int a = {number};\n")

@@ -125,9 +125,10 @@ def test_a_file_that_is_gone_or_no_text(course: Project, steps: list[Step], data
     path = course.steps / steps[0].path
     path.unlink() if data is None else path.write_bytes(data)
     assert words in _words(course)[0]
-    console = printed()
-    next_step(course, console)
-    assert "./raysteps reset 01" in text(console)
+    for command in (next_step, list_steps):
+        console = printed()
+        command(course, console)
+        assert "./raysteps reset 01" in text(console)
 
 
 @pytest.mark.parametrize("damage", ["", "[]", '{"schema": "other", "steps": {}}', '{"schema": "raysteps/progress/v1"}'])

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import pytest
 
+from raysteps.cli.app import COMMANDS
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import Project
 from raysteps.release.contents import needed_modules, package_files
 from raysteps.release.kit_pages import pyproject
+from raysteps.report.wording import after_the_last
 
 # What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
 # solve the steps read it?
@@ -44,8 +46,19 @@ def test_which_modules_go_out_is_settled(project: Project, out: list[Path]) -> N
         assert found == {*names, "__init__"}, room
 
 
+def test_the_page_names_the_commands_that_go_out(project: Project) -> None:
+    page = (project.root / "docs" / "release.md").read_text(encoding="utf-8")
+    row = page.partition("| `grader/` | the commands ")[2].partition(", with the modules")[0]
+    assert set(re.findall(r"`([\w-]+)`", row)) == {one.name for one in COMMANDS if one.kit != "whole"}
+
+
 def _distribution(text: str) -> str:
     return re.split(r"[^\w-]", text, maxsplit=1)[0].lower().replace("_", "-")
+
+
+def test_a_perfect_report_offers_only_commands_of_a_students_kit(out: list[Path]) -> None:
+    there = {path.stem for path in out if path.parent.name == "cli"}
+    assert {command.split()[1] for command, _ in after_the_last()} <= there
 
 
 def test_the_package_names_all_that_its_modules_import(project: Project, out: list[Path]) -> None:

@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
@@ -88,6 +89,40 @@ def test_every_command_of_every_page_can_be_typed_there(released: Path) -> None:
     assert sum(len(block) for page, text in texts.items() for block in typed(page, text)) > 30
     assert [wrong for page, text in texts.items() for wrong in _wrong(released, page, text)] == []
     assert not [page for page, text in texts.items() if "<!--" in text]
+
+
+_WRITES = ("-o", "--out", "--stats", "--json", "--html", "--screenshot")
+
+
+def _helps(root: Path) -> Iterator[str]:
+    parsers = new_parser(Project(root))._subparsers
+    assert parsers is not None
+    for action in parsers._group_actions:
+        assert isinstance(action.choices, dict)
+        yield from (" ".join(parser.format_help().split()) for parser in action.choices.values())
+
+
+def test_git_takes_no_notice_of_what_commands_make(project: Project, released: Path, tmp_path: Path) -> None:
+    """By themselves, and where the pages say so. A scene of one's own is no such thing."""
+    made = {
+        "three-spheres-1.ppm",
+        "grades/results.json",
+        "gallery/index.html",
+    }  # S in a window; the whole kit
+    for root in (project.root, released):
+        made |= {name for text in _helps(root) for name in re.findall(r"\((build/\w+)\)", text)}
+    for page in sorted(released.rglob("*.md")):
+        text = page.read_text(encoding="utf-8")
+        for one in [*(one for block in typed(page, text) for one in block), *mentioned(page, text)]:
+            pairs = zip(one.words, one.words[1:], strict=False)
+            made |= {word for option, word in pairs if option in _WRITES and not word.isupper()}
+    made = {name for name in made if not re.search(r"[A-Z]{3}|\.nff$", name)}
+    assert {"out.png", "build/finale", "pixel.html"} <= made
+    (tmp_path / ".gitignore").write_bytes((released / ".gitignore").read_bytes())
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
+    asked = ["git", "-C", str(tmp_path), "check-ignore", "--stdin"]
+    ignored = subprocess.run(asked, input="\n".join(made), capture_output=True, text=True, check=True).stdout.split()
+    assert set(ignored) == made
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from doc_commands import all_commands
 
-from raysteps.cli.release import refuse_inside
+from raysteps.cli.release import line_to_grade, refuse_inside
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
@@ -70,6 +70,11 @@ def _alone(root: Path, room: Path, *words: str) -> Outcome:
     return run([sys.executable, "-I", "-S", "-c", program], seconds=900, cwd=root)
 
 
+def test_the_line_that_grades_a_release_names_its_steps(steps: list[Step]) -> None:
+    assert line_to_grade(steps[:4], steps) == "./raysteps grade-class submissions --out grades --only 1 2 3 4"
+    assert line_to_grade(steps, steps) == "./raysteps grade-class submissions --out grades"
+
+
 @pytest.mark.slow
 def test_it_is_made_and_checked_in_an_empty_folder(
     project: Project, steps: list[Step], solved: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -78,6 +83,7 @@ def test_it_is_made_and_checked_in_an_empty_folder(
     told = _release(project, "--out", str(out), "--steps", "1-4", "--course", "Graphics 101")
     assert told.code == 0, told.stdout + told.stderr
     assert "4 steps, no solution in any file" in told.stdout
+    assert "of 55 points: ./raysteps grade-class submissions --out grades --only 1 2 3 4\n" in told.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["graphics-101"]
 
     table = tomllib.loads((out / "grader" / "pyproject.toml").read_text(encoding="utf-8"))

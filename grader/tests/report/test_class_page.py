@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
+from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling, broken_words
 from class_documents import STEPS, document, many, missing, result, student, submission
 from playwright.sync_api import Page
 
@@ -61,6 +61,23 @@ def test_it_is_accessible_and_never_wider_than_the_screen(
     assert_accessible(page)
     page.check("#hide-names")
     assert_accessible(page)
+
+
+def test_on_a_phone_names_and_totals_stay_while_the_steps_scroll_by_keys(open_page: OpenPage, tmp_path: Path) -> None:
+    page = open_page(write_class_report(many(3), tmp_path), width=390, height=844)
+    box = page.get_by_role("region", name="Table of submissions")
+    box.scroll_into_view_if_needed()
+    assert broken_words(page, ".table-box thead, .table-box td") == []
+    box.evaluate("box => { window.moved = new Promise(done => { box.onscroll = () => done(box.scrollLeft); }); }")
+    box.focus()
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("window.moved") > 0
+    for column in (".who", ".total"):
+        edges = box.locator(f"thead {column}").bounding_box()
+        assert edges is not None
+        assert edges["x"] >= 0
+        assert edges["x"] + edges["width"] <= 390
+    assert_no_sideways_scrolling(page)
 
 
 def test_columns_sort_both_ways_and_who_has_no_points_comes_last(open_page: OpenPage, tmp_path: Path) -> None:

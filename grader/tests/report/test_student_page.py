@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
-from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling
+from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling, broken_words
 from page_results import NASTY, document_of, idle_step, of_older_kit, passed_step, wrong_step
 from rich.console import Console
 
@@ -92,8 +92,27 @@ def test_its_pictures_are_compared_and_a_pixel_has_its_command(
     element = page.locator("#step-03 compare-pictures").first
     element.scroll_into_view_if_needed()
     element.get_by_role("button", name="First wrong pixel").click()
-    command = "./raysteps inspect scenes/lessons/three-spheres.nff 0 0 --step 3 --size 160x120 --against reference"
+    command = "./raysteps inspect scenes/lessons/three-spheres.nff 0 0 --step 3 --size 160x120"
     assert element.locator(".compare-command code").inner_text() == command
+
+
+def test_only_a_report_beside_the_whole_kit_has_commands_of_the_whole_kit(
+    steps: list[Step], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    document = _mixed(steps, tmp_path)
+    write_results(document, tmp_path)
+    own = student_page(document, tmp_path, steps, OwnProgress(has_reference=True))
+    assert "./raysteps replay cases/03-mirror.json" in own
+    assert "--against reference" in own
+    assert try_student_page(tmp_path, steps, print) is not None
+    handed_back = (tmp_path / "report.html").read_text(encoding="utf-8")
+    offered = re.findall(r'(?:<code[^>]*>|inspect=")\./raysteps ([^<"]*)', handed_back)
+    students = {"check", "finale", "inspect", "view", "watch"}
+    assert {"check", "inspect"} <= {words.split()[0] for words in offered} <= students
+    assert [words for words in offered if re.search("reference|cases/", words)] == []
+    assert "direction (1, 0, 0)" in handed_back  # the input itself stays
+    assert cli.main(["report", str(tmp_path)]) == 0
+    assert (tmp_path / "report.html").read_text(encoding="utf-8") == handed_back
 
 
 def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
@@ -102,7 +121,7 @@ def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[S
     todo = page.get_by_role("region", name="Next thing to do")
     assert "every step is right" in todo.inner_text()
     assert todo.locator("code").first.inner_text() == "./raysteps finale"
-    assert "20 of them bonus" in page.locator(".score").inner_text()
+    assert "20 of 20 bonus points among them" in page.locator(".score").inner_text()
     party = page.get_by_role("region", name="Every step is right")
     assert party.locator("figure img").count() == len(steps)
     assert party.locator("figure img").first.bounding_box()["width"] > 300  # type: ignore[index]
@@ -117,7 +136,7 @@ def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[S
     [
         (
             "full",
-            ["direction (1, 0, 0)", "normal is not of length 1", "./raysteps replay cases/03-mirror.json"],
+            ["direction (1, 0, 0)", "normal is not of length 1", "./raysteps check 03"],
             ["of seed"],
         ),
         ("diagnosis", ["normal is not of length 1", "mirror"], ["direction (1, 0, 0)", "replay"]),
@@ -188,7 +207,7 @@ def test_the_command_makes_the_page_of_a_folder(
     assert cli.main(["report", str(tmp_path / "results.json")]) == 0
     assert (tmp_path / "report.html").read_text(encoding="utf-8") == made
     assert cli.main(["report", str(tmp_path / "nowhere")]) == 2
-    assert "expected is a results.json" in capsys.readouterr().err
+    assert "expected a results.json" in capsys.readouterr().err
 
 
 def test_trouble_with_the_page_is_told_and_costs_nothing(steps: list[Step], tmp_path: Path) -> None:
@@ -212,7 +231,33 @@ def test_the_first_screen_shows_the_picture_of_the_next_thing_to_do(
     assert box["width"] > 0.5 * width
     assert viewer.locator("strong").inner_text().startswith("03 Phong shading: ")
     assert "99% of the pixels are wrong" in viewer.locator(".viewer-said").inner_text()
+    assert "(99.00 %)" in viewer.locator(".compare-count").inner_text()
     assert_no_sideways_scrolling(page)
+
+
+@pytest.mark.parametrize("width", [360, 390])
+def test_on_a_phone_every_table_is_seen_whole_and_breaks_no_word(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path, width: int
+) -> None:
+    results = [(wrong_step if step.number in ("03", "06") else passed_step)(step, tmp_path) for step in steps]
+    page = open_page(write_student_page(document_of(results), tmp_path, steps), width=width, height=844)
+    page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
+    cut = "boxes => boxes.filter(box => box.scrollWidth > box.clientWidth).map(box => box.getAttribute('aria-label'))"
+    assert page.locator(".scroll").count() > 2 * len(steps) - 5
+    assert page.eval_on_selector_all(".scroll", cut) == []
+    assert broken_words(page, ".scroll") == []
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
+
+
+def test_a_long_status_is_not_cut_on_the_card_of_its_step(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    results = [idle_step(step) for step in steps]
+    results[1].status = "does-not-build"
+    page = open_page(write_student_page(document_of(results), tmp_path, steps), width=1400)
+    cut = "cards => cards.filter(card => card.scrollWidth > card.clientWidth).map(card => card.textContent)"
+    assert page.eval_on_selector_all(".strip a", cut) == []
 
 
 def test_the_list_of_pictures_is_walked_by_keys_and_begins_with_what_is_wrong(
@@ -258,6 +303,16 @@ def test_how_it_went_is_drawn_and_said_and_what_changed_is_marked(
     text = student_page(document, tmp_path, steps)
     assert "How it went" not in text
     assert "Changed since it was checked" not in text
+
+
+def test_the_score_says_how_much_of_the_bonus_was_earned(steps: list[Step], tmp_path: Path) -> None:
+    regular = [passed_step(step, tmp_path) for step in steps if not step.bonus]
+    none, all_ = [idle_step(step) for step in steps if step.bonus], [passed_step(step, tmp_path) for step in steps[7:]]
+    for bonus, words in ((none, "0 of 20 bonus points<"), (all_, "20 of 20 bonus points among them<")):
+        text = student_page(document_of([*regular, *bonus]), tmp_path, steps)
+        assert words in text
+        assert f"bonus {words[:2].strip()} of 20" in text
+    assert "bonus points" not in student_page(document_of(regular), tmp_path, steps)
 
 
 def _at(day: int, hour: int = 12) -> datetime:

@@ -103,9 +103,9 @@ def test_two_kits_to_choose_from(mine: Path, newer: Path, tmp_path: Path) -> Non
 def test_what_is_no_kit(mine: Path, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     _refused(mine, tmp_path / "empty", "holds no release")
-    _refused(mine, tmp_path / "nowhere.zip", "cannot be read")
+    _refused(mine, tmp_path / "nowhere.zip", "is not there; expected a release")
     (tmp_path / "text.zip").write_text("no zip")
-    _refused(mine, tmp_path / "text.zip", "cannot be read")
+    _refused(mine, tmp_path / "text.zip", "cannot be read as a zip")
 
 
 def _with(kit: Path, **keys: Any) -> None:

@@ -109,8 +109,9 @@ def test_the_worst_pixel_is_where_it_was_planted(tmp_path: Path) -> None:
 def test_odd_names_are_quoted_and_what_inspect_does_not_know_is_left_out(steps: list[Step]) -> None:
     case = replace(steps[0].images[0], name="odd", scene="a b.nff", args=("--step", "1", "--threads", "2"))
     odd = replace(steps[0], images=(case,))
-    assert inspect_command("odd", odd) == "./raysteps inspect 'a b.nff' {x} {y} --step 1 --against reference"
-    assert inspect_command("other", odd) is None
+    wanted = "./raysteps inspect 'a b.nff' {x} {y} --step 1 --against reference"
+    assert inspect_command("odd", odd, has_reference=True) == wanted
+    assert inspect_command("other", odd, has_reference=True) is None
 
 
 @pytest.mark.parametrize(

@@ -29,11 +29,21 @@ def join_and(words: Sequence[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """What may have been meant, as the end of a sentence, or nothing."""
+_ALIKE = 0.65  # of three letters two in their order are enough, of five not three
+
+
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """What may have been meant. Dashes, which all options share, liken none."""
     from difflib import get_close_matches  # rarely
 
-    return "".join(f"; did you mean {name}?" for name in get_close_matches(word, list(known), n=1))
+    names = {name.lstrip("-"): name for name in known}
+    return next((names[one] for one in get_close_matches(word.lstrip("-"), names, 1, _ALIKE)), None)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The same as the end of a sentence, or nothing."""
+    name = nearest(word, known)
+    return "" if name is None else f"; did you mean {name}?"
 
 
 def number(value: float) -> str:

@@ -110,7 +110,7 @@ def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
     return bright
 
 
-_GROSS = 0.5  # of the pixels
+GROSS = 0.5  # of the pixels
 _LEVELS = 32  # of a channel
 
 
@@ -118,7 +118,7 @@ def shown(mine: Pixels, reference: Pixels, wrong_share: float) -> Pixels:
     """The picture that a report shows of a student's: what is right looks as in the reference's. One that is grossly
     wrong keeps a pixel of four and 32 levels of each channel: enough to see what it is, and too little to carry data
     out of a sandbox."""
-    if wrong_share <= _GROSS:
+    if wrong_share <= GROSS:
         wrong = gaps(mine, reference) > TOLERANCE
         return np.where(wrong[..., np.newaxis], mine, reference)
     height, width, _ = mine.shape

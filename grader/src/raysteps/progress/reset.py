@@ -99,6 +99,8 @@ def _ask(question: str) -> bool:
 def reset(project: Project, step: Step, console: Console, *, yes: bool, confirm: Confirm | None = None) -> int:
     """Asks first, unless there is nothing to lose. `confirm` stands in for the question on the terminal."""
     name = shown(project, step, step.file)
+    if own_file(project, step).is_dir():
+        raise UsageError(f"{name}: is a folder; expected a file. Move the folder away, then reset the step again")
     lost = loss(project, step)
     if lost is None and own_file(project, step).is_file():
         console.print(f"{escape(name)} is the stub already.", highlight=False, soft_wrap=True)

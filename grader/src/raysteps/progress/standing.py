@@ -97,6 +97,11 @@ class Standing:
         return self.kind == "checked" and self.last is not None and self.last.status == "passed"
 
     @property
+    def is_broken(self) -> bool:
+        """Nothing can be done with its file."""
+        return self.kind in ("missing", "unreadable")
+
+    @property
     def words(self) -> str:
         """For people."""
         match self.kind:
@@ -186,7 +191,7 @@ def _color(standing: Standing) -> str:
         return "green"
     if standing.kind == "not-started":
         return "dim"
-    bad = standing.kind in ("missing", "unreadable") or (standing.kind == "checked" and not _has_points(standing))
+    bad = standing.is_broken or (standing.kind == "checked" and not _has_points(standing))
     return "red" if bad else "yellow"
 
 
@@ -214,9 +219,13 @@ def list_steps(project: Project, console: Console) -> int:
     found = standings(project)
     following = next_of(found)
     print_list(project, console, found, following)
-    told = f"next: {own_command()} watch {following.number}" if following is not None else _ALL_DONE
+    told = next((f"next: {_to_type(standing)}" for standing in found if standing.step == following), _ALL_DONE)
     console.print(f"\n{told}", highlight=False)
     return 0
+
+
+def _to_type(standing: Standing) -> str:
+    return f"{own_command()} {'reset' if standing.is_broken else 'watch'} {standing.step.number}"
 
 
 def _to_write(standing: Standing) -> str:
@@ -239,11 +248,11 @@ def next_step(project: Project, console: Console) -> int:
     lines = [
         ("read", shown(project, step, "README.md")),
         ("write", shown(project, step, step.file) + _to_write(standing)),
-        ("type", f"{own_command()} watch {step.number}"),
+        ("type", _to_type(standing)),
         ("stuck", f"{own_command()} hint {step.number}"),
     ]
-    if standing.kind in ("missing", "unreadable"):
-        lines = [("file", shown(project, step, step.file)), ("type", f"{own_command()} reset {step.number}")]
+    if standing.is_broken:
+        lines = [("file", shown(project, step, step.file)), ("type", _to_type(standing))]
     for label, text in lines:
         console.print(f"  {label:<6} {escape(text)}", highlight=False, soft_wrap=True)
     return 0

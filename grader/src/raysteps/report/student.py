@@ -9,7 +9,7 @@ from typing import Any
 from raysteps.common.files import write_if_changed
 from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.images.compare import read_png
+from raysteps.images.compare import GROSS, read_png
 from raysteps.report.attempts import OwnProgress, chart_of
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
@@ -202,7 +202,7 @@ def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
     }
 
 
-def _hidden(item: HiddenResult) -> dict[str, object]:
+def _hidden(item: HiddenResult, has_reference: bool) -> dict[str, object]:
     groups = [replace(group, name=clean(group.name)) for group in item.groups]
     return {
         "name": clean(item.name),
@@ -215,7 +215,7 @@ def _hidden(item: HiddenResult) -> dict[str, object]:
             for label, text in (("Given", item.given), ("Expected", item.expected), ("Got", item.actual))
             if text
         ],
-        "again": replay_command(clean(item.case)) if item.case else "",
+        "again": replay_command(clean(item.case)) if item.case and has_reference else "",
         "groups": [group for group in groups if group.right < group.cases],
     }
 
@@ -249,7 +249,9 @@ def _tier(image: ImageResult, step: Step) -> list[str]:
     return [f"the tree: {tier.reached}. In tests per ray: {tier.to_reach}"] if tier is not None else []
 
 
-def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, once: SaidOnce) -> dict[str, object]:
+def _image(
+    image: ImageResult, at: str, step: Step | None, shown: ShownImage, once: SaidOnce, has_reference: bool
+) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
     if wrong is not None:
@@ -265,10 +267,10 @@ def _image(image: ImageResult, at: str, step: Step | None, shown: ShownImage, on
         "passed": image.passed,
         "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
         "facts": facts,
-        "wrong_share": wrong,
+        "wrong_share": wrong if wrong is not None and wrong > GROSS else None,  # else the page sees each pixel itself
         "shown": shown,
         "files": [clean(name) for name in (image.mine, image.reference) if name],
-        "inspect": inspect_command(image.name, step),
+        "inspect": inspect_command(image.name, step, has_reference=has_reference),
         "work": _work(image),
         "tests_per_ray": _tests_per_ray(image),
     }
@@ -283,15 +285,17 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
     ]
 
 
-def step_view(result: StepResult, step: Step | None, album: Mapping[Place, ShownImage]) -> dict[str, object]:
-    """All that the page says of a step."""
+def step_view(
+    result: StepResult, step: Step | None, album: Mapping[Place, ShownImage], has_reference: bool
+) -> dict[str, object]:
+    """All that the page says of a step; `has_reference`: its reader has the whole kit, and every command."""
     status = STATUS_WORDS[result.status]
     parts = parts_of(result, step)
     messages = [clean(message) for message in result.messages]
     once = SaidOnce(messages)
     tests = [_test(test, once) for test in result.tests]
     images = [
-        _image(image, f"picture-{result.id[:2]}-{at}", step, album[(result.id, image.name)], once)
+        _image(image, f"picture-{result.id[:2]}-{at}", step, album[(result.id, image.name)], once, has_reference)
         for at, image in enumerate(result.images)
     ]
     return {
@@ -309,7 +313,7 @@ def step_view(result: StepResult, step: Step | None, album: Mapping[Place, Shown
         "messages": messages,
         "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.diagnoses],
         "tests": tests,
-        "hidden": [_hidden(item) for item in result.hidden],
+        "hidden": [_hidden(item, has_reference) for item in result.hidden],
         "images": images,
         "build_log": clean(result.build_log, _LOG),
         "together": {"passed": result.cumulative.passed, "message": clean(result.cumulative.message)},
@@ -374,7 +378,8 @@ def _total(total: Total) -> dict[str, object]:
         "max": tenths(total.max or bonus.max),
         "is_bonus": not total.max,
         "share": min(1.0, total.points / (total.max or bonus.max)) if total.max or bonus.max else 0.0,
-        "bonus": tenths(bonus.points) if bonus.points and total.max else "",
+        "bonus": tenths(bonus.points),
+        "has_bonus": bonus.points > 0,
         "bonus_max": tenths(bonus.max) if bonus.max and total.max else "",
     }
 
@@ -387,15 +392,13 @@ def student_page(
     results: Results,
     folder: Path,
     steps: Sequence[Step],
-    following: Step | None = None,
     progress: OwnProgress = _NO_PROGRESS,
 ) -> str:
-    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more. `following`:
-    the step to do when those on the page are right."""
-    text = _page(results, make_album(results, folder, _ROOM), steps, following, progress)
+    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more."""
+    text = _page(results, make_album(results, folder, _ROOM), steps, progress)
     excess = len(text.encode()) - _MAX
     if excess > 0:
-        text = _page(results, make_album(results, folder, _ROOM - excess), steps, following, progress)
+        text = _page(results, make_album(results, folder, _ROOM - excess), steps, progress)
     return text
 
 
@@ -403,13 +406,14 @@ def _page(
     results: Results,
     album: Mapping[Place, ShownImage],
     steps: Sequence[Step],
-    beyond: Step | None,
     progress: OwnProgress,
 ) -> str:
     known = {step.id: step for step in steps}
-    views = {result.id: step_view(result, known.get(result.id), album) for result in results.steps}
+    views = {
+        result.id: step_view(result, known.get(result.id), album, progress.has_reference) for result in results.steps
+    }
     parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
-    following = _next(results.steps)
+    following, beyond = _next(results.steps), progress.following
     name = clean(results.submission, 200)
     own = _own_pictures(results, views, following)
     is_perfect = following is None and beyond is None and bool(results.steps)
@@ -446,12 +450,11 @@ def write_student_page(
     results: Results,
     folder: Path,
     steps: Sequence[Step],
-    following: Step | None = None,
     progress: OwnProgress = _NO_PROGRESS,
 ) -> Path:
     """Writes FOLDER/report.html."""
     path = folder / REPORT
-    write_if_changed(path, student_page(results, folder, steps, following, progress).encode())
+    write_if_changed(path, student_page(results, folder, steps, progress).encode())
     return path
 
 
@@ -459,12 +462,11 @@ def try_student_page(
     folder: Path,
     steps: Sequence[Step],
     say: Callable[[str], None],
-    following: Step | None = None,
     progress: OwnProgress = _NO_PROGRESS,
 ) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
-        return write_student_page(read_results(folder / "results.json"), folder, steps, following, progress)
+        return write_student_page(read_results(folder / "results.json"), folder, steps, progress)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {error!r}")
         return None

@@ -7,7 +7,7 @@ from raysteps.common import platform as systems
 from raysteps.common.platform import own_command
 from raysteps.common.text import tenths
 from raysteps.course.manifest import ImageCase, Step
-from raysteps.course.project import Project, here
+from raysteps.course.project import here
 from raysteps.images.compare import worst_pixel
 from raysteps.results.model import ImageResult, Total
 
@@ -32,11 +32,6 @@ def watch_command(step_id: str) -> str:
     return f"{own_command()} watch {step_id[:2]}"
 
 
-def beside_reference(project: Project) -> tuple[str, ...]:
-    """The words that show a pixel's record beside the reference's, where there is one."""
-    return ("--against", "reference") if project.has_reference else ()
-
-
 def replay_command(case: str) -> str:
     """Asks a case again; its file lies beside the report."""
     return f"{own_command()} replay {systems.quote_command([case])}"
@@ -47,21 +42,21 @@ def typed(words: Sequence[str]) -> str:
     return f"{own_command()} {systems.quote_command(words)}"
 
 
-def inspect_words(case: ImageCase, x: int, y: int) -> list[str]:
-    """After `./raysteps`: looks into a pixel of a picture."""
+def _inspect_words(case: ImageCase, x: int, y: int, has_reference: bool) -> list[str]:
+    """After `./raysteps`: looks into a pixel of a picture, beside the reference's where the reader's kit has one."""
     pairs = zip(case.args[::2], case.args[1::2], strict=False)
     options = [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
-    return ["inspect", case.scene, str(x), str(y), *options, *beside_reference(here())]
+    return ["inspect", case.scene, str(x), str(y), *options, *(["--against", "reference"] if has_reference else [])]
 
 
-def inspect_command(name: str, step: Step | None) -> str | None:
+def inspect_command(name: str, step: Step | None, *, has_reference: bool) -> str | None:
     """Looks into a pixel of the picture of that name, `{x}` and `{y}`; none where the kit does not know how it was
     made."""
     case = next((case for case in step.images if case.name == name), None) if step is not None else None
     if case is None or "{" in case.scene:
         return None
     start = systems.quote_command([case.scene])
-    return typed(inspect_words(case, 0, 0)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
+    return typed(_inspect_words(case, 0, 0, has_reference)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
 
 
 def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None:
@@ -70,7 +65,7 @@ def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None
     if case is None or image.passed or not image.mine or not image.reference:
         return None
     worst = worst_pixel(out / image.mine, out / image.reference)
-    return None if worst is None else inspect_words(case, *worst)
+    return None if worst is None else _inspect_words(case, *worst, here().has_reference)
 
 
 # Words that every view of a result shares, on pages and in the terminal.

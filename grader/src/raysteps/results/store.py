@@ -25,7 +25,7 @@ def write_results(results: Results, folder: Path) -> Path:
 # Reads a results.json of ours back.
 
 _MAX_BYTES = 64 << 20
-_WANTED = "expected is a results.json as `./raysteps grade` writes it"
+_WANTED = "expected a results.json as checking or grading writes it"
 
 
 def _unread(error: OSError) -> str:

@@ -99,7 +99,9 @@ def open_source(path: Path) -> Iterator[Source]:
         return
     try:
         archive = zipfile.ZipFile(path)
+    except FileNotFoundError:
+        raise UsageError(f"{path}: is not there; {_EXPECTED}") from None
     except _BROKEN as error:
-        raise UsageError(f"{path}: cannot be read; {_EXPECTED}") from error
+        raise UsageError(f"{path}: cannot be read as a zip; {_EXPECTED}") from error
     with archive:
         yield _in_zip(path, archive)

@@ -148,9 +148,10 @@ class FileWatcher:
         self._post(ChangeNoticed(f"{why}: from now on files are polled."))
 
     def look(self, *, told: bool = True) -> bool:
-        """Whether there was news; posts it. The kit's files are looked at when the system told of a change."""
+        """Whether there was news; posts it. The kit's files are looked at when the system told of a change, or tells
+        of none."""
         with self._lock:
-            if told:
+            if told or self._poll:
                 self._kit.look()
             now, before, own = self._snapshot(), self._seen, self._project.steps / self._step.path
             if own not in now and own in before:

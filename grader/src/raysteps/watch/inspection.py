@@ -53,9 +53,11 @@ class Inspection:
         if process is None:
             return
         self._run += 1
-        if sys.platform != "win32":
-            with suppress(OSError, subprocess.TimeoutExpired):
-                process.send_signal(signal.SIGINT)
-                process.wait(_GRACE_SECONDS)
-        kill_process_group(process)
-        process.wait()
+        try:
+            if sys.platform != "win32":
+                with suppress(OSError, subprocess.TimeoutExpired):
+                    process.send_signal(signal.SIGINT)
+                    process.wait(_GRACE_SECONDS)
+        finally:  # a second Ctrl-C within the grace, too
+            kill_process_group(process)
+            process.wait()

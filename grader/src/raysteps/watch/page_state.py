@@ -12,6 +12,7 @@ from PIL import Image
 
 from raysteps.common.text import number
 from raysteps.course.manifest import Step
+from raysteps.course.project import here
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
     COMPARE_STYLES,
@@ -126,7 +127,7 @@ def _picture(view: StepView, image: ImageResult) -> State:
         "reference": _uri(view.out, image.reference),
         "mine": _uri(view.out, image.mine),
         "flip": _flip_of(view.out, image) if view.out is not None and view.complete else None,
-        "inspect": inspect_command(image.name, view.step),
+        "inspect": inspect_command(image.name, view.step, has_reference=here().has_reference),
     }
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from types import FrameType
 
 from raysteps.common.errors import RaystepsError, reason
+from raysteps.common.platform import own_command
 from raysteps.common.process import end_what_runs
 from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
@@ -52,7 +53,7 @@ def look(project: Project, name: str) -> None:
         _tell(WorkerLine(error=f"{step.file}: {reason(error)}"))
         return
     if source is None:
-        _tell(WorkerLine(error=f"{step.file} is not there"))
+        _tell(WorkerLine(error=f"{step.file} is not there; {own_command()} reset {step.number} puts the stub there"))
         return
     tell(QuickLook(kit, step, LimitsOnly(), out, tell).look(source.decode("utf-8", "replace")), complete=True)
 

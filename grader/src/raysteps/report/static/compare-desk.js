@@ -28,7 +28,7 @@ class CompareDesk {
     this.blinkMine = false;
     this.tone = plainTone();
     this.seen = false;
-    /** @type {number | null} the share of wrong pixels that a grader counted */
+    /** @type {number | null} the share of wrong pixels that a grader counted in a picture that it shows coarser */
     this.counted = null;
     this.#shared = shared;
     const act = this.#actions();
@@ -104,6 +104,7 @@ class CompareDesk {
   take(pair) {
     this.pair = pair;
     tellPair(this.ui, pair, this.names, this.counted);
+    this.marks.offer(pair);
     const impossible = this.ui.views.some(({ dataset, disabled }) => disabled && dataset.view === this.view);
     this.choose(!pair.comparable ? "side" : impossible ? "slider" : this.view);
   }

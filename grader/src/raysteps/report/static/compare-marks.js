@@ -10,6 +10,8 @@ class CompareMarks {
   cursor = null;
   /** @type {{x: number, y: number} | null} */
   kept = null;
+  /** @type {{x: number, y: number} | null} the one to inspect until one is kept */
+  #offered = null;
   /** @type {(place: {x: number, y: number}) => void} */
   onPixel = () => {};
 
@@ -22,7 +24,11 @@ class CompareMarks {
     this.#ui = ui;
     this.#names = names;
     this.#inspect = inspect;
-    ui.inspect.hidden = !inspect;
+  }
+
+  /** The worst pixel is worth a look; where none is wrong, the one in the middle. */
+  offer(pair) {
+    this.#offered = pair.worst ?? { x: pair.width >> 1, y: pair.height >> 1 };
     this.#tellCommand();
   }
 
@@ -64,8 +70,10 @@ class CompareMarks {
   }
 
   #tellCommand() {
-    const { x, y } = this.kept ?? { x: "X", y: "Y" };
-    this.#ui.command.textContent = (this.#inspect ?? "").replace("{x}", x).replace("{y}", y);
-    this.#ui.copy.disabled = !this.kept;
+    if (this.#inspect) {
+      const { x, y } = this.kept ?? this.#offered;
+      this.#ui.command.textContent = this.#inspect.replace("{x}", x).replace("{y}", y);
+      this.#ui.inspect.hidden = false;
+    }
   }
 }

@@ -72,20 +72,18 @@ function tellPair(ui, pair, names, counted) {
   tellHistogram(ui.histogram, pair.gaps);
   ui.count.classList.toggle("same", pair.comparable && !pair.wrong);
   ui.count.classList.toggle("trouble", !pair.comparable);
-  ui.count.textContent = pair.comparable ? countWords(pair) + coarseWords(pair, counted) : troubleWords(pair, names);
+  ui.count.textContent = pair.comparable ? countWords(pair, counted) : troubleWords(pair, names);
 }
 
-function countWords({ wrong, width, height }) {
-  const share = (100 * wrong) / (width * height);
+/** A grader shows a picture that is grossly wrong with fewer pixels and colours than it had: then its count holds. */
+function countWords({ wrong: seen, width, height }, counted) {
+  const all = width * height;
+  const percent = 100 * (counted ?? seen / all);
+  const wrong = Math.round((percent / 100) * all);
+  const coarse = wrong === seen ? "" : " The picture is shown coarser than it was.";
   return wrong
-    ? `${wrong} of ${width * height} pixels differ (${share < 0.01 ? "under 0.01" : share.toFixed(2)} %) by more than ${compareTolerance} of 255.`
+    ? `${wrong} of ${all} pixels differ (${percent < 0.01 ? "under 0.01" : percent.toFixed(2)} %) by more than ${compareTolerance} of 255.${coarse}`
     : `No difference: no pixel is more than ${compareTolerance} of 255 away.`;
-}
-
-/** A grader shows a picture that is grossly wrong with fewer pixels and colours than it had. */
-function coarseWords({ wrong, width, height }, counted) {
-  const isCoarse = counted !== null && Math.abs(wrong / (width * height) - counted) > 0.002;
-  return isCoarse ? ` The picture is shown coarser than it was: in it ${(100 * counted).toFixed(2)} % were wrong.` : "";
 }
 
 /** Why there is nothing to compare. */

@@ -6,6 +6,11 @@ class GalleryStrip {
   constructor(element) {
     this.element = element;
     this.cards = [...element.querySelectorAll(".card")];
+    element.addEventListener("focusin", ({ target }) => {
+      if (target.matches(":focus-visible")) {
+        target.closest(".card").scrollIntoView({ block: "nearest", inline: "nearest" }); // browsers leave half a card
+      }
+    });
   }
 
   /** Only the pictures of the chosen scene are ever read. */
@@ -33,6 +38,6 @@ class GalleryStrip {
     }
     const chosen = this.cards[walk.right];
     const room = this.element.clientWidth;
-    this.element.scrollTo({ left: chosen.offsetLeft - this.element.offsetLeft - (room - chosen.offsetWidth) / 2 });
+    this.element.scrollTo({ left: chosen.offsetLeft - (room - chosen.offsetWidth) / 2 });
   }
 }
