@@ -11,6 +11,7 @@ from raysteps.images.compare import (
     TOLERANCE,
     PictureError,
     Pixels,
+    commonest_color,
     compare,
     difference,
     error_without_work,
@@ -123,6 +124,14 @@ def test_other_pictures_are_shown_as_they_are() -> None:
         wrong = gaps(mine, reference) > TOLERANCE
         assert wrong[:20].mean() > 0.9
         assert (picture[wrong] == mine[wrong]).all()
+
+
+def test_the_commonest_color_is_that_of_the_most_pixels() -> None:
+    pixels = np.zeros((2, 5, 3), dtype=np.uint8)
+    pixels[0] = 255, 1, 2
+    assert commonest_color(pixels).tolist() == [0, 0, 0], "of two that are equal, the darker"
+    pixels[1, 4] = 255, 1, 2
+    assert commonest_color(pixels).tolist() == [255, 1, 2]
 
 
 def test_a_picture_that_does_not_pass_earns_by_how_much_less_wrong_it_is() -> None:

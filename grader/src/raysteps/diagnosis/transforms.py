@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.diagnosis.evidence import Picture, differing
-from raysteps.images.compare import Pixels
+from raysteps.images.compare import Pixels, commonest_color
 from raysteps.results.model import Diagnosis
 
 Levels = npt.NDArray[np.floating]
@@ -113,15 +113,10 @@ def _touches_the_whole(picture: Picture, changed: Transformed) -> bool:
     """A change of colours must have reached most of what it would change: else only some object has another colour.
     What is as in the reference may be the background, which no function of the step touches: it has one colour."""
     would = differing(changed.pixels, picture.reference, 2 * changed.tolerance)
-    background = ~differing(picture.reference, np.broadcast_to(_commonest(picture), picture.reference.shape))
+    color = commonest_color(picture.reference)
+    background = ~differing(picture.reference, np.broadcast_to(color, picture.reference.shape))
     concerned = would & (~background | picture.wrong)
     return bool(concerned.any()) and float((concerned & picture.wrong).sum() / concerned.sum()) >= 1 - _MAX_OF_WRONG
-
-
-def _commonest(picture: Picture) -> Pixels:
-    colours, counts = np.unique(picture.reference.reshape(-1, 3), axis=0, return_counts=True)
-    commonest: Pixels = colours[int(counts.argmax())]
-    return commonest
 
 
 def transformation_of(picture: Picture, more: Mapping[str, Pixels]) -> Transformed | None:

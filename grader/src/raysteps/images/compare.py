@@ -74,6 +74,14 @@ def is_flat(pixels: Pixels) -> bool:
     return bool((pixels == pixels[0, 0]).all())
 
 
+def commonest_color(pixels: Pixels) -> Pixels:
+    """The red, green and blue of the most pixels; of several, the darkest in red, then green, then blue."""
+    numbers = pixels.reshape(-1, 3).astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
+    found, amounts = np.unique(numbers, return_counts=True)  # much quicker than of rows of three
+    number = int(found[amounts.argmax()])
+    return np.array([number >> 16, number >> 8 & 255, number & 255], np.uint8)
+
+
 def pixels_differ(one: Pixels, other: Pixels) -> Gaps:
     """How far each channel of two pictures of one size is from the other's."""
     return np.abs(one.astype(np.int16) - other.astype(np.int16))
@@ -158,8 +166,7 @@ def error_without_work(reference: Pixels) -> float:
     """Of the best picture of one colour, the most frequent one or the one in the middle, and of the outlines: black on
     the most frequent colour."""
     pixels = reference.reshape(-1, 3)
-    colors, amounts = np.unique(pixels, axis=0, return_counts=True)
-    most = np.broadcast_to(colors[amounts.argmax()], reference.shape)
+    most = np.broadcast_to(commonest_color(reference), reference.shape)
     middle = np.broadcast_to(np.median(pixels, axis=0).astype(np.uint8), reference.shape)
     outlines = np.where((reference == most).all(axis=2, keepdims=True), reference, np.uint8(0))
     return min(mean_error(picture, reference) for picture in (most, middle, outlines))
