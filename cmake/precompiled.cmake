@@ -2,6 +2,12 @@
 # student's files are compiled with stays plain, and so does what clang-tidy reads, which shows a missing #include.
 option(RAYSTEPS_PRECOMPILE "Compile the common headers once, for a quicker build" OFF)
 
+# ccache takes precompiled headers only when it is told that these macros change nothing in them. Clang's hold the times
+# of the headers that they were made from, and would be refused in another clone.
+if(RAYSTEPS_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_LAUNCHER STREQUAL "ccache")
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros ccache)
+endif()
+
 # An object library that carries compiled headers: raysteps_carry_headers(NAME HEADER... [LIBRARIES LIBRARY...])
 function(raysteps_carry_headers name)
     cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})

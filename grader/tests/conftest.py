@@ -11,10 +11,17 @@ from raysteps.course.stubs import stub_for, without_markers
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
+_LONG = ("slow", "xdist_group")  # the marks of what takes long
+
 pytest_plugins = ["browser", "students_kit"]
 
 Sources = dict[str, str]
 MakeSubmission = Callable[[str, Sources], Path]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What takes longest begins first, so that no processor waits for it in the end: slow tests, then groups."""
+    items.sort(key=lambda item: [item.get_closest_marker(mark) is None for mark in _LONG])
 
 
 @pytest.fixture(scope="session")

@@ -163,13 +163,12 @@ def clang_checks(project: Project, inputs: Inputs) -> list[Check]:
     ]
 
 
-# Tests build many copies of the kit. What was compiled for one is taken for the next.
+# What was compiled for one copy of the kit is taken for the next: tests build many, and a fresh clone is one, too.
 
 
-def use_compiler_cache(project: Project) -> None:
-    """From here on, in this process and in those that it starts; in a folder of its own. Without ccache nothing is
+def use_compiler_cache() -> None:
+    """From here on, in this process and in those that it starts; in the user's own cache. Without ccache nothing is
     different but the time. Another launcher that somebody chose stays."""
     if shutil.which("ccache"):
         os.environ.setdefault("CMAKE_CXX_COMPILER_LAUNCHER", "ccache")
-        os.environ["CCACHE_DIR"] = str(project.build / "ccache")
         os.environ["CCACHE_NOHASHDIR"] = "1"

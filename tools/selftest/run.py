@@ -5,7 +5,7 @@ import json
 import os
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -39,7 +39,7 @@ from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
 
-_PYTEST_SECONDS = 2400
+_PYTEST_SECONDS = 3600
 # pytest, with a plugin of these tools, which no installed package has
 _START = f"import sys, pytest; sys.path.append({str(Path(__file__).parents[2])!r}); sys.exit(pytest.main(sys.argv[1:]))"
 _NO_TESTS = 5  # the exit code of pytest when no test in the files has the marks
@@ -92,31 +92,35 @@ def python_checks(project: Project, inputs: Callable[..., Belongs]) -> list[Chec
     ]
 
 
-def pytest_check(project: Project, name: str, stamps: Stamps, marked: str) -> Check:
-    return Check(name, lambda: run_pytest(project, stamps, marked))
+_QUICK, _SLOW = "not slow", "slow"  # marks
+_SLOW_TESTS = "hostile submissions and packages for other systems"
 
 
-def run_pytest(project: Project, stamps: Stamps, marked: str) -> Report:
-    """The tests with these marks, of all files that are not as they were when they passed."""
+def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report:
+    """The tests with any of these marks, of all files that are not as they were when they passed. All in one run, in
+    which no processor waits for the last slow test of the one half before the other begins."""
     sources = Sources(project, stamps.files())
     inputs = {place: sources.of_test(place).belongs for place in sources.tests()}
-    digests = {place: stamps.digest(f"{marked}: {place}", belongs) for place, belongs in inputs.items()}
-    changed = [place for place in digests if not stamps.has_passed(f"{marked}: {place}", digests[place])]
+    names = {place: [f"{mark}: {place}" for mark in marks] for place in inputs}
+    digests = {name: stamps.digest(name, inputs[place]) for place in names for name in names[place]}
+    changed = [place for place in names if not all(stamps.has_passed(name, digests[name]) for name in names[place])]
     if not changed:
         return Report("passed", UNCHANGED)
     spread = ["-n", str((os.cpu_count() or 1) + 1)]  # one more than processors: many tests wait for programs
-    spread += ["--dist", "loadgroup"]  # a group is for tests that would make something costly twice
-    names = [place.removeprefix("grader/") for place in changed]
+    spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
+    files = {place: place.removeprefix("grader/") for place in changed}
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         failed = Path(folder) / "failed.json"
-        words: list[str | Path] = [sys.executable, "-P", "-c", _START, "-q", "--tb", "short", *spread, "-m", marked]
-        words += ["-p", failed_files.__name__, "--failed-files", failed, *(names if len(changed) < len(inputs) else [])]
+        words: list[str | Path] = [sys.executable, "-P", "-c", _START, "-q", "--tb", "short", *spread]
+        words += ["-m", " or ".join(marks), "-p", failed_files.__name__, "--failed-files", failed]
+        words += files.values() if len(changed) < len(inputs) else []
         outcome = process.run(words, seconds=_PYTEST_SECONDS, cwd=project.root / "grader")
-        wrong = set(json.loads(failed.read_text("utf-8"))) if failed.is_file() else set(names)
+        wrong = set(json.loads(failed.read_text("utf-8"))) if failed.is_file() else set(files.values())
     ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
-    for place, name in zip(changed, names, strict=True):
-        if ended and name not in wrong:
-            stamps.keep(f"{marked}: {place}", digests[place], inputs[place])
+    for place, file in files.items():
+        if ended and file not in wrong:
+            for name in names[place]:
+                stamps.keep(name, digests[name], inputs[place])
     if ended and not wrong:
         same = len(inputs) - len(changed)
         return Report("passed", f"{same} of {len(inputs)} files are as before" if same else "")
@@ -142,17 +146,15 @@ def grade_checks(project: Project, console: Console, inputs: Callable[..., Belon
     ]
 
 
-_PYTEST = "pytest, with grading from end to end"
-_SLOW = "pytest, hostile submissions and packages for other systems"
 _CHECKS = ("checks", "programs", "run", "windows_build")
 
 
-def _packages(project: Project) -> Report:
+def _packages() -> Report:
     """Before anything is configured; tests that need what cannot be had are skipped."""
     wanted = (*PAGES, *WINDOW)
     installed = install(wanted)
     install(CACHE)  # by itself: apt-get installs nothing of a list with an unknown package; it only saves time
-    use_compiler_cache(project)
+    use_compiler_cache()
     return Report("passed") if installed else Report("skipped", f"install: {' '.join(wanted)}")
 
 
@@ -186,21 +188,23 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if fresh:
         forget_answers(project)
     inputs = _Inputs(Sources(project, stamps.files()))
-    checks = [Check("a browser and a window system for the tests", lambda: _packages(project))]
+    checks = [Check("a browser and a window system for the tests", _packages)]
     checks.append(build_check("build everything, warnings are errors", tree, [], inputs))
     checks += [
         *python_checks(project, inputs),
         *program_checks(tree, inputs),
         same_pictures_check(project, tree, inputs),
     ]
-    checks += [*grade_checks(project, console, inputs, full=full), pytest_check(project, _PYTEST, stamps, "not slow")]
+    checks += grade_checks(project, console, inputs, full=full)
+    marks = [_QUICK, *([_SLOW] if full else [])]
+    name = f"pytest, with grading from end to end{f', {_SLOW_TESTS}' if full else ''}"
+    checks.append(Check(name, lambda: run_pytest(project, stamps, marks)))
     if full:
-        checks.append(pytest_check(project, _SLOW, stamps, "slow"))
         more = [*clang_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
         more += lint_checks(project, (TIDY,))
         checks += sorted(more, key=lambda check: check.beside)  # builds first, each on the whole machine
     else:
         later = Report("skipped", "run: ./raysteps test --full")
-        names = (_SLOW, "sanitizers", "build everything with clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
-        checks += [Check(name, lambda: later) for name in names]
+        names = ("sanitizers", "build everything with clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
+        checks += [Check(name, lambda: later) for name in (_SLOW_TESTS, *names)]
     return run_checks(checks, console, stamps)

@@ -7,7 +7,7 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.grading.step import AccountingSandbox
-from raysteps.sandbox.task import Isolation, Limits, Task, TaskResult
+from raysteps.sandbox.task import Isolation, LimitHit, Limits, Task, TaskResult
 from raysteps.toolchain.limits import give_up_after, limits_of, parse_limits, submission_seconds
 
 pytestmark = pytest.mark.portable
@@ -38,6 +38,21 @@ def test_sleepers_below_every_limit_have_no_more_time_than_the_sum() -> None:
     assert sandbox.is_spent
     assert sandbox.cpu_seconds == 1.5
     assert not AccountingSandbox(inner).is_spent
+
+
+@pytest.mark.parametrize("why", ["wall", "cpu"])
+def test_a_busy_machine_changes_no_words(why: LimitHit) -> None:
+    """There the clock ends what elsewhere the processor time does."""
+
+    class Hanging:
+        isolation = Isolation()
+
+        def run(self, task: Task) -> TaskResult:
+            return TaskResult(Outcome(-9, True, "", "", 7.13), {}, 2.04, why)
+
+    ran = AccountingSandbox(Hanging()).run(Task(("hangs",), Limits(wall_seconds=8, cpu_seconds=2)))
+    assert ran.hung
+    assert ran.outcome.seconds == 2
 
 
 def test_the_sum_can_be_set(steps: list[Step]) -> None:

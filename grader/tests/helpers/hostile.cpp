@@ -9,10 +9,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -128,15 +130,17 @@ int eat(const Words& words) {
     return 0;
 }
 
+/// So many processes, for so many seconds of processor time each; without an end where none are given.
 int spin(const Words& words) {
+    const double seconds = words.size() > 1 ? std::stod(words.at(1)) : HUGE_VAL;
     for (int n = 1; n < std::stoi(words.at(0)); ++n) {
         if (fork() == 0) {
             break;
         }
     }
-    for (volatile unsigned n = 0;;) {
-        n = n + 1;
+    while (static_cast<double>(std::clock()) < seconds * CLOCKS_PER_SEC) {
     }
+    return 0;
 }
 
 int stubborn(const Words&) {

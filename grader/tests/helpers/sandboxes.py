@@ -71,7 +71,7 @@ def misbehave(hostile: Path) -> Misbehave:
     """Runs the program in a sandbox, in one of its ways."""
 
     def run(sandbox: Sandbox, *words: str | Input | Output, **limits: float) -> TaskResult:
-        chosen = Limits(**{"wall_seconds": 10, "memory_mb": 512, **limits})  # type: ignore[arg-type]
+        chosen = Limits(**{"wall_seconds": 60, "memory_mb": 512, **limits})  # type: ignore[arg-type]
         return sandbox.run(Task((Input(hostile, PROGRAM), *words), limits=chosen))
 
     return run

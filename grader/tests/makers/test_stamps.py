@@ -181,13 +181,13 @@ def test_checks_that_run_beside_others_are_told_in_their_order(small: Project) -
     assert told.index("passed: first") < told.index("passed: second") < told.index("failed: third")
 
 
-def _pytest(project: Project, monkeypatch: pytest.MonkeyPatch) -> tuple[Report, set[str]]:
+def _pytest(project: Project, monkeypatch: pytest.MonkeyPatch, *more: str) -> tuple[Report, set[str]]:
     """What it reports, and which test files ran."""
     log = project.build / "ran.txt"
     log.parent.mkdir(exist_ok=True)
     log.write_text("", encoding="utf-8")
     monkeypatch.setenv("RAN", str(log))
-    report = run_pytest(project, Stamps(project), "not slow")
+    report = run_pytest(project, Stamps(project), ["not slow", *more])
     return report, set(log.read_text("utf-8").split())
 
 
@@ -215,6 +215,10 @@ def test_only_files_of_tests_that_may_end_otherwise_are_run(small: Project, monk
     (small.root / "grader" / "src" / "raysteps" / "deep" / "keeper.py").write_text("x = 1\n", encoding="utf-8")
     report, ran = _pytest(small, monkeypatch)
     assert (report.verdict, ran) == ("passed", {"test_a"}), report.detail
+    report, ran = _pytest(small, monkeypatch, "slow")
+    assert report.verdict == "passed", report.detail
+    assert "test_c" in ran
+    assert _pytest(small, monkeypatch, "slow")[1] == _pytest(small, monkeypatch)[1] == set()
 
 
 def test_not_everything_depends_on_everything(project: Project) -> None:

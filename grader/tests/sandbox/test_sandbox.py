@@ -8,7 +8,17 @@ import time
 from pathlib import Path
 
 import pytest
-from sandboxes import PROGRAM, Misbehave, any_sandbox, control_groups, hostile, misbehave, processes_running, sandbox, secret
+from sandboxes import (
+    PROGRAM,
+    Misbehave,
+    any_sandbox,
+    control_groups,
+    hostile,
+    misbehave,
+    processes_running,
+    sandbox,
+    secret,
+)
 
 from raysteps.course.project import here
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
@@ -171,22 +181,23 @@ def test_sleeping_is_ended(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
 
 @pytest.mark.parametrize("processes", [1, 2])
 def test_computing_is_ended(any_sandbox: Sandbox, misbehave: Misbehave, processes: int) -> None:
-    ran = misbehave(any_sandbox, "spin", str(processes), cpu_seconds=1, wall_seconds=10)
+    ran = misbehave(any_sandbox, "spin", str(processes), cpu_seconds=1)
     assert ran.stopped == "cpu"
     assert not ran.outcome.timed_out
     assert 0.9 < ran.cpu_seconds < 3
 
 
 def test_cpu_time_is_told(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
-    ran = misbehave(any_sandbox, "spin", "1", wall_seconds=1)
-    assert ran.cpu_seconds > 0.2
+    ran = misbehave(any_sandbox, "spin", "1", "0.3")
+    assert ran.outcome.code == 0
+    assert 0.3 <= ran.cpu_seconds < 1.5
 
 
 @pytest.mark.parametrize("eaters", [0, 6])
 def test_memory_is_limited(any_sandbox: Sandbox, misbehave: Misbehave, eaters: int) -> None:
     many = [str(eaters)] if eaters else []
     words = ("eat", "100" if eaters else "6000", *many)
-    ran = misbehave(any_sandbox, *words, memory_mb=300, wall_seconds=10)
+    ran = misbehave(any_sandbox, *words, memory_mb=300)
     assert ran.outcome.code != 0
     assert ran.stopped != "wall"
     assert "full" not in ran.outcome.stdout
@@ -223,7 +234,7 @@ def test_a_neighbours_bomb_takes_no_threads(sandbox: Sandbox, misbehave: Misbeha
 
 def test_a_daemon_does_not_hold_the_grader(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
     """Who waited for it would be stopped by the clock."""
-    ran = misbehave(any_sandbox, "daemon", wall_seconds=5)
+    ran = misbehave(any_sandbox, "daemon")
     assert (ran.outcome.code, ran.outcome.stdout, ran.stopped) == (0, "done\n", "")
     assert processes_running(PROGRAM) == []
 

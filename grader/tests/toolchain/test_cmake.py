@@ -84,7 +84,8 @@ def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: 
         monkeypatch.delenv(name)
     (tmp_path / "ccache.conf").touch()
     monkeypatch.setenv("CCACHE_CONFIGPATH", str(tmp_path / "ccache.conf"))
-    use_compiler_cache(Project(tmp_path))
+    monkeypatch.setenv("CCACHE_DIR", str(tmp_path / "cache"))
+    use_compiler_cache()
     for name, hits in (("one", 0), ("far/the other", 1)):
         tree = release_tree(_tiny(tmp_path / name))
         tree.configure()

@@ -65,11 +65,11 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
 
 
 def _as_limited(ran: TaskResult, limits: Limits) -> TaskResult:
-    """A task that was stopped took as long as it may, however late the grader looked: so the same submission always
-    gets the same words."""
+    """A task that was stopped took as long as it may, however late the grader looked, and whether it was the clock that
+    ended it, as on a busy machine, or the processor time: so the same submission always gets the same words."""
     if ran.stopped not in ("wall", "cpu"):
         return ran
-    seconds = limits.wall_seconds if ran.stopped == "wall" else limits.cpu_seconds
+    seconds = min(limits.wall_seconds, limits.cpu_seconds)
     return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
 
 
