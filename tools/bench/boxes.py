@@ -11,8 +11,7 @@ from rich.table import Table
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.build_kit import build_kit
-from tools.bench.model import BoxesNumbers, BoxesRow
-from tools.bench.records import keep
+from tools.bench.model import BoxesNumbers, BoxesRow, keep
 from tools.bench.tables import terminal_table
 from tools.selftest.programs import ACCELERATIONS, render_with
 

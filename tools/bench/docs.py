@@ -26,9 +26,10 @@ from tools.bench.model import (
     ScaleRow,
     SceneRays,
     ThreadsNumbers,
+    geometric_mean,
+    kept,
     mean_costs,
 )
-from tools.bench.records import geometric_mean, kept
 from tools.bench.render import COMPARED, PEER, against_povray, all_against_embree, faster, median_of, names_of
 from tools.bench.tables import counted, markdown, median, megabytes, milliseconds, ratio, spread
 

@@ -12,9 +12,8 @@ from rich.markup import escape
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import run
 from raysteps.course.project import Project
-from tools.bench.model import Spread, ThreadsNumbers, ThreadsRow
+from tools.bench.model import Spread, ThreadsNumbers, ThreadsRow, keep
 from tools.bench.programs import Programs, accelerations, checked, default_scenes, portable
-from tools.bench.records import keep
 from tools.bench.tables import median, milliseconds, terminal_table
 
 _SECONDS = 3600
