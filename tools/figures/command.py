@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, camera, curves, plots, quadtree, renders, shading, surfaces
+from tools.figures import bending, boxes, camera, plots, quadtree, renders, shading, surfaces
 from tools.figures.measuring import measured
 from tools.figures.window import CannotDraw, window
 
@@ -45,7 +45,7 @@ _DIAGRAMS = {
     "08-ball": bending.glass_ball,
     "09-cut": boxes.cut,
 }
-_CURVES = {"03-highlight": curves.highlight, "07-curve": curves.tone}
+_CURVES = {"03-highlight": plots.highlight, "07-curve": plots.tone}
 _PLOTS = {
     "04-threshold": plots.acne,
     "05-rays": plots.bounces,
