@@ -13,7 +13,7 @@ from raysteps.course.stubs import stub_for
 from raysteps.images.compare import Pixels, pixels_differ, read_png
 from raysteps.images.render import reference_picture
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.figures.variants import Variant
+from tools.figures.measuring import Variant
 
 _MAX_APART = 2.0  # of 255, on average: another compiler moves a few pixels
 _SMALL = ("--size", "240x180")
