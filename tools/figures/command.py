@@ -20,7 +20,6 @@ from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 from tools.figures import bending, boxes, camera, plots, quadtree, renders, shading, surfaces
 from tools.figures.measuring import measured
-from tools.figures.window import CannotDraw, window
 
 # All figures: their files, and what makes them.
 
@@ -89,7 +88,7 @@ def figures() -> list[Figure]:
     found.append(Figure("01-before", f"{FOLDER}/01-before.png", renders.untouched))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
-    found.append(Figure("window", "docs/pictures/window.png", window))
+    found.append(Figure("window", "docs/pictures/window.png", renders.window))
     found.append(Figure("steps", "docs/pictures/steps.png", renders.contact_sheet))
     return sorted(found, key=lambda figure: figure.name)
 
@@ -114,7 +113,7 @@ def _renewed(project: Project, kit: BuiltKit, figure: Figure, say: ProgressCallb
     path = project.root / figure.path
     try:
         drawn = figure.draw(kit)
-    except CannotDraw as missing:
+    except renders.CannotDraw as missing:
         say(f"{figure.path} is left as it is: {str(missing).splitlines()[0]}")
         return None
     if isinstance(drawn, str):
