@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, camera, plots, quadtree, renders, shading, surfaces
+from tools.figures import bending, boxes, camera, plots, renders, shading, surfaces
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
@@ -37,7 +37,7 @@ _DIAGRAMS = {
     "04-acne": shading.acne,
     "05-mirror": bending.mirrored,
     "05-tree": bending.tree,
-    "06-boxes": quadtree.quadtree,
+    "06-boxes": boxes.quadtree,
     "06-slabs": boxes.slabs,
     "06-overlap": boxes.overlap,
     "08-snell": bending.snell,
