@@ -18,19 +18,19 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, camera, plots, renders, shading, surfaces
+from tools.figures import bending, boxes, plots, rays, renders, shading
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
 
 FOLDER = "docs/figures"
 _DIAGRAMS = {
-    "01-window": camera.window,
-    "01-pixels": camera.from_the_side,
-    "01-ray": camera.ray_points,
-    "02-sphere": surfaces.sphere,
-    "02-triangle": surfaces.triangle,
-    "02-normal": surfaces.normal,
+    "01-window": rays.window,
+    "01-pixels": rays.from_the_side,
+    "01-ray": rays.ray_points,
+    "02-sphere": rays.sphere,
+    "02-triangle": rays.triangle,
+    "02-normal": rays.normal,
     "03-directions": shading.phong,
     "03-cosine": shading.cosine,
     "04-shadow-ray": shading.shadow,
