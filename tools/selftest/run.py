@@ -32,8 +32,7 @@ from tools.selftest.programs import (
     same_pictures_check,
     use_compiler_cache,
 )
-from tools.selftest.stamps import Belongs, Stamps
-from tools.selftest.test_inputs import Sources
+from tools.selftest.stamps import Belongs, Sources, Stamps
 from tools.selftest.windows_build import windows_checks
 from tools.test_submissions import outdated_samples
 
