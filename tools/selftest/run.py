@@ -19,7 +19,6 @@ from tools.figures.command import out_of_date as old_figures
 from tools.grade_audit import check_truth, forget_answers
 from tools.lint import TIDY, lint_checks
 from tools.mistake_pages import out_of_date
-from tools.selftest import failed_files
 from tools.selftest.checks import UNCHANGED, Check, Report, run_checks
 from tools.selftest.debian import CACHE, PAGES, WINDOW, install
 from tools.selftest.programs import (
@@ -39,8 +38,6 @@ from tools.test_submissions import outdated_samples
 # Checks of what is generated, of the grader's Python, and of the grades.
 
 _PYTEST_SECONDS = 2400
-# pytest, with a plugin of these tools, which no installed package has
-_START = f"import sys, pytest; sys.path.append({str(Path(__file__).parents[2])!r}); sys.exit(pytest.main(sys.argv[1:]))"
 _NO_TESTS = 5  # the exit code of pytest when no test in the files has the marks
 _PAIRS = 40
 
@@ -107,11 +104,13 @@ def run_pytest(project: Project, stamps: Stamps, marked: str) -> Report:
     spread += ["--dist", "loadgroup"]  # a group is for tests that would make something costly twice
     names = [place.removeprefix("grader/") for place in changed]
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        failed = Path(folder) / "failed.json"
-        words: list[str | Path] = [sys.executable, "-P", "-c", _START, "-q", "--tb", "short", *spread, "-m", marked]
-        words += ["-p", failed_files.__name__, "--failed-files", failed, *(names if len(changed) < len(inputs) else [])]
+        words: list[str | Path] = [sys.executable, "-P", "-m", "pytest", "-q", "--tb", "short", *spread, "-m", marked]
+        words += ["-o", f"cache_dir={folder}", *(names if len(changed) < len(inputs) else [])]
         outcome = process.run(words, seconds=_PYTEST_SECONDS, cwd=project.root / "grader")
-        wrong = set(json.loads(failed.read_text("utf-8"))) if failed.is_file() else set(names)
+        failed = Path(folder) / "v" / "cache" / "lastfailed"  # the names of tests; pytest writes it where there are any
+        wrong = (
+            {name.partition("::")[0] for name in json.loads(failed.read_text("utf-8"))} if failed.is_file() else set()
+        )
     ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
     for place, name in zip(changed, names, strict=True):
         if ended and name not in wrong:
