@@ -20,19 +20,22 @@ from tools.grade_audit import check_truth, forget_answers
 from tools.lint import TIDY, lint_checks
 from tools.mistake_pages import out_of_date
 from tools.selftest.checks import UNCHANGED, Check, Report, run_checks
-from tools.selftest.debian import CACHE, PAGES, WINDOW, install
 from tools.selftest.programs import (
+    CACHE,
     LINES,
+    PAGES,
+    WINDOW,
     asan_checks,
     build_check,
     clang_checks,
     command,
+    install,
     program_checks,
     same_pictures_check,
     use_compiler_cache,
+    windows_checks,
 )
 from tools.selftest.stamps import Belongs, Sources, Stamps
-from tools.selftest.windows_build import windows_checks
 from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
@@ -142,7 +145,7 @@ def grade_checks(project: Project, console: Console, inputs: Callable[..., Belon
 
 _PYTEST = "pytest, with grading from end to end"
 _SLOW = "pytest, hostile submissions and packages for other systems"
-_CHECKS = ("checks", "programs", "run", "windows_build")
+_CHECKS = ("checks", "programs", "run")
 
 
 def _packages(project: Project) -> Report:
