@@ -18,9 +18,9 @@ from raysteps.cli.render import take_impl
 from raysteps.common.errors import RaystepsError
 from raysteps.common.markdown import blocks
 from raysteps.course.project import Project, here
-from tools.website.command_page import usage, usage_parser
 from tools.website.documents import documents
 from tools.website.links import Typed, commands, is_shell, mentioned, typed
+from tools.website.made_pages import usage, usage_parser
 
 OTHER_PROGRAMS = {
     "apt-get", "brew", "cd", "cmake", "code", "cp", "ctest", "dnf", "docker", "git", "jplag", "java", "mkdir",
