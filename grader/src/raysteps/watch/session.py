@@ -30,10 +30,9 @@ from raysteps.watch.events import (
     WorkerMessage,
 )
 from raysteps.watch.file_watcher import FileWatcher
-from raysteps.watch.inspection import Inspection
 from raysteps.watch.keyboard import Keyboard, NoKeyboard
 from raysteps.watch.page_state import PageState, state_of
-from raysteps.watch.runner import Runner
+from raysteps.watch.runner import Inspection, Runner
 from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
 
