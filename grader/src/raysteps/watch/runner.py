@@ -26,7 +26,7 @@ from raysteps.watch.events import InspectEnded, Post, WorkerEnded, WorkerLine, W
 Kind = Literal["look", "check"]
 
 WORKER = (sys.executable, "-P", "-m", "raysteps.watch.worker")
-_GRACE_SECONDS = 2.0
+_GRACE_SECONDS = 2.0  # to end what it started
 _MAX_ERRORS = 2000
 
 
@@ -162,7 +162,6 @@ class Runner:
 
 # Looks into a pixel: a save or a key ends it, also while its program is built for the first time.
 
-_GRACE_SECONDS = 2.0  # to end what builds
 INSPECT = (sys.executable, "-P", "-m", "raysteps")
 
 
