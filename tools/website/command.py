@@ -13,8 +13,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.report.terminal import short_path
 from tools.website.build import GALLERY, build_site, check_place, check_tools, put, stage
-from tools.website.documents import COMMANDS_PAGE, documents
-from tools.website.links import dead_links
+from tools.website.documents import COMMANDS_PAGE, dead_links, documents
 from tools.website.made_pages import api_pages, command_page
 
 

@@ -16,9 +16,8 @@ from raysteps.common.markdown import anchors, formulas
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
 from tools.website.build import check_place, put
-from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, documents
+from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, dead_links, documents
 from tools.website.formulas import BadFormula, bad_formulas, mathml
-from tools.website.links import dead_links
 from tools.website.made_pages import api_pages, command_page
 
 _TOGETHER = pytest.mark.xdist_group("site")
