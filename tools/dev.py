@@ -14,10 +14,10 @@ from raysteps.course.stubs import outdated_stubs, write_stubs
 from raysteps.report.terminal import progress
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 from tools import mistake_pages as handbook
+from tools import new_step
 from tools.calibration.calibrate import calibrate
 from tools.grade_audit import IN_SANDBOX, check_truth
 from tools.lint import LANGUAGES, TIDY, lint_checks, reformat
-from tools.new_step import new_step
 from tools.schemas import write_schemas
 from tools.selftest.checks import run_checks
 from tools.selftest.stamps import Stamps

@@ -8,14 +8,13 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.course.project import Project
-from tools.bench.boxes import boxes
 from tools.bench.docs import bench_docs
 from tools.bench.grading import grading
 from tools.bench.loop import bench_loop
 from tools.bench.parse import bench_parse
+from tools.bench.pictures import ThreadsOptions, bench_threads, boxes
 from tools.bench.render import RenderOptions, bench_render
 from tools.bench.scale import ScaleOptions, bench_scale
-from tools.bench.threads import ThreadsOptions, bench_threads
 
 
 def _number(least: int, most: int) -> Callable[[str], int]:

@@ -18,9 +18,8 @@ from raysteps.common.process import run
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.build_kit import build_kit
-from tools.bench.model import Cost, GradingNumbers, mean_costs
+from tools.bench.model import Cost, GradingNumbers, keep, mean_costs
 from tools.bench.programs import children_seconds
-from tools.bench.records import keep
 from tools.bench.tables import terminal_table
 
 _SECONDS = 3600

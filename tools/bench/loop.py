@@ -14,9 +14,8 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import without_markers
 from raysteps.exports.autograders import kit_files
 from raysteps.toolchain.cmake import release_tree
-from tools.bench.model import LoopNumbers, LoopRow, Spread
+from tools.bench.model import LoopNumbers, LoopRow, Spread, keep
 from tools.bench.programs import machine
-from tools.bench.records import keep
 from tools.bench.tables import terminal_table
 
 _SECONDS = 1800

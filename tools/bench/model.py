@@ -1,13 +1,20 @@
 """What the commands `raysteps bench ...` write to build/bench: these classes are its forms."""
 
+import math
 import statistics
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Literal, TypedDict
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal, TypedDict, TypeVar
 
 from msgspec import Meta
+from rich.console import Console
+from rich.markup import escape
 
-from raysteps.common.documents import Amount, Count
+from raysteps.common.documents import Amount, Count, Malformed, convert, parse, plain
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import write_json
+from raysteps.course.project import Project
 
 Number = int | float
 Several = Annotated[int, Meta(ge=1)]
@@ -42,6 +49,11 @@ class Spread:
         ordered = sorted(values)
         quartiles = statistics.quantiles(ordered, n=4, method="inclusive") if len(ordered) > 1 else ordered * 3
         return cls(statistics.median(ordered), ordered[0], ordered[-1], quartiles[0], quartiles[2], list(values))
+
+
+def geometric_mean(values: Sequence[float]) -> float:
+    """Of numbers above 0."""
+    return math.exp(math.fsum(math.log(value) for value in values) / len(values))
 
 
 # bench render
@@ -329,3 +341,39 @@ class GradingNumbers:
 
 
 Numbers = BoxesNumbers | GradingNumbers | RenderNumbers | ScaleNumbers | ThreadsNumbers | ParseNumbers | LoopNumbers
+
+
+# What a benchmark leaves behind: JSON in build/bench.
+
+T = TypeVar("T", bound=Numbers)
+
+
+def _checked(document: Numbers) -> Numbers:
+    try:
+        return convert(plain(document), type(document))
+    except Malformed as error:
+        raise GraderFault(f"not what `bench {document.name}` writes: {error}") from error
+
+
+def place_of(project: Project, name: str) -> Path:
+    """Where `bench NAME` puts its numbers."""
+    return project.build / "bench" / f"{name}.json"
+
+
+def keep(project: Project, document: Numbers, console: Console) -> None:
+    """Writes build/bench/NAME.json and tells so."""
+    path = place_of(project, document.name)
+    write_json(path, plain(_checked(document)))
+    console.print(f"Numbers: {escape(str(path))}", soft_wrap=True)
+
+
+def kept(project: Project, kind: type[T]) -> T | None:
+    """What was measured last; nothing when it never was."""
+    path = place_of(project, kind.name)
+    if not path.is_file():
+        return None
+    try:
+        return parse(path.read_bytes(), kind, complete=True)
+    except Malformed as error:
+        again = f"measure again: ./raysteps bench {kind.name}"
+        raise UsageError(f"{path}: not what `bench {kind.name}` writes: {error}; {again}") from error

@@ -6,9 +6,8 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.course.project import Project, generated
-from tools.bench.model import ParseNumbers, ParseRow
+from tools.bench.model import ParseNumbers, ParseRow, keep
 from tools.bench.programs import ask_pinned, checked, portable
-from tools.bench.records import keep
 from tools.bench.tables import median, quartiles, terminal_table
 
 _LARGE = (("tetrahedra", 9), ("rings", 30), ("mountain", 9))

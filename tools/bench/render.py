@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.course.project import Project
-from tools.bench.model import BuildRays, PovrayRow, ProgramTimes, RenderNumbers, SceneRays, Spread
+from tools.bench.model import BuildRays, PovrayRow, ProgramTimes, RenderNumbers, SceneRays, Spread, geometric_mean, keep
 from tools.bench.povray import Race, race_povray
 from tools.bench.programs import (
     Programs,
@@ -22,7 +22,6 @@ from tools.bench.programs import (
     portable,
     what_is_missing,
 )
-from tools.bench.records import geometric_mean, keep
 from tools.bench.tables import counted, median, megabytes, milliseconds, quartiles, ratio, terminal_table
 
 # Tables of `bench render`.

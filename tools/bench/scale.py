@@ -1,15 +1,15 @@
 """The command `bench scale`: how building, memory and tests grow with the number of surfaces."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
-from tools.bench.model import GrowthRow, ScaleNumbers, ScaleRow
+from tools.bench.model import GrowthRow, ScaleNumbers, ScaleRow, keep
 from tools.bench.programs import Programs, ask, ask_pinned, listed, portable
-from tools.bench.records import growth, keep
 from tools.bench.tables import median, megabytes, milliseconds, terminal_table
 
 KINDS = ("cloud", "clusters", "terrain", "dust")
@@ -40,6 +40,27 @@ def _measured(programs: Programs, kind: str, size: int, structure: str, rounds: 
     built = ask(ScaleRow, programs.bench, *words, "--rounds", str(rounds), "--size", "16", structure=structure)
     asked = ask_pinned(ScaleRow, programs.bench, *words, "--rounds", str(rounds), structure=structure)
     return replace(asked, build_seconds=built.build_seconds, peak_bytes=built.peak_bytes)
+
+
+@dataclass(frozen=True)
+class Growth:
+    """How y grows with x: about x to the power of `exponent`, and by `per_doubling` with each doubling of x."""
+
+    exponent: float
+    per_doubling: float
+
+
+def _slope(xs: Sequence[float], ys: Sequence[float]) -> float:
+    middle_x, middle_y = math.fsum(xs) / len(xs), math.fsum(ys) / len(ys)
+    spread = math.fsum((x - middle_x) ** 2 for x in xs)
+    return math.fsum((x - middle_x) * (y - middle_y) for x, y in zip(xs, ys, strict=True)) / spread
+
+
+def growth(points: Sequence[tuple[float, float]]) -> Growth:
+    """Lines of least squares through at least two points: log y over log x, and y over the doublings of x."""
+    doublings = [math.log2(x) for x, _ in points]
+    values = [y for _, y in points]
+    return Growth(_slope(doublings, [math.log2(value) for value in values]), _slope(doublings, values))
 
 
 def growth_of(rows: list[ScaleRow]) -> Iterator[GrowthRow]:

@@ -18,34 +18,33 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, camera, curves, plots, quadtree, renders, shading, surfaces
+from tools.figures import bending, boxes, plots, rays, renders, shading
 from tools.figures.measuring import measured
-from tools.figures.window import CannotDraw, window
 
 # All figures: their files, and what makes them.
 
 FOLDER = "docs/figures"
 _DIAGRAMS = {
-    "01-window": camera.window,
-    "01-pixels": camera.from_the_side,
-    "01-ray": camera.ray_points,
-    "02-sphere": surfaces.sphere,
-    "02-triangle": surfaces.triangle,
-    "02-normal": surfaces.normal,
+    "01-window": rays.window,
+    "01-pixels": rays.from_the_side,
+    "01-ray": rays.ray_points,
+    "02-sphere": rays.sphere,
+    "02-triangle": rays.triangle,
+    "02-normal": rays.normal,
     "03-directions": shading.phong,
     "03-cosine": shading.cosine,
     "04-shadow-ray": shading.shadow,
     "04-acne": shading.acne,
     "05-mirror": bending.mirrored,
     "05-tree": bending.tree,
-    "06-boxes": quadtree.quadtree,
+    "06-boxes": boxes.quadtree,
     "06-slabs": boxes.slabs,
     "06-overlap": boxes.overlap,
     "08-snell": bending.snell,
     "08-ball": bending.glass_ball,
     "09-cut": boxes.cut,
 }
-_CURVES = {"03-highlight": curves.highlight, "07-curve": curves.tone}
+_CURVES = {"03-highlight": plots.highlight, "07-curve": plots.tone}
 _PLOTS = {
     "04-threshold": plots.acne,
     "05-rays": plots.bounces,
@@ -89,7 +88,7 @@ def figures() -> list[Figure]:
     found.append(Figure("01-before", f"{FOLDER}/01-before.png", renders.untouched))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
-    found.append(Figure("window", "docs/pictures/window.png", window))
+    found.append(Figure("window", "docs/pictures/window.png", renders.window))
     found.append(Figure("steps", "docs/pictures/steps.png", renders.contact_sheet))
     return sorted(found, key=lambda figure: figure.name)
 
@@ -114,7 +113,7 @@ def _renewed(project: Project, kit: BuiltKit, figure: Figure, say: ProgressCallb
     path = project.root / figure.path
     try:
         drawn = figure.draw(kit)
-    except CannotDraw as missing:
+    except renders.CannotDraw as missing:
         say(f"{figure.path} is left as it is: {str(missing).splitlines()[0]}")
         return None
     if isinstance(drawn, str):

@@ -1,10 +1,44 @@
-"""Plots of what was counted."""
+"""Plots: of formulas, and of what was counted."""
+
+import math
 
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
 from tools.figures.measuring import Measurement
 
+_MIDDLE, _WIDE = 420.0, 560.0
+
+# Formulas: how a highlight falls off, and how light becomes brightness.
+
+
+def tone() -> str:
+    """c / (c + 1) beside cutting off."""
+    light = [i / 20 for i in range(101)]
+    series = [
+        Series("cut off at 1", [(c, min(c, 1.0)) for c in light], marked=False),
+        Series("c / (c + 1)", [(c, c / (c + 1)) for c in light], marked=False),
+    ]
+    x, y = Axis("light c of one channel", 0.0, 5.0), Axis("what is shown, 1 is white", 0.0, 1.0)
+    words = (
+        "Cutting off is a straight line up to 1 and flat from there on, so 2 and 5 look the same. c / (c + 1) "
+        "begins as steep, bends, is 0.5 at 1 and 0.83 at 5, and never reaches 1."
+    )
+    return svg_text([Chart("from light to brightness", x, y, series)], width=_WIDE, description=words, plate=True)
+
+
+def highlight() -> str:
+    """The cosine to the power of shine."""
+    series = []
+    for shine in (1, 10, 50, 200):
+        points = [(float(degrees), math.cos(math.radians(degrees)) ** shine) for degrees in range(91)]
+        series.append(Series(f"shine {shine}", points, marked=False))
+    x, y = Axis("angle between r and v, in degrees", 0.0, 90.0), Axis("share of ks", 0.0, 1.0)
+    words = "All curves begin at 1 and fall to 0; with shine 1 slowly, at 90 degrees, with shine 200 within 15 degrees."
+    return svg_text([Chart("the width of a highlight", x, y, series)], width=_WIDE, description=words, plate=True)
+
+
+# What was counted.
+
 _NAMES = {"none": "every surface", "boxes": "64 boxes", "octree": "octree", "bvh": "bounding volumes"}
-_MIDDLE = 420.0
 
 
 def _points(rows: list[list[float]]) -> list[tuple[float, float]]:
@@ -60,7 +94,7 @@ def acne(measured: Measurement) -> str:
         "A third of the pixels is wrong with too small a threshold: up to a millionth near the centre of the world, "
         "up to three millionths at coordinates around 100. From a hundredth on shadows are lost."
     )
-    return svg_text([Chart("acne, and lost shadows", x, y, series)], width=560.0, description=words, plate=True)
+    return svg_text([Chart("acne, and lost shadows", x, y, series)], width=_WIDE, description=words, plate=True)
 
 
 def bounces(measured: Measurement) -> str:
@@ -70,4 +104,4 @@ def bounces(measured: Measurement) -> str:
     series = [Series(name, _points(rows)) for name, rows in found.items()]
     chart = Chart("facing mirrors: what a deeper limit costs", Axis("greatest depth", 1.0, 10.0), y, series)
     words = "Rays per pixel grow with each level, less and less: only chains that stay between the mirrors go on."
-    return svg_text([chart], width=560.0, description=words, plate=True)
+    return svg_text([chart], width=_WIDE, description=words, plate=True)

@@ -1,19 +1,55 @@
-"""Checks that build the C++ programs and run them, with the usual compiler, with sanitizers and with clang."""
+"""Checks that build the C++ programs and run them: as usual, with sanitizers, by clang, and for Windows."""
 
 import os
 import shutil
+import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
+from raysteps.images.compare import PictureError, compare, read_ppm
 from raysteps.toolchain.cmake import BuildTree, what_failed
 from tools.selftest.checks import Check, Report
-from tools.selftest.debian import CLANG, install
 from tools.selftest.stamps import Belongs
+
+# Debian packages that only the tests of the kit need; installed where that needs no question.
+
+_INSTALL_SECONDS = 1200
+
+CACHE = ("ccache",)
+CLANG = ("clang",)
+MINGW = ("g++-mingw-w64-x86-64-posix", "wine64", "wine")
+PAGES = ("chromium",)
+WINDOW = ("libglfw3-dev", "libgl1-mesa-dri", "xvfb", "xdotool")
+
+
+def _installed(package: str) -> bool:
+    words = ["dpkg-query", "-W", "-f", "${Status}", package]
+    done = subprocess.run(words, check=False, capture_output=True, text=True)
+    return done.stdout.endswith("ok installed")
+
+
+def install(packages: Sequence[str]) -> bool:
+    """Whether they are there, after an attempt to install what is missing."""
+    if shutil.which("apt-get") is None or shutil.which("dpkg-query") is None:
+        return False
+    missing = [package for package in packages if not _installed(package)]
+    if missing:
+        admin = [] if not hasattr(os, "geteuid") or os.geteuid() == 0 else ["sudo", "-n"]
+        get = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
+        try:
+            for words in (["update"], ["install", "-y", *missing]):
+                subprocess.run(
+                    [*get, *words], check=False, capture_output=True, stdin=subprocess.DEVNULL, timeout=_INSTALL_SECONDS
+                )
+        except (OSError, subprocess.TimeoutExpired):
+            return False
+    return all(map(_installed, missing))
+
 
 # Whether the accelerations give the same picture, byte for byte.
 
@@ -172,3 +208,80 @@ def use_compiler_cache() -> None:
     if shutil.which("ccache"):
         os.environ.setdefault("CMAKE_CXX_COMPILER_LAUNCHER", "ccache")
         os.environ["CCACHE_NOHASHDIR"] = "1"
+
+
+# Programs for Windows: compiled here by MinGW-w64, run by Wine.
+
+_COMPILERS = ("x86_64-w64-mingw32-g++-posix", "x86_64-w64-mingw32-g++")
+_WINE_SECONDS = 600
+_SCENE = "scenes/lessons/three-spheres.nff"
+_BUILD = "build for Windows (MinGW-w64)"
+_RUN = "test-framework and the tests of all steps, Windows (Wine)"
+_PICTURES = "the same pictures on Windows (Wine)"
+
+
+def windows_checks(project: Project, native: BuildTree, inputs: Inputs) -> list[Check]:
+    """`native` holds the programs of this system, to compare with."""
+    if not ((any(map(shutil.which, _COMPILERS)) and shutil.which("wine")) or install(MINGW)):
+        missing = Report("skipped", f"install: {' '.join(MINGW)}")
+        return [Check(name, lambda: missing) for name in (_BUILD, _RUN, _PICTURES)]
+    tree = BuildTree(project, "mingw", project.build / "mingw", project.steps)
+    tests = ["test-framework", "test-reference"]  # which holds the tests of all steps
+    belongs = inputs(__name__)
+    return [
+        Check(_BUILD, lambda: _built_for_windows(tree, [*tests, "raytrace-reference"]), belongs),
+        Check(_RUN, lambda: _all_pass_in_wine(tree, tests), belongs, beside=True),
+        Check(_PICTURES, lambda: _same_pictures_in_wine(native, tree), belongs, beside=True),
+    ]
+
+
+def _built_for_windows(tree: BuildTree, targets: list[str]) -> Report:
+    built = build(tree, targets)
+    if built.verdict == "passed":
+        _in_wine(tree, ["wineboot", "--init"])  # its Windows is made here, and not by two programs at a time
+    return built
+
+
+def _exe(tree: BuildTree, name: str) -> Path:
+    return tree.bin / f"{name}.exe"
+
+
+def _in_wine(tree: BuildTree, words: list[str | Path]) -> Outcome:
+    """With a Windows of its own in the build folder, without a window and with nothing that asks."""
+    settings = {"WINEPREFIX": str(tree.folder / "wine"), "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
+    options = [f"{name}={value}" for name, value in settings.items()]
+    display = ["-u", "DISPLAY"] if "DISPLAY" in os.environ else []
+    return run(["env", *display, *options, "wine", *words], seconds=_WINE_SECONDS, cwd=tree.project.root)
+
+
+def _all_pass_in_wine(tree: BuildTree, tests: list[str]) -> Report:
+    failed = []
+    for name in tests:
+        outcome = _in_wine(tree, [_exe(tree, name)])
+        if outcome.code != 0 or outcome.timed_out or "All tests passed" not in outcome.stdout:
+            failed.append(f"{name}:\n{(outcome.stdout + outcome.stderr)[-2000:]}")
+    return Report("failed", "\n".join(failed)) if failed else Report("passed")
+
+
+def _same_pictures_in_wine(native: BuildTree, tree: BuildTree) -> Report:
+    """After each step, by the gate of grades without one wrong pixel: powers come from another library of maths on
+    Windows, so a byte may be off by one."""
+    built = build(native, ["raytrace-reference"])
+    if built.verdict != "passed":
+        return built
+    different = []
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        for step in read_steps(tree.project):
+            options: list[str | Path] = [tree.project.root / _SCENE, "--size", _SIZE, "--step", str(step.index)]
+            options += ["--quiet", "-o"]
+            # a name that no code page has, to see that paths are not spoiled on the way
+            here, there = Path(folder) / "here.ppm", Path(folder) / f"dört-光-{step.number}.ppm"
+            run([native.program("raytrace-reference"), *options, here], seconds=_WINE_SECONDS)
+            said = _in_wine(tree, [_exe(tree, "raytrace-reference"), *options, there])
+            try:
+                verdict = compare(read_ppm(there), read_ppm(here), 0.0)
+            except PictureError as error:
+                different.append(f"step {step.number}: {error} {said.stderr[-500:]}")
+            else:
+                different += [] if verdict.passed else [f"step {step.number}: {verdict.message}"]
+    return Report("failed", "\n".join(different)) if different else Report("passed")

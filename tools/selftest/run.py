@@ -19,29 +19,28 @@ from tools.figures.command import out_of_date as old_figures
 from tools.grade_audit import check_truth, forget_answers
 from tools.lint import TIDY, lint_checks
 from tools.mistake_pages import out_of_date
-from tools.selftest import failed_files
 from tools.selftest.checks import UNCHANGED, Check, Report, run_checks
-from tools.selftest.debian import CACHE, PAGES, WINDOW, install
 from tools.selftest.programs import (
+    CACHE,
     LINES,
+    PAGES,
+    WINDOW,
     asan_checks,
     build_check,
     clang_checks,
     command,
+    install,
     program_checks,
     same_pictures_check,
     use_compiler_cache,
+    windows_checks,
 )
-from tools.selftest.stamps import Belongs, Stamps
-from tools.selftest.test_inputs import Sources
-from tools.selftest.windows_build import windows_checks
+from tools.selftest.stamps import Belongs, Sources, Stamps
 from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
 
 _PYTEST_SECONDS = 3600
-# pytest, with a plugin of these tools, which no installed package has
-_START = f"import sys, pytest; sys.path.append({str(Path(__file__).parents[2])!r}); sys.exit(pytest.main(sys.argv[1:]))"
 _NO_TESTS = 5  # the exit code of pytest when no test in the files has the marks
 _PAIRS = 40
 
@@ -110,12 +109,13 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
     files = {place: place.removeprefix("grader/") for place in changed}
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        failed = Path(folder) / "failed.json"
-        words: list[str | Path] = [sys.executable, "-P", "-c", _START, "-q", "--tb", "short", *spread]
-        words += ["-m", " or ".join(marks), "-p", failed_files.__name__, "--failed-files", failed]
+        words: list[str | Path] = [sys.executable, "-P", "-m", "pytest", "-q", "--tb", "short", *spread]
+        words += ["-m", " or ".join(marks), "-o", f"cache_dir={folder}"]
         words += files.values() if len(changed) < len(inputs) else []
         outcome = process.run(words, seconds=_PYTEST_SECONDS, cwd=project.root / "grader")
-        wrong = set(json.loads(failed.read_text("utf-8"))) if failed.is_file() else set(files.values())
+        failed = Path(folder) / "v" / "cache" / "lastfailed"  # the names of tests; pytest writes it where there are any
+        named = json.loads(failed.read_text("utf-8")) if failed.is_file() else ()
+        wrong = {name.partition("::")[0] for name in named}
     ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
     for place, file in files.items():
         if ended and file not in wrong:
@@ -146,7 +146,7 @@ def grade_checks(project: Project, console: Console, inputs: Callable[..., Belon
     ]
 
 
-_CHECKS = ("checks", "programs", "run", "windows_build")
+_CHECKS = ("checks", "programs", "run")
 
 
 def _packages() -> Report:

@@ -1,1 +1,1 @@
-"""The documents as a static site, and what checks them: links, formulas, commands."""
+"""The documents as a static site, and what checks them: links and formulas."""

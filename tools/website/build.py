@@ -14,8 +14,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
 from raysteps.common.markdown import Block, with_tags, with_targets
 from raysteps.course.project import Project, here
-from tools.website.documents import below, documents, front_page, sections
-from tools.website.links import is_elsewhere, is_shell, split
+from tools.website.documents import below, documents, front_page, is_elsewhere, is_shell, sections, split
 
 # What the theme leaves out for people who use a keyboard or a screen reader.
 

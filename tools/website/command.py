@@ -12,11 +12,9 @@ from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.report.terminal import short_path
-from tools.website.api_pages import api_pages
 from tools.website.build import GALLERY, build_site, check_place, check_tools, put, stage
-from tools.website.command_page import command_page
-from tools.website.documents import COMMANDS_PAGE, documents
-from tools.website.links import dead_links
+from tools.website.documents import COMMANDS_PAGE, dead_links, documents
+from tools.website.made_pages import api_pages, command_page
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -1,8 +1,12 @@
-"""Which documents the site has, and in which order."""
+"""Which documents the site has, in which order, and what their links and blocks are."""
 
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import unquote
 
+from raysteps.common.markdown import Block, anchors, targets
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 
@@ -70,3 +74,55 @@ def documents(project: Project) -> list[Path]:
     """All that are written by hand, from the repository on."""
     pages = [page for section in sections(project) for page in section.pages if page not in _MADE]
     return [front_page(), *pages, *(child for page in pages for child in below(project, page))]
+
+
+# Dead links: to files that are not there, and to headings that nobody wrote.
+
+
+def is_elsewhere(target: str) -> bool:
+    """Whether a link leaves the repository."""
+    return "://" in target or target.startswith("mailto:")
+
+
+def split(document: Path, target: str) -> tuple[Path, str]:
+    """The file that a link leads to, and the anchor in it."""
+    path, _, anchor = target.partition("#")
+    return (document.parent / unquote(path)).resolve() if path else document.resolve(), anchor
+
+
+def dead_links(root: Path, documents: Iterable[Path]) -> list[str]:
+    """One line for each, with its place."""
+    found = []
+    known: dict[Path, set[str]] = {}
+    for name in documents:
+        document = root / name
+        for line, target in targets(document.read_text(encoding="utf-8")):
+            if is_elsewhere(target):
+                continue
+            path, anchor = split(document, target)
+            if not path.exists():
+                found.append(f"{name}:{line}: {target}: expected a file of the repository, found nothing of that name")
+            elif not path.is_relative_to(root.resolve()):
+                found.append(f"{name}:{line}: {target}: leaves the repository")
+            elif anchor and path.suffix == ".md":
+                if path not in known:
+                    known[path] = anchors(path.read_text(encoding="utf-8"))
+                if anchor not in known[path]:
+                    near = ", ".join(sorted(known[path]))
+                    found.append(f"{name}:{line}: {target}: no heading makes that anchor; there are: {near}")
+    return found
+
+
+# Blocks of commands.
+
+_TAGS = ("sh", "bash", "shell", "console", "powershell", "bat")
+_PROGRAMS = re.compile(
+    r"(?:\$ )?(?:[A-Z_]+=\S+ )*"
+    r"(?:\./raysteps|python3?|raytrace|cd|cmake|ctest|git|tar|zip|docker|sbatch|sqlite3|xvfb-run|sudo|wsl|winget|brew"
+    r"|xcode-select|exec|ssh|jplag|java|\.venv/bin/\w+)(?: |$)"
+)
+
+
+def is_shell(block: Block) -> bool:
+    """Whether people are to type it."""
+    return block.tag in _TAGS or (not block.tag and _PROGRAMS.match(block.body) is not None)

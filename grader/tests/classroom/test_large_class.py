@@ -17,12 +17,12 @@ from typing import Any
 
 import pytest
 from class_documents import without_times
+from sample_class import make_class
 
 from raysteps.common.files import write_bytes
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.submission.load import load_submission
-from tools.sample_class import make_class
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("many programs")]
 

@@ -4,12 +4,12 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from sample_class import FORMS, KINDS, MISTAKES, make_class
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import same_code
 from raysteps.submission.load import load_submission
-from tools.sample_class import FORMS, KINDS, MISTAKES, make_class
 
 
 def _files(folder: Path) -> dict[str, bytes]:

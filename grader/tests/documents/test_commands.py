@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 from doc_commands import all_commands, complaint
+from typed_commands import typed
 
 from raysteps.course.project import Project
-from tools.website.links import typed
 
 pytestmark = pytest.mark.portable
 

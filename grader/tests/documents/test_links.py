@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.course.project import Project
-from tools.website.links import dead_links
+from tools.website.documents import dead_links
 
 pytestmark = pytest.mark.portable
 

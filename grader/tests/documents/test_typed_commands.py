@@ -10,10 +10,10 @@ from doc_only_read import may_be_typed, why_not
 from doc_terminal import Ending, Keys, typed_at
 from doc_typing import Typist
 from doc_workshop import make_workshop
+from typed_commands import Typed, typed
 
 from raysteps.course.project import Project
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.website.links import Typed, typed
 
 # In this order, in one workshop: each family's documents are read from the first to the last.
 _FAMILIES = {

@@ -15,8 +15,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.gallery import shots as reference
-from raysteps.gallery.scenes import CHOSEN, GalleryScene, about_scene, gallery_scenes
-from raysteps.gallery.shots import MySteps
+from raysteps.gallery.shots import CHOSEN, GalleryScene, MySteps, about_scene, gallery_scenes
 from raysteps.images.render import reference_picture
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -9,8 +9,7 @@ from playwright.sync_api import Page
 
 from raysteps.course.manifest import Step
 from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
-from raysteps.gallery.scenes import GalleryScene
-from raysteps.gallery.shots import Shot, WorkMap
+from raysteps.gallery.shots import GalleryScene, Shot, WorkMap
 from raysteps.images.compare import Pixels
 from raysteps.results.model import Work
 

@@ -31,8 +31,7 @@ from raysteps.results.store import parse_results
 from raysteps.sandbox.task import Isolation, Limits, Task, TaskResult
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
-from raysteps.submission.load import load_submission
-from raysteps.submission.locate import Places
+from raysteps.submission.load import Places, load_submission
 from raysteps.toolchain.catch2 import parse_report
 from raysteps.toolchain.compile import Program, clean_log, of_somebody, parse_readable, parse_symbols
 

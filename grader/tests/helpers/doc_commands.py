@@ -13,14 +13,15 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
+from typed_commands import Typed, commands, mentioned, typed
+
 from raysteps.cli.app import new_parser
 from raysteps.cli.render import take_impl
 from raysteps.common.errors import RaystepsError
 from raysteps.common.markdown import blocks
 from raysteps.course.project import Project, here
-from tools.website.command_page import usage, usage_parser
-from tools.website.documents import documents
-from tools.website.links import Typed, commands, is_shell, mentioned, typed
+from tools.website.documents import documents, is_shell
+from tools.website.made_pages import usage
 
 OTHER_PROGRAMS = {
     "apt-get", "brew", "cd", "cmake", "code", "cp", "ctest", "dnf", "docker", "git", "jplag", "java", "mkdir",
@@ -70,9 +71,39 @@ def _command_line(command: str) -> argparse.ArgumentParser:
     return new_parser(Project(Path("a students' kit")) if command == "update" else here())
 
 
+# What the C++ programs accept, read from the text that they print for --help.
+
+_OPTION = re.compile(r"^  (?:-\w, )?(--?[\w-]+)(?: (\S+))?(?=\s|$)", re.MULTILINE)
+
+
+def _usage_parser(project: Project, program: str) -> argparse.ArgumentParser:
+    """Reads a scene and the program's options as the program does, but for the ranges of numbers."""
+    parser = argparse.ArgumentParser(prog=program, allow_abbrev=False, add_help=False)
+    parser.add_argument("scene", nargs="?")
+    for option, value in _OPTION.findall(usage(project, program)):
+        words = value.split("|")
+        if not value:
+            parser.add_argument(option, action="store_true")
+        elif len(words) > 1:
+            parser.add_argument(option, choices=words)
+        elif value == "N":
+            parser.add_argument(option, type=int)
+        elif value == "WxH":
+            parser.add_argument(option, type=_size)
+        else:
+            parser.add_argument(option)
+    return parser
+
+
+def _size(word: str) -> str:
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", word):
+        raise argparse.ArgumentTypeError(f"{word}: expected WxH")
+    return word
+
+
 @cache
 def _program(project: Project, name: str) -> argparse.ArgumentParser:
-    return usage_parser(project, name)
+    return _usage_parser(project, name)
 
 
 def _read(parser: argparse.ArgumentParser, words: list[str]) -> str:

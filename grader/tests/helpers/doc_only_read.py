@@ -1,6 +1,6 @@
 """Which commands of the documents no test types, and why; and whose programs may be typed at all."""
 
-from tools.website.links import Typed
+from typed_commands import Typed
 
 _TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
 _FIGURES = "takes minutes; `test` does what --check does"

@@ -9,13 +9,13 @@ from pathlib import Path
 from doc_only_read import may_be_typed, why_not
 from doc_terminal import Ending, Keys, typed_at
 from doc_workshop import Workshop, copy_of
+from typed_commands import Typed
 
 from raysteps.cli.view import check_glfw
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.website.links import Typed
 from tools.xvfb import hidden_screen
 
 _AT = "https://github.com/course/checkout"

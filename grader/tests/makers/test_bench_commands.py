@@ -24,9 +24,10 @@ from tools.bench.model import (
     ScaleNumbers,
     SceneRays,
     Spread,
+    keep,
+    kept,
 )
 from tools.bench.programs import ask, can_pin_processor, checked, pinned, portable, what_is_missing
-from tools.bench.records import keep, kept
 from tools.bench.scale import KINDS
 
 _MACHINE = Machine("a processor", 2, "Linux x86_64", "g++", "-O2", pinned=True)

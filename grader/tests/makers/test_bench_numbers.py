@@ -5,10 +5,9 @@ import math
 import pytest
 
 from tools.bench.charts import linear_axis, log_axis, tick_text
-from tools.bench.model import ScaleRow, Spread
-from tools.bench.records import geometric_mean, growth
-from tools.bench.scale import growth_of, sizes
-from tools.bench.threads import thread_counts
+from tools.bench.model import ScaleRow, Spread, geometric_mean
+from tools.bench.pictures import thread_counts
+from tools.bench.scale import growth, growth_of, sizes
 
 pytestmark = pytest.mark.portable
 

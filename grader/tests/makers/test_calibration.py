@@ -11,19 +11,21 @@ from raysteps.course.manifest import Step, read_step
 from raysteps.course.mutants import read_alternatives
 from raysteps.course.project import Project
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.calibration.calibrate import calibration_page, complaints, page_with, with_limits
-from tools.calibration.full_marks import mark
-from tools.calibration.gate import Gate, Share, gate_between, plain
+from tools.calibration.calibrate import calibration_page, complaints, mark, page_with, with_limits
 from tools.calibration.measure import (
     KIT,
     CalibratedPicture,
+    Gate,
     LimitedPicture,
     PictureShares,
+    Share,
     View,
     all_settings,
     fused_flags,
+    gate_between,
     limited_pictures,
     own_setting,
+    plain,
 )
 from tools.test_submissions import Entrant, right_ones
 

@@ -17,7 +17,7 @@ from tools.bench.docs import FIGURES
 from tools.figures import command, renders
 from tools.figures.command import FOLDER, Figure, figures
 from tools.figures.drawing import Drawing
-from tools.figures.window import CannotDraw
+from tools.figures.renders import CannotDraw
 
 _SVG = "{http://www.w3.org/2000/svg}"
 

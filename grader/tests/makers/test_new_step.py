@@ -17,7 +17,7 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs
 from raysteps.exports.autograders import kit_files
 from tools import dev as maintenance
-from tools.new_step import new_step as command
+from tools import new_step as command
 from tools.test_submissions import outdated_samples
 
 _SECONDS = 900

@@ -15,12 +15,10 @@ from raysteps.common.errors import UsageError
 from raysteps.common.markdown import anchors, formulas
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
-from tools.website.api_pages import api_pages
 from tools.website.build import check_place, put
-from tools.website.command_page import command_page
-from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, documents
+from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, dead_links, documents
 from tools.website.formulas import BadFormula, bad_formulas, mathml
-from tools.website.links import dead_links
+from tools.website.made_pages import api_pages, command_page
 
 _TOGETHER = pytest.mark.xdist_group("site")
 

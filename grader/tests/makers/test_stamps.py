@@ -14,8 +14,7 @@ from tools.selftest import run as selftest_checks
 from tools.selftest import stamps
 from tools.selftest.checks import Check, Report, Verdict, run_checks
 from tools.selftest.run import run_pytest
-from tools.selftest.stamps import Stamps
-from tools.selftest.test_inputs import Sources
+from tools.selftest.stamps import Sources, Stamps
 
 _FILES = {
     "README.md": "# A kit\n",

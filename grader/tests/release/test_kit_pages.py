@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from doc_commands import complaint
+from typed_commands import Typed, mentioned, typed
 
 from raysteps.cli.app import new_parser
 from raysteps.common.errors import GraderFault
@@ -22,7 +23,6 @@ from raysteps.grading.scoring import max_points
 from raysteps.release.build_release import first_steps, write_release
 from raysteps.release.kit_pages import as_printed, for_students, readme
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.website.links import Typed, mentioned, typed
 
 _NEEDS_REFERENCE = re.compile(r"--impl[ =]reference|--against\b|--accel[ =](?:boxes|wide)\S*|--spd\b")
 _OF_A_STEP = ("check", "hint", "reset", "watch")

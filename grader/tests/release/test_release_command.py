@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from doc_commands import all_commands
+from typed_commands import typed
 
 from raysteps.cli.release import line_to_grade, refuse_inside
 from raysteps.common.errors import UsageError
@@ -16,7 +17,6 @@ from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.release.build_release import usable
-from tools.website.links import typed
 
 
 def test_the_folders_that_documents_name_can_be_written(project: Project) -> None:

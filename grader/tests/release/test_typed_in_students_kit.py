@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from doc_commands import Shown, missing, shown_in
 from handout_counts import wrong_counts
+from typed_commands import Typed, mentioned, typed
 
 from raysteps.common.process import run
 from raysteps.course.manifest import Step
-from tools.website.links import Typed, mentioned, typed
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("students_kit")]
 

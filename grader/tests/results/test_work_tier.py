@@ -10,7 +10,7 @@ from rich.console import Console
 from raysteps.course.manifest import Step
 from raysteps.report.terminal import print_details
 from raysteps.results.model import Results, StepResult, Work
-from raysteps.results.work_tier import work_tier
+from raysteps.results.work_ratio import work_tier
 
 pytestmark = pytest.mark.portable
 

@@ -9,9 +9,8 @@ from watch_fakes import result_of
 
 from raysteps.course.manifest import Step
 from raysteps.results.model import TestResult
-from raysteps.watch.edits import edited_first, edited_functions
 from raysteps.watch.page_state import state_of
-from raysteps.watch.step_view import StepView
+from raysteps.watch.step_view import StepView, edited_first, edited_functions
 from raysteps.watch.terminal_view import TerminalView
 
 _SOURCE = """

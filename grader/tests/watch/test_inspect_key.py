@@ -13,7 +13,7 @@ from terminals import Terminal
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.watch.events import Event, InspectEnded
-from raysteps.watch.inspection import Inspection
+from raysteps.watch.runner import Inspection
 
 _COMMAND = "./raysteps inspect scenes/lessons/three-spheres.nff 5 3 --step 1 --size 160x120 --against reference"
 

@@ -2,7 +2,6 @@
 
 import importlib
 import sys
-from collections.abc import Iterator
 from queue import Queue
 from types import ModuleType, SimpleNamespace
 
@@ -11,21 +10,16 @@ import pytest
 from raysteps.watch.events import Event, Key
 from raysteps.watch.keyboard import NoKeyboard, find_keyboard
 
-_MODULE = "raysteps.watch.windows_keys"
-
 
 @pytest.fixture
-def typed(monkeypatch: pytest.MonkeyPatch) -> Iterator["Queue[str]"]:
+def typed(monkeypatch: pytest.MonkeyPatch) -> "Queue[str]":
     """What a Windows console gives; there is no termios."""
     waiting: Queue[str] = Queue()
     console = SimpleNamespace(kbhit=lambda: not waiting.empty(), getwch=waiting.get)
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setitem(sys.modules, "termios", None)
-    for name in (_MODULE, "raysteps.watch.terminal_keys"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setattr("sys.stdin.isatty", lambda: True)
-    yield waiting
-    sys.modules.pop(_MODULE, None)
+    return waiting
 
 
 def test_keys_of_a_console(typed: "Queue[str]") -> None:

@@ -14,8 +14,15 @@ from raysteps.common.files import usable_folder, write_out
 from raysteps.common.text import size as shown_size
 from raysteps.course.project import Project
 from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
-from raysteps.gallery.scenes import CHOSEN, GalleryScene, gallery_scenes
-from raysteps.gallery.shots import MySteps, my_steps, reference_shots, reference_work_maps
+from raysteps.gallery.shots import (
+    CHOSEN,
+    GalleryScene,
+    MySteps,
+    gallery_scenes,
+    my_steps,
+    reference_shots,
+    reference_work_maps,
+)
 from raysteps.report.terminal import progress, short_path
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback

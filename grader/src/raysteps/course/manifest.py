@@ -20,7 +20,7 @@ class ImageCase:
     args: tuple[str, ...]
     max_wrong: float
     max_share: float | None = None
-    paper_tests: float | None = None  # per ray, with the paper's 64 boxes; see results/work_tier.py
+    paper_tests: float | None = None  # per ray, with the paper's 64 boxes; see results/work_ratio.py
 
     @property
     def has_tree(self) -> bool:

@@ -5,8 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from raysteps.course.manifest import Step
-from raysteps.gallery.scenes import GalleryScene
-from raysteps.gallery.shots import Shot, WorkMap
+from raysteps.gallery.shots import GalleryScene, Shot, WorkMap
 from raysteps.images.compare import Pixels
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, pixel_data, render_page
 

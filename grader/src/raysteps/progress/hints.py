@@ -23,7 +23,6 @@ class Hint:
     level: int
     of: int
     text: str
-    seen_before: bool = False
 
     @property
     def left(self) -> str:
@@ -61,9 +60,8 @@ class Hints:
             raise UsageError(
                 f"--level {level}: step {step.number} has {count(len(step.hints), 'hint')}, from level 1 on"
             )
-        before = level <= self.reached(step)
         self._reach(step, level)
-        return Hint(level, len(step.hints), step.hints[level - 1].strip("\n"), before)
+        return Hint(level, len(step.hints), step.hints[level - 1].strip("\n"))
 
     def following(self, step: Step) -> Hint | None:
         """The next one; none where there is no other, see `no_other`."""

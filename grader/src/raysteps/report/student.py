@@ -243,7 +243,7 @@ def _work(image: ImageResult) -> list[tuple[str, str, str]]:
 
 def _tier(image: ImageResult, step: Step) -> list[str]:
     """What the tree has reached, where that hangs on this picture."""
-    from raysteps.results.work_tier import image_tier  # few steps have tiers
+    from raysteps.results.work_ratio import image_tier  # few steps have tiers
 
     tier = image_tier(image, step)
     return [f"the tree: {tier.reached}. In tests per ray: {tier.to_reach}"] if tier is not None else []

@@ -118,7 +118,7 @@ def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce
 
 def _print_tier(console: Console, result: StepResult, step: Step) -> None:
     """What the tree has reached by counted work, and what each tier takes."""
-    from raysteps.results.work_tier import work_tier  # few steps have tiers
+    from raysteps.results.work_ratio import work_tier  # few steps have tiers
 
     tier = work_tier(result, step)
     if tier is not None:

@@ -1,4 +1,4 @@
-"""Runs one job at a time in a process of its own; a new job stops the one before it."""
+"""What runs beside the loop, in processes of its own: one job at a time, and one look into a pixel."""
 
 import json
 import os
@@ -15,15 +15,18 @@ from pathlib import Path
 from typing import IO, Literal
 
 from raysteps.common.documents import Malformed, convert
+from raysteps.common.process import kill_process_group, new_session
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import Post, WorkerEnded, WorkerLine, WorkerMessage
+from raysteps.watch.events import InspectEnded, Post, WorkerEnded, WorkerLine, WorkerMessage
+
+# One job at a time; a new job stops the one before it.
 
 Kind = Literal["look", "check"]
 
 WORKER = (sys.executable, "-P", "-m", "raysteps.watch.worker")
-_GRACE_SECONDS = 2.0
+_GRACE_SECONDS = 2.0  # to end what it started
 _MAX_ERRORS = 2000
 
 
@@ -155,3 +158,56 @@ class Runner:
         self.stop()
         self._forget_ready()
         shutil.rmtree(self._folder, ignore_errors=True)
+
+
+# Looks into a pixel: a save or a key ends it, also while its program is built for the first time.
+
+INSPECT = (sys.executable, "-P", "-m", "raysteps")
+
+
+class Inspection:
+    """One at a time, which prints on this terminal and reads nothing from it."""
+
+    def __init__(self, project: Project, post: Post, program: Sequence[str] = INSPECT) -> None:
+        self._project = project
+        self._post = post
+        self._program = program
+        self._process: subprocess.Popen[bytes] | None = None
+        self._run = 0
+
+    @property
+    def is_running(self) -> bool:
+        return self._process is not None
+
+    def start(self, words: Sequence[str]) -> None:
+        self.stop()
+        self._run += 1
+        self._process = subprocess.Popen(
+            [*self._program, *words], cwd=self._project.root, stdin=subprocess.DEVNULL, **new_session()
+        )
+        threading.Thread(target=self._wait, args=(self._process, self._run), daemon=True).start()
+
+    def _wait(self, process: "subprocess.Popen[bytes]", run: int) -> None:
+        process.wait()
+        self._post(InspectEnded(run))
+
+    def ended(self, run: int) -> bool:
+        """Whether that was the one that ran."""
+        if run == self._run:
+            self._process = None
+        return run == self._run
+
+    def stop(self) -> None:
+        """As Ctrl-C would; what comes of it is no event any more."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        self._run += 1
+        try:
+            if sys.platform != "win32":
+                with suppress(OSError, subprocess.TimeoutExpired):
+                    process.send_signal(signal.SIGINT)
+                    process.wait(_GRACE_SECONDS)
+        finally:  # a second Ctrl-C within the grace, too
+            kill_process_group(process)
+            process.wait()

@@ -16,7 +16,6 @@ from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_
 from raysteps.progress.standing import next_of, own_source, print_list, shown, standings
 from raysteps.report.wording import inspect_worst, typed
 from raysteps.submission.entries import RejectedFile
-from raysteps.watch.edits import edited_functions
 from raysteps.watch.events import (
     ChangeNoticed,
     Event,
@@ -30,11 +29,10 @@ from raysteps.watch.events import (
     WorkerMessage,
 )
 from raysteps.watch.file_watcher import FileWatcher
-from raysteps.watch.inspection import Inspection
 from raysteps.watch.keyboard import Keyboard, NoKeyboard
 from raysteps.watch.page_state import PageState, state_of
-from raysteps.watch.runner import Runner
-from raysteps.watch.step_view import StepView
+from raysteps.watch.runner import Inspection, Runner
+from raysteps.watch.step_view import StepView, edited_functions
 from raysteps.watch.terminal_view import TerminalView
 
 

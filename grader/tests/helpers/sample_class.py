@@ -1,4 +1,4 @@
-"""Makes a class of submissions from the solutions: for tests and measurements, never for grading anybody."""
+"""Makes a class of submissions from the solutions: for tests, never for grading anybody."""
 
 import gzip
 import io
@@ -150,7 +150,7 @@ def make_class(project: Project, folder: Path, count: int, seed: int) -> list[Sa
     steps = read_steps(project)
     solved = {step.id: without_markers((project.solutions / step.path).read_text(encoding="utf-8")) for step in steps}
     stubs = {step.id: stub_for(project, step) for step in steps}
-    dice = random.Random(seed)  # noqa: S311
+    dice = random.Random(seed)
     made: list[SampleClass] = []
     kinds: list[str] = []
     for at in range(count):

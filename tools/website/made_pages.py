@@ -1,15 +1,17 @@
-"""The page of all commands, made from the command line itself."""
+"""Pages that nobody wrote: of all commands, of the core, and of the contracts of the steps."""
 
 import argparse
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 
+from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
+from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE
 
-# What the C++ programs accept, read from the text that they print for --help.
+# What the C++ programs accept: the text that they print for --help.
 
 _SOURCES = {"raytrace": "options.cpp", "inspect": "inspect_options.cpp", "view": "view_options.cpp"}
-_OPTION = re.compile(r"^  (?:-\w, )?(--?[\w-]+)(?: (\S+))?(?=\s|$)", re.MULTILINE)
 
 
 def usage(project: Project, program: str) -> str:
@@ -21,30 +23,7 @@ def usage(project: Project, program: str) -> str:
     return found[1]
 
 
-def usage_parser(project: Project, program: str) -> argparse.ArgumentParser:
-    """Reads a scene and the program's options as the program does, but for the ranges of numbers."""
-    parser = argparse.ArgumentParser(prog=program, allow_abbrev=False, add_help=False)
-    parser.add_argument("scene", nargs="?")
-    for option, value in _OPTION.findall(usage(project, program)):
-        words = value.split("|")
-        if not value:
-            parser.add_argument(option, action="store_true")
-        elif len(words) > 1:
-            parser.add_argument(option, choices=words)
-        elif value == "N":
-            parser.add_argument(option, type=int)
-        elif value == "WxH":
-            parser.add_argument(option, type=_size)
-        else:
-            parser.add_argument(option)
-    return parser
-
-
-def _size(word: str) -> str:
-    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", word):
-        raise argparse.ArgumentTypeError(f"{word}: expected WxH")
-    return word
-
+# The page of all commands, made from the command line itself.
 
 _WIDTH = 88
 _OF_PROGRAMS = {"render": "raytrace", "view": "view"}
@@ -125,3 +104,54 @@ def command_page(project: Project, parser: argparse.ArgumentParser) -> str:
     """The text, in Markdown."""
     parts = [part for name, child, about in _commands(parser) for part in _part(project, name, child, about, 2)]
     return "\n\n".join([_BEGIN.strip(), *(part for part in parts if part)]) + "\n"
+
+
+# Pages of the core and of the contracts, made from the headers and their comments.
+
+_CORE = """# The framework's core
+
+The value types that all steps share, and the scene: the headers of `framework/core/`. No student edits them, every step
+uses them. Private members are left out. [The glossary](glossary.md) says what others call these things.
+"""
+_CONTRACTS = """# The contracts of the steps
+
+What the functions of each step promise: the headers of `steps/`. The handouts explain them, the tests and the judge
+hold to them.
+"""
+_NO_PART = re.compile(r"#pragma once|#include .*|(?:inline )?namespace raysteps \{|\}  // namespace raysteps")
+_PRIVATE = re.compile(r"^private:\n.*?(?=^\};)", re.MULTILINE | re.DOTALL)
+
+
+def _parts(header: str) -> tuple[str, str]:
+    """The comment that a header begins with, up to its first empty line, and what it declares."""
+    lines = [line for line in header.splitlines() if not _NO_PART.fullmatch(line)]
+    about = []
+    while lines and lines[0].startswith("// "):
+        about.append(lines.pop(0).removeprefix("// "))
+    if lines and lines[0] == "//":
+        lines.pop(0)
+    code = _PRIVATE.sub("", "\n".join(lines))
+    return " ".join(about), re.sub(r"\n{3,}", "\n\n", code).strip()
+
+
+def _section(title: str, path: Path, more: str = "") -> str:
+    about, code = _parts(path.read_text(encoding="utf-8"))
+    return "\n\n".join(part for part in (f"## {title}", about, more, f"```cpp\n{code}\n```") if part)
+
+
+def _page(begin: str, sections: Iterable[str]) -> str:
+    return "\n\n".join([begin.strip(), *sections]) + "\n"
+
+
+def api_pages(project: Project) -> dict[Path, str]:
+    """The text of each page, in Markdown."""
+    core = sorted((project.root / "framework" / "core").glob("*.hpp"))
+    contracts = [
+        _section(f"{step.number} {step.title}", path, f"[Its handout](../steps/{step.id}/README.md); `{path.name}`.")
+        for step in read_steps(project)
+        for path in sorted((project.steps / step.id).glob("*.hpp"))
+    ]
+    return {
+        CORE_PAGE: _page(_CORE, (_section(path.name, path) for path in core)),
+        CONTRACTS_PAGE: _page(_CONTRACTS, contracts),
+    }

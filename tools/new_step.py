@@ -1,4 +1,4 @@
-"""The command `dev new`."""
+"""The command `dev new`: a step of an instructor's own, as a small one that works."""
 
 import argparse
 import json
@@ -97,7 +97,7 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
     try:
         for room, templates in ((project.solutions, _FOR_THE_GRADER), (project.steps, _FOR_STUDENTS)):
             for template, file in templates.items():
-                text = files("tools.new_step").joinpath("templates", template).read_text(encoding="utf-8")
+                text = files("tools").joinpath("templates", template).read_text(encoding="utf-8")
                 path = room / name / _filled(file, words)
                 write_bytes(path, _filled(text, words).encode())
                 made.append(path)

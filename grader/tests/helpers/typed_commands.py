@@ -1,57 +1,13 @@
-"""Dead links: to files that are not there, and to headings that nobody wrote."""
+"""The commands that documents tell people to type."""
 
 import re
 import shlex
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from urllib.parse import unquote
 
-from raysteps.common.markdown import Block, anchors, blocks, code_spans, targets
+from raysteps.common.markdown import Block, blocks, code_spans
+from tools.website.documents import is_shell
 
-
-def is_elsewhere(target: str) -> bool:
-    """Whether a link leaves the repository."""
-    return "://" in target or target.startswith("mailto:")
-
-
-def split(document: Path, target: str) -> tuple[Path, str]:
-    """The file that a link leads to, and the anchor in it."""
-    path, _, anchor = target.partition("#")
-    return (document.parent / unquote(path)).resolve() if path else document.resolve(), anchor
-
-
-def dead_links(root: Path, documents: Iterable[Path]) -> list[str]:
-    """One line for each, with its place."""
-    found = []
-    known: dict[Path, set[str]] = {}
-    for name in documents:
-        document = root / name
-        for line, target in targets(document.read_text(encoding="utf-8")):
-            if is_elsewhere(target):
-                continue
-            path, anchor = split(document, target)
-            if not path.exists():
-                found.append(f"{name}:{line}: {target}: expected a file of the repository, found nothing of that name")
-            elif not path.is_relative_to(root.resolve()):
-                found.append(f"{name}:{line}: {target}: leaves the repository")
-            elif anchor and path.suffix == ".md":
-                if path not in known:
-                    known[path] = anchors(path.read_text(encoding="utf-8"))
-                if anchor not in known[path]:
-                    near = ", ".join(sorted(known[path]))
-                    found.append(f"{name}:{line}: {target}: no heading makes that anchor; there are: {near}")
-    return found
-
-
-# The commands that documents tell people to type.
-
-_TAGS = ("sh", "bash", "shell", "console", "powershell", "bat")
-_PROGRAMS = re.compile(
-    r"(?:\$ )?(?:[A-Z_]+=\S+ )*"
-    r"(?:\./raysteps|python3?|raytrace|cd|cmake|ctest|git|tar|zip|docker|sbatch|sqlite3|xvfb-run|sudo|wsl|winget|brew"
-    r"|xcode-select|exec|ssh|jplag|java|\.venv/bin/\w+)(?: |$)"
-)
 _SETTING = re.compile(r"[A-Za-z_]\w*=.*")
 
 
@@ -74,11 +30,6 @@ class Typed:
         if self.in_prose and (len(self.words) == 2 or any(word.isupper() for word in self.words)):
             return True
         return any(sign in self.text for sign in ("...", "…", "[-"))
-
-
-def is_shell(block: Block) -> bool:
-    """Whether people are to type it."""
-    return block.tag in _TAGS or (not block.tag and _PROGRAMS.match(block.body) is not None)
 
 
 def _words(text: str) -> list[str]:
