@@ -1,5 +1,6 @@
 """Builds the kit for grading, into a folder named by its fingerprint."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -11,7 +12,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable
-from raysteps.course.manifest import Step, read_all_steps, read_steps
+from raysteps.course.manifest import Step, course_manifests, read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Output, Task
@@ -270,7 +271,9 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
 def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
     description = read_description(folder / "kit.json")
     table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
-    mark = f"{folder.name} {description.compiler_version}"
+    worth = course_manifests(project)  # built alike, and graded otherwise
+    own = f"-{hashlib.sha256(repr(sorted(worth.items())).encode()).hexdigest()[:8]}" if worth else ""
+    mark = f"{folder.name}{own} {description.compiler_version}"
     return BuiltKit(project, folder, mark, steps, description, table["tests"], table["interpreter"], table["slowness"])
 
 
