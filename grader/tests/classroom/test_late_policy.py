@@ -35,7 +35,7 @@ def test_reading() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("deadline = \n", r"^late\.toml: is not TOML: .*line 1"),
+        ("deadline = \n", r"^late\.toml:1:12: is not TOML: invalid value"),
         ("percent_per_day = 5\n", r"^late\.toml:1:1: expected the key `deadline`"),
         ("# due\ndeadline = 2026-11-20T23:59:00\npercent_per_day = 5", r"^late\.toml:2:1: `deadline`: .* time zone"),
         ("deadline = 2026-11-20\npercent_per_day = 5", r"^late\.toml:1:1: `deadline`: .* time zone"),

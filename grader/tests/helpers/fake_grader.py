@@ -90,7 +90,7 @@ class FakeGrader:
                 result.messages = [submission.notes[step.id]]
             steps.append(result)
         results = Results.of(
-            submission.name, steps, settings.seed, self.fingerprint, self.isolation, Timing(time.time(), 1.0)
+            submission.name, steps, self.fingerprint, self.isolation, Timing(time.time(), 1.0)
         )
         write_results(results, out)
         log(f"end {submission.name}")

@@ -14,7 +14,7 @@ from raysteps.classroom.entry_names import folded
 from raysteps.common.documents import Malformed, convert, place_in_toml, read_toml
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, number
-from raysteps.results.class_model import Lateness
+from raysteps.results.model import Lateness
 
 
 @dataclass(frozen=True)

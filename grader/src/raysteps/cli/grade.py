@@ -25,6 +25,7 @@ from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
 from raysteps.results.settings import Settings
+from raysteps.results.store import write_results
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
@@ -120,10 +121,11 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         clear(out, kit.steps, kit.steps)
         jobs = options.jobs or os.cpu_count() or 1
         results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs)
+        results.course = read_course(project).name
+        told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too
+        write_results(told, out)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
-    feedback = options.settings.feedback
-    told = results if feedback == "full" else withhold(results, feedback)  # the terminal may be the student's, too
     if options.details:
         print_details(console, told, kit.steps, out, again)
         console.print()

@@ -200,6 +200,7 @@ def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str
     rows = table_rows(document, marks(apart), link)
     late = any(row.days for row in rows)
     context = {
+        "course": document.course,
         "run": document.run,
         "policy": document.late_policy,
         "statistics": document.statistics,
