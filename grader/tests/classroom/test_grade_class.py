@@ -7,6 +7,7 @@ import os
 import re
 import sqlite3
 import zipfile
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from html import unescape
 from pathlib import Path
@@ -15,6 +16,7 @@ from typing import Any
 import pytest
 from class_documents import without_times
 from class_fakes import FIRST, grade_class, write_entry
+from fake_grader import FakeGrader, log
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
@@ -364,7 +366,7 @@ def test_a_grader_that_hangs_is_given_up_and_not_waited_for_again(
     assert grade_class(*words, "--resume") == 0
 
 
-_LATE = 'deadline = 2026-11-20T12:00:00+01:00\npercent_per_day = {percent}\n'
+_LATE = "deadline = 2026-11-20T12:00:00+01:00\npercent_per_day = {percent}\n"
 
 
 def _report(out: Path, name: str) -> tuple[dict[str, Any], str]:
@@ -409,6 +411,20 @@ def test_a_report_says_whose_it_is_how_late_and_what_counts(tmp_path: Path, monk
     assert document["handed_in"]["late"] is None
     assert "Late:" not in page
     assert "handed in 2026-11-21 13:00:00+01:00" in page
+
+
+def test_known_mistakes_are_learned_before_anybody_waits_for_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def learn(_grader: FakeGrader, steps: Sequence[str], say: Callable[[str], None]) -> None:
+        log(f"learn {' '.join(steps)}")
+        say("learning")
+
+    monkeypatch.setattr(FakeGrader, "learn", learn)
+    write_entry(tmp_path / "in", "ann", "// points 9")
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out", "--only", "1-2") == 0
+    lines = (tmp_path / "log.txt").read_text().splitlines()
+    assert lines[:2] == ["learn 01-camera-rays 02-intersection", "begin ann"]
 
 
 def test_no_page_and_nothing_that_is_given_back_tells_the_seed(tmp_path: Path) -> None:

@@ -122,7 +122,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         jobs = options.jobs or os.cpu_count() or 1
         results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs)
         results.course = read_course(project).name
-        told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too
+        feedback = options.settings.feedback
+        told = results if feedback == "full" else withhold(results, feedback)  # the terminal may be the student's, too
         write_results(told, out)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 

@@ -168,12 +168,14 @@ def _runner(plan: Plan, kit: str, meter: ProgressMeter) -> Runner:
     return Cluster(options.scheduler, plan.uid, kit, options.grader, require_sandbox=sandbox, say=meter.say)
 
 
-def _prepare(options: ClassOptions, meter: ProgressMeter) -> Grader:
+def _prepare(plan: Plan, meter: ProgressMeter) -> Grader:
     """The kit of this machine: its fingerprint is what every result is held against."""
+    options = plan.options
     sandbox = options.require_sandbox and not options.scheduler
     grader = make_grader(options.grader, require_sandbox=sandbox, say=meter.say)
     if not options.scheduler:
         meter.say(grader.isolation.description)
+        grader.learn([step.id for step in plan.chosen], meter.say)
     return grader
 
 
@@ -234,7 +236,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
             meter.say(words)
         try:
             with terminated_as_interrupted():
-                made = _prepare(plan.options, meter)
+                made = _prepare(plan, meter)
         except KeyboardInterrupt:
             return _interrupted(console, _again(plan.options))
         return _grade(console, plan, made, meter)

@@ -49,8 +49,8 @@ def searchable(text: str) -> str:
     """As the script `class-filter` makes what is searched for: no capitals, no accents, no letters that only some
     keyboards have."""
     letters = unicodedata.normalize("NFKD", text.lower())
-    bare = "".join(letter for letter in letters if unicodedata.category(letter) != "Mn")
-    return bare.translate(str.maketrans(plain_letters()))
+    bare = (letter for letter in letters if unicodedata.category(letter) != "Mn")
+    return "".join(plain_letters().get(letter, letter) for letter in bare)
 
 
 _ALIKE = 0.65  # of three letters two in their order are enough, of five not three

@@ -96,10 +96,11 @@ def swap(new: Path, out: Path) -> None:
 # What the reference leaves behind for students: its pictures, and the names of its tests.
 
 
-def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path) -> None:
+def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path, say: ProgressCallback) -> None:
     """Writes folder/reference/."""
     target = Project(folder)
     for step in steps:
+        say(f"drawing the reference's pictures of step {step.number}")
         for case in step.images:
             scene = kit.project.root / case.scene
             pixels = reference_picture(kit, scene, case.args)
@@ -153,13 +154,15 @@ def written_files(project: Project, steps: list[Step], course: str) -> dict[str,
     return files
 
 
-def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
+def write_release(
+    kit: BuiltKit, steps: list[Step], course: str, folder: Path, say: ProgressCallback = lambda text: None
+) -> None:
     """All files into an empty folder."""
     for name, data in written_files(kit.project, steps, course).items():
         write_bytes(folder / name, data)
     for name in _EXECUTABLE:
         (folder / name).chmod(0o755)
-    write_reference_artifacts(kit, steps, folder)
+    write_reference_artifacts(kit, steps, folder, say)
     write_bytes(folder / PLACE, encoded(_list(folder, course, kit, steps)))
 
 
@@ -173,7 +176,7 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
             new = Path(name) / out.name
             new.mkdir(mode=0o755)
             say("writing the files")
-            write_release(kit, steps, course, new)
+            write_release(kit, steps, course, new, say)
             say("looking for leaks")
             if leaks(new, out):
                 return False

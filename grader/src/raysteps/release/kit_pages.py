@@ -68,9 +68,6 @@ def for_editor(text: bytes, steps: list[Step]) -> bytes:
     return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 
-_FOR_EXPORTS = "jsonschema=="  # a students' kit exports nothing
-
-
 def pyproject(text: str) -> bytes:
     """What the package needs to run, without what it takes to work on it."""
     table = tomllib.loads(text)
@@ -84,7 +81,7 @@ def pyproject(text: str) -> bytes:
         *(f"{key} = {json.dumps(project[key])}" for key in ("name", "dynamic", "requires-python", "license")),
         'description = "Checks the steps of a ray tracing course"',
         "dependencies = [",
-        *(f"    {json.dumps(name)}," for name in project["dependencies"] if not name.startswith(_FOR_EXPORTS)),
+        *(f"    {json.dumps(name)}," for name in project["dependencies"]),
         "]",
         "",
         "[tool.setuptools.dynamic]",
