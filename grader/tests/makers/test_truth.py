@@ -84,6 +84,7 @@ def test_pairs_sit_in_two_steps_and_are_drawn_again_from_their_seed(project: Pro
     ("kind", "points", "says"),
     [
         ("stub", 1.0, "a stub has 1 of"),
+        ("stub", 6.0, "a stub has 6 of 10 points, for test 'a test'"),
         ("reference", 9.0, "it is right and has 9 of"),
         ("alternative", 9.5, "it is right and has 9.5 of"),
         ("mutant", 10.0, "nobody notices it"),
