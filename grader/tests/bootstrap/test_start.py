@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.bootstrap import start
+from raysteps.bootstrap import start, venv
 from raysteps.bootstrap.requirements import CMAKE, COMPILER, NINJA, advice, cmake_is_new_enough
 from raysteps.bootstrap.venv import Venv, set_for
 from raysteps.course.project import Project
@@ -64,6 +64,13 @@ def test_words_reach_the_package_as_they_are(project: Project, tmp_path: Path, b
     assert done.stdout == "|".join(["-X", "utf8", "-P", "-m", "raysteps", *given, ""]), done.stderr
 
 
+def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(venv, "_EVERY", 0.01)
+    read = "import sys; sys.stdin.read(); import time; time.sleep(0.5); sys.exit(3)"
+    assert venv._run([sys.executable, "-c", read]) == 3
+    assert "raysteps: still at it, for" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "wanted"),
     [
@@ -95,17 +102,20 @@ class _Kit:
         (root / "grader" / "pyproject.toml").touch()
         self.root = root
         self.ran: list[str] = []
-        monkeypatch.setattr(start, "_set_up", lambda venv, wanted: venv.make(wanted))
-        monkeypatch.setattr(Venv, "run", lambda venv, words: 0)
-        monkeypatch.setattr(subprocess, "run", self._run)
+        monkeypatch.setattr(start, "_set_up", lambda one, wanted: one.make(wanted))
+        monkeypatch.setattr(Venv, "run", lambda one, words: 0)
+        monkeypatch.setattr(venv, "_run", self._run)
+        monkeypatch.setattr(Venv, "is_this", lambda one: False)
+        started = subprocess.CompletedProcess[bytes]([], 0)  # its Python
+        monkeypatch.setattr(subprocess, "run", lambda words, **_: started)
 
-    def _run(self, words: Sequence[str], **_: object) -> "subprocess.CompletedProcess[bytes]":
+    def _run(self, words: Sequence[str]) -> int:
         if "venv" in words:
             (self.root / ".venv" / "raysteps-stamp").unlink(missing_ok=True)
             self.ran.append("new")
         elif "pip" in words:
             self.ran.append(words[-1].removeprefix(str(self.root)))
-        return subprocess.CompletedProcess(words, 0)
+        return 0
 
     def type(self, words: str) -> list[str]:
         """What that installs."""

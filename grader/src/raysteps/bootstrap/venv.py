@@ -15,6 +15,23 @@ def say(text: str) -> None:
 _TAKES = ("about half a minute", "some minutes, 500 MB")  # without the makers' set, and with it
 
 
+_EVERY = 20  # seconds
+
+
+def _run(words: Sequence[str]) -> int:
+    """The exit code of a program that may take long and says little."""
+    import subprocess  # takes long to load, and is rarely needed
+    import time
+
+    start = time.monotonic()
+    with subprocess.Popen(words, stdout=2, stdin=subprocess.DEVNULL) as process:
+        while True:
+            try:
+                return process.wait(_EVERY)
+            except subprocess.TimeoutExpired:
+                say(f"still at it, for {time.monotonic() - start:.0f} s")
+
+
 class CannotSetUp(Exception):
     """What is missing, and what to type."""
 
@@ -94,12 +111,10 @@ class Venv:
 
     def make(self, wanted: str = "") -> None:
         """Anew, with the usual set, the one that is wanted and those that were there before."""
-        import subprocess
-
         sets = self._usual() | self._installed()[1] | (set() if self.has(wanted) else {wanted})
         say(f"setting up the Python part in .venv (once, {_TAKES[MAKER in sets]})")
         words = [getattr(sys, "_base_executable", sys.executable), "-m", "venv", "--clear", str(self.folder)]
-        if subprocess.run(words, check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
+        if _run(words) != 0:
             raise CannotSetUp(f"{self.folder} cannot be made; the lines above say why")
         self._install(sets)
 
@@ -109,11 +124,9 @@ class Venv:
         self._install(self._usual() | self._installed()[1] | {wanted})
 
     def _install(self, sets: set[str]) -> None:
-        import subprocess
-
         install = [str(self.python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e"]
         wanted = f"{self.root / 'grader'}{'[' + ','.join(sorted(sets)) + ']' if sets else ''}"
-        if subprocess.run([*install, wanted], check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
+        if _run([*install, wanted]) != 0:
             raise CannotSetUp("the Python packages could not be installed; is there a network connection?")
         self._stamp.write_text(" ".join([self._fingerprint(), *sorted(sets)]), encoding="utf-8")
 
