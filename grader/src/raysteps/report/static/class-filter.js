@@ -40,7 +40,10 @@ class ClassFilter {
 
   /** As Python makes the words of a row. */
   searchable(text) {
-    const bare = text.toLowerCase().normalize("NFKD").replace(/\p{Mn}/gu, "");
+    const bare = text
+      .toLowerCase()
+      .normalize("NFKD")
+      .replace(/\p{Mn}/gu, "");
     return Array.from(bare, (letter) => this.letters[letter] ?? letter).join("");
   }
 
