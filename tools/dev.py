@@ -8,7 +8,7 @@ from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import read_all_steps, read_steps
+from raysteps.course.manifest import choose, read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
 from raysteps.report.terminal import progress
@@ -141,4 +141,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             with console.status("starting") as status:
                 say = progress(console, status)
                 only, pairs, seed, boxed = arguments.only, arguments.pairs, arguments.seed, arguments.in_sandbox
-                return check_truth(project, console, say, only=only, pairs=pairs, seed=seed, in_sandbox=boxed)
+                code = check_truth(project, console, say, only=only, pairs=pairs, seed=seed, in_sandbox=boxed)
+            for step in choose(read_steps(project), only):
+                for line in new_step.sample_leftovers(project, step):
+                    print(line)
+            return code

@@ -103,6 +103,17 @@ def missed(result: StepResult) -> list[str]:
     return found if result.cumulative.passed else [*found, f"together: {result.cumulative.message}"]
 
 
+def earned(result: StepResult) -> list[str]:
+    """What gave points, or the beginning of a long list."""
+    found = [f"test '{test.name}'" for test in result.tests if test.passed]
+    found += [f"picture {image.name}" for image in result.images if image.earned]
+    found += [f"hidden {item.kind} {item.name}" for item in result.hidden if item.share]
+    return [*found[:_MAX_EARNED], *([f"{len(found) - _MAX_EARNED} more"] if len(found) > _MAX_EARNED else [])]
+
+
+_MAX_EARNED = 5
+
+
 @dataclass(frozen=True)
 class ObservedGrade:
     """One file with its result."""
@@ -145,7 +156,11 @@ class ObservedGrade:
         result, kind = self.result, self.entrant.kind
         points = f"{result.points:g} of {result.max:g} points"
         if kind == "stub":
-            return "" if result.points == 0 else f"a stub has {points}"
+            return (
+                ""
+                if result.points == 0
+                else f"a stub has {points}, for {', '.join(earned(result)) or 'nothing that is shown'}"
+            )
         if result.status == "does-not-build":
             return f"it does not build: {' '.join(result.messages)[:300]}"
         if self.entrant.is_right:

@@ -10,7 +10,8 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_bytes
-from raysteps.course.manifest import read_all_steps, read_step, read_steps
+from raysteps.common.text import count
+from raysteps.course.manifest import Step, read_all_steps, read_step, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import write_stubs
 from tools.test_submissions import write_samples
@@ -89,6 +90,12 @@ def _words(name: str, title: str, points: float, *, bonus: bool) -> dict[str, st
     }
 
 
+def _from_template(template: str, file: str, words: dict[str, str]) -> tuple[str, str]:
+    """The name of a file, and its text."""
+    text = files("tools").joinpath("templates", template).read_text(encoding="utf-8")
+    return _filled(file, words), _filled(text, words)
+
+
 def make_step(project: Project, name: str, title: str, points: float, *, bonus: bool) -> list[str]:
     """Writes everything that belongs to the step; returns the paths in the kit."""
     check_name(project, name)
@@ -97,9 +104,9 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
     try:
         for room, templates in ((project.solutions, _FOR_THE_GRADER), (project.steps, _FOR_STUDENTS)):
             for template, file in templates.items():
-                text = files("tools").joinpath("templates", template).read_text(encoding="utf-8")
-                path = room / name / _filled(file, words)
-                write_bytes(path, _filled(text, words).encode())
+                filled, text = _from_template(template, file, words)
+                path = room / name / filled
+                write_bytes(path, text.encode())
                 made.append(path)
         made += write_stubs(project, [read_step(project.steps / name / "step.toml")])
         made += write_samples(project, read_steps(project))
@@ -108,6 +115,30 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
             shutil.rmtree(room / name, ignore_errors=True)
         raise GraderFault(f"{name}: the step cannot be written, and nothing of it is left: {reason(error)}") from error
     return sorted(path.relative_to(project.root).as_posix() for path in made)
+
+
+# What still stands in a step as the templates have it, though they tell of another one.
+
+_OF_THE_SAMPLE = re.compile(r"\b(air|arrives|distance|far away|reach|scatters|in-doubles|double precision)\b")
+
+
+def sample_leftovers(project: Project, step: Step) -> list[str]:
+    """Of each file the lines about the sample's matter that nobody has changed."""
+    words = _words(step.id, step.title, step.points, bonus=step.bonus)
+    found = []
+    for room, templates in ((project.steps, _FOR_STUDENTS), (project.solutions, _FOR_THE_GRADER)):
+        for template, file in templates.items():
+            name, text = _from_template(template, file, words)
+            path = room / step.id / name
+            if not path.is_file():
+                continue
+            sample = {line.strip() for line in text.splitlines() if _OF_THE_SAMPLE.search(line)}
+            now = path.read_text(encoding="utf-8", errors="replace").splitlines()
+            lines = [number for number, line in enumerate(now, start=1) if line.strip() in sample]
+            if lines:
+                where = path.relative_to(project.root).as_posix()
+                found.append(f"{where}:{lines[0]}: {count(len(lines), 'line')} of the sample step about fog")
+    return found
 
 
 _MAX_POINTS = 1000
@@ -138,15 +169,24 @@ def add_arguments(commands: "argparse._SubParsersAction[Any]") -> None:
     add.add_argument("--bonus", action="store_true", help="its points are not needed for full marks")
 
 
+_HOW_TO_GO_ON = """
+{name} works as it is, but it is about fog: the handout, hints, tests, mistakes, cases and alternatives/in-doubles.cpp
+are those of a sample. Make them yours, the contract {file}.hpp first; docs/instructors.md tells what each file is for.
+  Tests     TEST_CASE("what is promised", "[{name}][{file}_color]"): two tags in brackets, the step and the function
+            that is tested. Each must fail with the stub.
+  Pictures  in step.toml `scene` is a file, such as scenes/lessons/glass.nff, and `name` is what you call the picture,
+            such as balls-{picture}. Each has a twin in cases.toml with `of` = that name.
+Then:
+  ./raysteps dev stubs && ./raysteps dev samples
+  ./raysteps dev check --only {number}
+The last one also tells which lines are still the sample's."""
+
+
 def run(project: Project, arguments: argparse.Namespace) -> int:
     """Writes the step and says how to go on."""
     name = arguments.name
     title = arguments.title or name[3:].replace("-", " ").capitalize()
     for path in make_step(project, name, title, arguments.points, bonus=arguments.bonus):
         print(f"{path} written")
-    print(
-        f"{name} works as it is. Fill it: docs/instructors.md tells what each file is for. Then:\n"
-        f"  ./raysteps dev stubs && ./raysteps dev samples\n"
-        f"  ./raysteps dev check --only {name[:2]}"
-    )
+    print(_HOW_TO_GO_ON.format(name=name, number=name[:2], file=name[3:].replace("-", "_"), picture=name[3:]))
     return 0

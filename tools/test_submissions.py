@@ -10,7 +10,7 @@ from msgspec import Meta
 from raysteps.common.documents import Text, parse_table, read_text
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, read_step
 from raysteps.course.mutants import Mutant, read_alternatives, read_mutants, reference_source, replaced_once
 from raysteps.course.project import Project
 from raysteps.course.stubs import make_stub, stub_for, without_markers
@@ -101,14 +101,16 @@ class _Fairness:
     half: Annotated[tuple[_HalfDone, ...], Meta(min_length=1)]
 
 
-def _half_done(path: Path, step: Step, solution: str, entry: _HalfDone) -> Entrant:
+def _half_done(path: Path, step: Step, own: float, solution: str, entry: _HalfDone) -> Entrant:
+    """`own`: the step's points by its manifest, of which the band is a part; a course may give others."""
     keep = [name for name in step.functions if name not in entry.stubs]
-    if not entry.low < entry.high <= step.points or len(keep) + len(entry.stubs) != len(step.functions):
+    if not entry.low < entry.high <= own or len(keep) + len(entry.stubs) != len(step.functions):
         raise GraderFault(f"{path}: {entry.id}: its band or its stubs do not fit the step")
     source = make_stub(solution, step, keep)
     for edit in entry.edits:
         source = replaced_once(source, edit.find, edit.replace, f"{path}: {entry.id}")
-    return Entrant("half", step.id, entry.id, source, band=Band(entry.low, entry.high, entry.why))
+    scale = step.points / own
+    return Entrant("half", step.id, entry.id, source, band=Band(entry.low * scale, entry.high * scale, entry.why))
 
 
 def half_done(project: Project, step: Step) -> list[Entrant]:
@@ -117,7 +119,8 @@ def half_done(project: Project, step: Step) -> list[Entrant]:
     if not path.is_file():
         return []
     table = parse_table(read_text(path), path, "half-done work with its points", _Fairness)
-    return [_half_done(path, step, read_text(project.solutions / step.path), entry) for entry in table.half]
+    own = read_step(project.steps / step.id / "step.toml").points
+    return [_half_done(path, step, own, read_text(project.solutions / step.path), entry) for entry in table.half]
 
 
 # The two sample submissions, made from the solutions so that they never drift.

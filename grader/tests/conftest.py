@@ -1,12 +1,13 @@
 """What the tests share: the repository, its steps, and submissions made from the solutions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, here
+from raysteps.course.settings import PLACE
 from raysteps.course.stubs import stub_for, without_markers
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -22,6 +23,16 @@ MakeSubmission = Callable[[str, Sources], Path]
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """What takes longest begins first, so that no processor waits for it in the end: slow tests, then groups."""
     items.sort(key=lambda item: [item.get_closest_marker(mark) is None for mark in _LONG])
+
+
+@pytest.fixture(scope="session", autouse=True)
+def no_course(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """What an instructor has settled in the kit's course.toml is none of the tests' business."""
+    empty = tmp_path_factory.mktemp("course") / "course.toml"
+    empty.touch()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(PLACE, str(empty))
+        yield
 
 
 @pytest.fixture(scope="session")

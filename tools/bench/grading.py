@@ -17,6 +17,7 @@ from raysteps.common.platform import refuse_on_windows
 from raysteps.common.process import run
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
+from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
 from tools.bench.model import Cost, GradingNumbers, keep, mean_costs
 from tools.bench.programs import children_seconds
@@ -94,8 +95,8 @@ def grading(project: Project, rounds: int, console: Console) -> int:
     build/bench/grading.json."""
     refuse_on_windows("bench grading")
     steps = read_steps(project)
-    with console.status("building the kit, which both runs of a class share"):
-        build_kit(project)
+    with console.status("starting") as status:  # both runs of a class share it
+        build_kit(project, progress(console, status))
     costs: list[Cost] = []
     with tempfile.TemporaryDirectory(prefix="raysteps-bench-") as name:
         submissions = _class_of(project, Path(name) / "class", _CLASS_SIZE)

@@ -12,6 +12,7 @@ from rich.table import Table
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import Project, generated
+from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
 from tools.bench.model import BoxesNumbers, BoxesRow, Spread, ThreadsNumbers, ThreadsRow, keep
 from tools.bench.programs import Programs, accelerations, checked, default_scenes, portable
@@ -157,7 +158,8 @@ def boxes(project: Project, scenes: list[Path], size: str, console: Console) -> 
     missing = [str(scene) for scene in scenes if not scene.is_file()]
     if missing:
         raise UsageError(f"{missing[0]}: is not there; expected a scene")
-    program = build_kit(project).reference("raytrace")
+    with console.status("starting") as status:
+        program = build_kit(project, progress(console, status)).reference("raytrace")
     every = [generated(project, kind, factor) for kind, factor in _DEFAULTS] + scenes
     rows: list[BoxesRow] = []
     for scene in every:

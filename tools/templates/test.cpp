@@ -1,4 +1,5 @@
-// Visible tests of step @NUMBER@. Each has the tag of the step and of the functions that it tests.
+// Visible tests of step @NUMBER@. The brackets after a test's name are its tags: the step, and each function that it
+// tests. A test must fail with the stub.
 #include "steps/@ID@/@FILE@.hpp"
 
 #include <cmath>

@@ -5,12 +5,14 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
+from raysteps.bootstrap import start, venv
 from raysteps.bootstrap.requirements import CMAKE, COMPILER, NINJA, advice, cmake_is_new_enough
-from raysteps.bootstrap.venv import Venv
+from raysteps.bootstrap.venv import Venv, set_for
 from raysteps.course.project import Project
 
 
@@ -60,6 +62,94 @@ def test_words_reach_the_package_as_they_are(project: Project, tmp_path: Path, b
     given = ["check", "a b", "", "'", "ü"]
     done = subprocess.run([*words, *given], capture_output=True, check=False, text=True, cwd="/", timeout=60)
     assert done.stdout == "|".join(["-X", "utf8", "-P", "-m", "raysteps", *given, ""]), done.stderr
+
+
+def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(venv, "_EVERY", 0.01)
+    read = "import sys; sys.stdin.read(); import time; time.sleep(0.5); sys.exit(3)"
+    assert venv._run([sys.executable, "-c", read]) == 3
+    assert "raysteps: still at it, for" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("list", ""),
+        ("check 01", ""),
+        ("grade-class in --out out", ""),
+        ("export gradescope --out a.zip", ""),
+        ("bench", ""),
+        ("figures --check", ""),
+        ("dev new 10-fog", ""),
+        ("dev", ""),
+        ("", ""),
+        ("test --full", "dev"),
+        ("docs", "dev"),
+        ("dev lint python", "dev"),
+        ("dev format", "dev"),
+    ],
+)
+def test_only_who_tests_the_kit_needs_its_makers_packages(words: str, wanted: str) -> None:
+    assert set_for(words.split()) == wanted
+
+
+class _Kit:
+    """A folder of a kit, and what would be installed there."""
+
+    def __init__(self, root: Path, monkeypatch: pytest.MonkeyPatch, *folders: str) -> None:
+        for name in ("grader", ".venv", *folders):
+            (root / name).mkdir(parents=True)
+        (root / "grader" / "pyproject.toml").touch()
+        self.root = root
+        self.ran: list[str] = []
+        monkeypatch.setattr(start, "_set_up", lambda one, wanted: one.make(wanted))
+        monkeypatch.setattr(Venv, "run", lambda one, words: 0)
+        monkeypatch.setattr(venv, "_run", self._run)
+        monkeypatch.setattr(Venv, "is_this", lambda one: False)
+        started = subprocess.CompletedProcess[bytes]([], 0)  # its Python
+        monkeypatch.setattr(subprocess, "run", lambda words, **_: started)
+
+    def _run(self, words: Sequence[str]) -> int:
+        if "venv" in words:
+            (self.root / ".venv" / "raysteps-stamp").unlink(missing_ok=True)
+            self.ran.append("new")
+        elif "pip" in words:
+            self.ran.append(words[-1].removeprefix(str(self.root)))
+        return 0
+
+    def type(self, words: str) -> list[str]:
+        """What that installs."""
+        self.ran.clear()
+        assert start.main(str(self.root), words.split()) == 0
+        return self.ran
+
+
+def test_sets_are_installed_when_they_are_first_needed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kit = _Kit(tmp_path / "kit", monkeypatch, "solutions", "tools", "grader/tests")
+    assert kit.type("list") == ["new", "/grader[instructor]"]
+    assert kit.type("grade a") == []
+    assert kit.type("test --full") == ["/grader[dev,instructor]"]
+    assert kit.type("docs") == kit.type("list") == []
+    (kit.root / "grader" / "pyproject.toml").write_text("# other versions")
+    assert kit.type("list") == ["new", "/grader[dev,instructor]"]
+
+
+def test_a_fresh_clone_is_tested_in_one_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kit = _Kit(tmp_path / "kit", monkeypatch, "solutions", "tools", "grader/tests")
+    assert kit.type("test --full") == ["new", "/grader[dev,instructor]"]
+
+
+def test_makers_keep_what_an_older_kit_installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kit = _Kit(tmp_path / "kit", monkeypatch, "solutions", "tools", "grader/tests")
+    (kit.root / ".venv" / "raysteps-stamp").write_text("0123")
+    assert kit.type("list") == ["new", "/grader[dev,instructor]"]
+
+
+def test_students_and_autograders_get_no_more_than_they_use(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    packed = _Kit(tmp_path / "packed", monkeypatch, "solutions")
+    assert packed.type("test") == ["new", "/grader[instructor]"]  # `export` must work there without a network
+    students = _Kit(tmp_path / "students", monkeypatch)
+    assert students.type("test") == ["new", "/grader"]
 
 
 @pytest.mark.parametrize(

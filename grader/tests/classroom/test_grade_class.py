@@ -4,18 +4,23 @@ import csv
 import io
 import json
 import os
+import re
 import sqlite3
 import zipfile
+from collections.abc import Callable, Sequence
 from contextlib import closing
+from html import unescape
 from pathlib import Path
 from typing import Any
 
 import pytest
 from class_documents import without_times
 from class_fakes import FIRST, grade_class, write_entry
+from fake_grader import FakeGrader, log
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
+from raysteps.course.settings import PLACE
 from raysteps.results.store import validate
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -359,3 +364,73 @@ def test_a_grader_that_hangs_is_given_up_and_not_waited_for_again(
         assert "the grader gave up after 8 s; look at the submission by hand" in capsys.readouterr().out
     write_entry(tmp_path / "in", "bob", "// points 1\n")
     assert grade_class(*words, "--resume") == 0
+
+
+_LATE = "deadline = 2026-11-20T12:00:00+01:00\npercent_per_day = {percent}\n"
+
+
+def _report(out: Path, name: str) -> tuple[dict[str, Any], str]:
+    folder = out / "submissions" / name
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    return json.loads((folder / "results.json").read_text()), unescape(re.sub(r"<style>.*?</style>|<[^>]*>", "", page))
+
+
+def test_a_report_says_whose_it_is_how_late_and_what_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    course = tmp_path / "course.toml"
+    course.write_text('title = "Graphics 101"\nterm = "Autumn 2026"\nseed = 48213\n')
+    monkeypatch.setenv(PLACE, str(course))
+    for name in ("7", "8"):
+        write_entry(tmp_path / "in", name, "// points 9")
+    roster, policy, out = tmp_path / "roster.csv", tmp_path / "late.toml", tmp_path / "out"
+    roster.write_text(
+        "id,name,submitted_at\n7,Ann Lee,2026-11-21T13:00:00+01:00\n8,Bob Ray,2026-11-20T11:00:00+01:00\n"
+    )
+    policy.write_text(_LATE.format(percent=10))
+    words = (tmp_path / "in", "--out", out, "--roster", roster)
+    assert grade_class(*words, "--late-policy", policy) == 0
+    document, page = _report(out, "7")
+    assert (document["course"], document["handed_in"]["students"]) == ("Graphics 101, Autumn 2026", ["Ann Lee"])
+    for text in ("Graphics 101, Autumn 2026", "Ann Lee", "Submission 7, handed in 2026-11-21 13:00:00+01:00"):
+        assert text in page
+    assert "Late: 7.2 of 9 points count. Handed in 1 day 1 hour after the deadline" in page
+    assert "20 % off 9 points: 9 - 1.8 = 7.2 points." in page
+    assert "7.2 after lateness" in page
+    document, page = _report(out, "8")
+    assert "Handed in on time: 9 points." in page
+    assert "Late:" not in page
+
+    log = (tmp_path / "log.txt").read_text()
+    policy.write_text(_LATE.format(percent=50))
+    assert grade_class(*words, "--late-policy", policy, "--resume") == 0
+    assert (tmp_path / "log.txt").read_text() == log  # nothing was graded again
+    document, page = _report(out, "7")
+    assert document["handed_in"]["late"]["points"] == 0
+    assert "Late: 0 of 9 points count." in page
+    assert grade_class(*words, "--late-policy", "none", "--resume") == 0
+    document, page = _report(out, "7")
+    assert document["handed_in"]["late"] is None
+    assert "Late:" not in page
+    assert "handed in 2026-11-21 13:00:00+01:00" in page
+
+
+def test_known_mistakes_are_learned_before_anybody_waits_for_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def learn(_grader: FakeGrader, steps: Sequence[str], say: Callable[[str], None]) -> None:
+        log(f"learn {' '.join(steps)}")
+        say("learning")
+
+    monkeypatch.setattr(FakeGrader, "learn", learn)
+    write_entry(tmp_path / "in", "ann", "// points 9")
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out", "--only", "1-2") == 0
+    lines = (tmp_path / "log.txt").read_text().splitlines()
+    assert lines[:2] == ["learn 01-camera-rays 02-intersection", "begin ann"]
+
+
+def test_no_page_and_nothing_that_is_given_back_tells_the_seed(tmp_path: Path) -> None:
+    out, seed = tmp_path / "out", "48213977"
+    write_entry(tmp_path / "in", "ann", "// points 9")
+    assert grade_class(tmp_path / "in", "--out", out, "--seed", seed) == 0
+    for path in [out / "class.html", *(path for path in (out / "submissions").rglob("*") if path.is_file())]:
+        assert seed.encode() not in path.read_bytes(), path
+    assert json.loads((out / "class.json").read_text())["run"]["settings"]["seed"] == int(seed)

@@ -1,8 +1,13 @@
 """Programs that misbehave."""
 
 import sys
+import threading
 import time
+from pathlib import Path
 
+import pytest
+
+from raysteps.common.files import one_at_a_time
 from raysteps.common.process import Outcome, run
 
 
@@ -52,3 +57,19 @@ def test_windows_tells_crashes_by_large_exit_codes() -> None:
     assert name(0xC0000005) == "SIGSEGV"
     assert name(0xC0000017) == "exception 0xc0000017"
     assert name(255) is None
+
+
+def test_who_has_to_wait_for_a_lock_can_say_so(tmp_path: Path) -> None:
+    waits, done = threading.Event(), threading.Event()
+
+    def second() -> None:
+        with one_at_a_time(tmp_path / "lock", waits.set):
+            done.set()
+
+    with one_at_a_time(tmp_path / "lock", lambda: pytest.fail("nobody holds it")):
+        thread = threading.Thread(target=second)
+        thread.start()
+        assert waits.wait(60)
+        assert not done.is_set()
+    thread.join(60)
+    assert done.is_set()

@@ -1,17 +1,24 @@
-"""course.toml: the seed and the late policy of a term, and who uses them."""
+"""course.toml: what a course settles for a term, and who goes by it."""
 
 import argparse
+import json
+import re
 import zipfile
+from datetime import date
 from pathlib import Path
 
 import pytest
+from class_fakes import grade_class, write_entry
 from rich.console import Console
 
 from raysteps.cli import export as exports
 from raysteps.cli.grade_class import add_arguments, read_options
 from raysteps.common.errors import UsageError
+from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_steps
 from raysteps.course.project import Project, here
 from raysteps.course.settings import PLACE, Course, read_course
+from raysteps.release.build_release import due_steps
+from raysteps.release.contents import kit_contents
 
 
 @pytest.fixture
@@ -38,27 +45,144 @@ def test_it_lies_in_the_kit_or_where_the_environment_says(tmp_path: Path, place:
     kit.mkdir()
     (kit / "course.toml").write_text("seed = 3\n")
     place.write_text('seed = 77\nlate_policy = "rules/late.toml"\n')
-    assert read_course(Project(kit)) == Course(place, 77, tmp_path / "rules" / "late.toml")
+    assert read_course(Project(kit)) == Course(place, 77, tmp_path / "rules" / "late.toml")  # as older kits had it
     with pytest.MonkeyPatch.context() as patch:
         patch.delenv(PLACE)
         assert read_course(Project(kit)).seed == 3
 
 
+_WHOLE = """title = "Graphics 101"
+term = "Autumn 2026"
+seed = 48213
+
+[steps]
+"1-2" = 2026-10-12
+"3-4" = 2026-11-02
+
+[points]
+02 = 25
+
+[late_policy]
+deadline = 2026-11-20T23:59:00+01:00
+percent_per_day = 10
+[late_policy.extensions]
+4713 = 2
+"""
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("sed = 5", "unknown key 'sed'; known are seed, late_policy"),
-        ("seed = -1", "$.seed: expected int >= 0"),
-        ('seed = "5"', "$.seed: expected int | null, got str"),
-        ("seed = ", "cannot be read as TOML"),
+        ("sed = 5", ":1:1: unknown key 'sed'; known are title, term, steps, points, seed, late_policy"),
+        ("seed = -1", ":1:1: seed: expected a whole number from 0 to .* (expected int >= 0)"),
+        ('term = "x"\n  seed = "5"', ":2:3: seed: expected a whole number from 0 to .* (expected int | null, got str)"),
+        ("\nseed = ", ":2:8: is not TOML: invalid value"),
+        ('title = "Graphics', ":1:18: is not TOML: unterminated string"),
+        ('title = ""', ":1:1: title: expected the name of the course"),
+        ("steps = [1, true]", ":1:1: steps: expected steps such as"),
+        ('[steps]\n"1-2" = 2026-10-12\n"3" = "soon"', ":3:1: steps: expected steps such as"),
+        ("[steps]\n1 = 2026-10-12T10:00:00", ":2:1: steps: expected .* (a day has no time)"),
+        ("[points]\n02 = 25\n03 = 0", ":3:1: points: expected a table of steps"),
     ],
 )
-def test_a_bad_file_is_refused_with_its_path(tmp_path: Path, place: Path, text: str, words: str) -> None:
+def test_a_bad_file_is_refused_with_the_place_of_what_is_wrong(
+    tmp_path: Path, place: Path, text: str, words: str
+) -> None:
     place.write_text(text)
-    with pytest.raises(UsageError) as caught:
+    said = ".*".join(map(re.escape, words.split(".*")))
+    with pytest.raises(UsageError, match=f"^{re.escape(str(place))}{said}"):
         read_course(Project(tmp_path))
-    assert words in str(caught.value)
-    assert str(place) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('title = "x"\nsteps = "1-14"', ":2:1: steps: there is no step '14'"),
+        ('[steps]\n"1-2" = 2026-10-12\n"2-3,77" = 2026-10-13', ":3:1: steps: there is no step '77'"),
+    ],
+)
+def test_steps_that_are_not_there_are_refused(place: Path, text: str, words: str) -> None:
+    place.write_text(text)
+    with pytest.raises(UsageError, match=re.escape(f"{place}{words}")):
+        course_steps(here())
+
+
+def test_points_of_a_step_that_is_not_there_are_refused(place: Path) -> None:
+    place.write_text("[points]\n1 = 5\n77 = 5")
+    with pytest.raises(UsageError, match=re.escape(f"{place}:3:1: points: there is no step '77'")):
+        read_steps(here())
+
+
+def test_one_file_says_it_all(place: Path) -> None:
+    place.write_text(_WHOLE)
+    course = read_course(here())
+    assert (course.name, course.seed) == ("Graphics 101, Autumn 2026", 48213)
+    assert [(step.index, step.points) for step in course_steps(here())] == [(1, 10), (2, 25), (3, 15), (4, 10)]
+    assert len(read_steps(here())) == 9  # the others can still be asked for
+    assert [step.index for step in chosen_steps(here(), ["5"])] == [5]
+    assert [day.isoformat() for _, day in dated_steps(here())] == ["2026-10-12"] * 2 + ["2026-11-02"] * 2
+
+
+@pytest.mark.parametrize("text", ['steps = "1-4"', 'steps = ["1-2", "03", 4]', 'steps = "1,2 3,4"'])
+def test_steps_are_said_as_on_the_command_line(place: Path, text: str) -> None:
+    place.write_text(text)
+    assert [step.index for step in course_steps(here())] == [1, 2, 3, 4]
+
+
+def test_what_is_not_due_stays(place: Path) -> None:
+    place.write_text(_WHOLE)
+    assert [step.index for step in due_steps(here(), date(2026, 11, 1))] == [1, 2]
+    assert [step.index for step in due_steps(here(), date(2026, 11, 2))] == [1, 2, 3, 4]
+    with pytest.raises(UsageError, match=r":5:1: the first steps are given out on 2026-10-12; --steps gives out"):
+        due_steps(here(), date(2026, 10, 11))
+    place.write_text('steps = "2-4"')
+    with pytest.raises(UsageError, match=r"course\.toml:1:1: expected the first and the last, such as 1-4"):
+        due_steps(here(), date(2026, 10, 11))
+
+
+def test_what_is_given_out_has_the_points_of_the_course(place: Path) -> None:
+    place.touch()
+    assert course_manifests(here()) == {}
+    place.write_text(_WHOLE)
+    before = (here().steps / "02-intersection" / "step.toml").read_text()
+    made = {name: data.decode() for name, data in course_manifests(here()).items()}
+    assert made == {"steps/02-intersection/step.toml": before.replace("\npoints = 20\n", "\npoints = 25\n")}
+    files = kit_contents(here(), course_steps(here()), read_steps(here())[4:])
+    assert files["steps/02-intersection/step.toml"].decode() == made["steps/02-intersection/step.toml"]
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_a_class_is_graded_by_the_whole_file(tmp_path: Path, place: Path) -> None:
+    place.write_text(_WHOLE)
+    for name in ("4713", "anna"):
+        write_entry(tmp_path / "in", name, "// points 10")
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out") == 0
+    document = json.loads((tmp_path / "out" / "class.json").read_text())
+    assert [(step["id"][:2], step["points"]) for step in document["steps"]] == [
+        ("01", 10), ("02", 25), ("03", 15), ("04", 10),
+    ]  # fmt: skip
+    assert document["run"]["settings"]["seed"] == 48213
+    assert {one["late"]["deadline"][:10] for one in document["submissions"]} == {"2026-11-20", "2026-11-22"}
+    assert document["late_policy"].endswith('[extensions]\n"4713" = 2\n')
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_the_command_line_wins(tmp_path: Path, place: Path) -> None:
+    place.write_text(_WHOLE)
+    write_entry(tmp_path / "in", "anna", "// points 10")
+    words = ("--out", tmp_path / "out", "--steps", "1-2,5", "--late-policy", "none", "--seed", "7")
+    assert grade_class(tmp_path / "in", *words) == 0
+    document = json.loads((tmp_path / "out" / "class.json").read_text())
+    assert [step["id"][:2] for step in document["steps"]] == ["01", "02", "05"]
+    assert (document["run"]["settings"]["seed"], document["late_policy"]) == (7, None)
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_a_wrong_late_policy_is_refused_where_it_stands(tmp_path: Path, place: Path) -> None:
+    place.write_text(_WHOLE.replace("percent_per_day = 10", "percent_per_day = 101"))
+    write_entry(tmp_path / "in", "anna", "// points 10")
+    with pytest.raises(UsageError, match=re.escape(f"{place}:14:1: `percent_per_day`: expected a number from 0 to")):
+        grade_class(tmp_path / "in", "--out", tmp_path / "out")
 
 
 def test_a_file_that_is_named_must_be_there(tmp_path: Path, place: Path) -> None:
@@ -75,11 +199,12 @@ def test_a_class_is_graded_as_the_course_says_unless_the_line_says_otherwise() -
 
 
 def test_an_autograder_takes_the_seed_along(tmp_path: Path, place: Path) -> None:
-    place.write_text("seed = 77\n")
+    place.write_text('seed = 77\nsteps = "1-4"\n[points]\n02 = 25\n')
     parser = argparse.ArgumentParser()
     exports.add_arguments(parser)
     out = tmp_path / "autograder.zip"
     assert exports.run(here(), parser.parse_args(["gradescope", "--out", str(out)]), Console()) == 0
     with zipfile.ZipFile(out) as archive:
-        assert "--seed 77" in archive.read("run_autograder").decode()
+        assert "--seed 77 --steps 1-4" in archive.read("run_autograder").decode()
+        assert b"\npoints = 25\n" in archive.read("kit/steps/02-intersection/step.toml")
         assert not [name for name in archive.namelist() if name.endswith("course.toml")]

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.course.manifest import Step, choose, read_step
+from raysteps.course.manifest import Step, choose, choose_one, read_step, steps_words
 from raysteps.course.project import Project
 
 pytestmark = pytest.mark.portable
@@ -39,6 +39,46 @@ def test_a_step_has_three_names(steps: list[Step], name: str) -> None:
 def test_no_name_is_every_step_and_order_is_kept(steps: list[Step]) -> None:
     assert choose(steps, []) == steps
     assert [step.number for step in choose(steps, ["5", "01", "5"])] == ["01", "05"]
+
+
+@pytest.mark.parametrize(
+    ("names", "numbers"),
+    [
+        (["1-4"], "1234"),
+        (["01", "02"], "12"),
+        (["01 02"], "12"),
+        (["1,3"], "13"),
+        (["1-2,", "04-shadows", "7\u20138"], "12478"),
+        (["3-3"], "3"),
+    ],
+)
+def test_lists_and_ranges_have_one_syntax(steps: list[Step], names: list[str], numbers: str) -> None:
+    assert "".join(str(step.index) for step in choose(steps, names)) == numbers
+
+
+def test_a_range_steps_over_what_is_left_out(steps: list[Step]) -> None:
+    assert [step.index for step in choose([*steps[:2], *steps[3:]], ["1-4"])] == [1, 2, 4]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("4-1", "ends before it begins; expected 1-4"), ("1-14", "no step '14'"), (",", "expected steps, such as 1-4")],
+)
+def test_a_wrong_range_is_refused(steps: list[Step], name: str, words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        choose(steps, [name])
+
+
+def test_one_step_is_one_step(steps: list[Step]) -> None:
+    assert choose_one(steps, "2").number == "02"
+    with pytest.raises(UsageError, match="'1-2': expected one step, such as 01"):
+        choose_one(steps, "1-2")
+
+
+def test_steps_are_named_as_they_are_typed(steps: list[Step]) -> None:
+    assert steps_words(steps[:4]) == ["1-4"]
+    assert steps_words([steps[0], steps[2]]) == ["1", "3"]
+    assert steps_words(steps[4:5]) == ["5"]
 
 
 @pytest.mark.parametrize("name", ["0", "10", "02-", "intersection", "²", "-1"])

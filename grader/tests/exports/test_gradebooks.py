@@ -14,7 +14,7 @@ from raysteps.common.documents import as_text
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.results.model import Results, StepResult
+from raysteps.results.model import HandIn, Lateness, Results, StepResult
 
 CANVAS = (
     "Student,ID,SIS User ID,SIS Login ID,Section,Essay (11),Raysteps (12),Final Score\r\n"
@@ -141,6 +141,20 @@ def test_ambiguity_names_both(case: Case, rows: str, text: str, both: str) -> No
     with pytest.raises(UsageError, match=both):
         case.run("canvas", text, "--assignment", "12")
     assert not case.out.exists()
+
+
+def test_moodle_tells_how_late_it_was(case: Case, steps: list[Step]) -> None:
+    folder = case.graded / "submissions" / "one"
+    folder.mkdir(parents=True)
+    document = mixed(steps, "is wrong")
+    document.total.points, document.course = 90.0, "Graphics 101"
+    words = "Handed in 1 day after the deadline: 1 day begun, 20 % each, takes 20 % off 90 points: 90 - 18 = 72 points."
+    document.handed_in = HandIn(["Ann"], "2026-11-21T12:00:00+01:00", False, Lateness(1, 20, 72.0, "2026-11-20", words))
+    (folder / "results.json").write_text(as_text(document))
+    case.results("one,S1,Ann,,90,100,72,\n")
+    feedback = list(csv.reader(io.StringIO(case.run("moodle", MOODLE), newline="")))[1][10]
+    assert f"Graphics 101.<br>Late: 72 of 90 points count.<br>{words}<br>" in feedback
+    assert feedback.count("72 of 90") == 1
 
 
 def test_moodle_changes_grades_and_feedback_only(

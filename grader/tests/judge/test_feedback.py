@@ -21,7 +21,7 @@ def _document() -> Results:
     picture = HiddenResult("name-secret-twin", "picture", 1.0, weight=2.0, wrong_share=0.001)
     step = StepResult("03-phong-shading", "partial", 7.5, 15, False, hidden=[wrong, right, picture])
     step.messages = ["1 of 12 tests failed.", "1 of 3 hidden items lost points.", "message-secret"]
-    return Results.of("ada", [step], seed=3)
+    return Results.of("ada", [step])
 
 
 def test_full_is_all() -> None:

@@ -83,6 +83,31 @@ def test_everything_that_is_made_from_a_step_is_made(copy: Project, capsys: pyte
     assert "dev check --only 10" in capsys.readouterr().out
 
 
+def test_what_is_still_the_samples_is_named_until_it_is_replaced(
+    copy: Project, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert _new(copy, "10-glow") == 0
+    said = capsys.readouterr().out
+    for words in ("about fog", "alternatives/in-doubles.cpp", "[10-glow][glow_color]", "balls-glow", "glass.nff"):
+        assert words in said
+    step = read_steps(copy)[-1]
+    left = command.sample_leftovers(copy, step)
+    for file in ("steps/10-glow/README.md", "steps/10-glow/step.toml", "steps/10-glow/glow.hpp",
+                 "steps/10-glow/glow_test.cpp", "solutions/10-glow/mutants.toml",
+                 "solutions/10-glow/alternatives/in-doubles.cpp"):  # fmt: skip
+        assert [line for line in left if line.startswith(f"{file}:")], file
+    readme = copy.steps / step.id / "README.md"
+    number = int(next(line for line in left if "README.md" in line).split(":")[1])
+    lines = readme.read_text(encoding="utf-8").splitlines()
+    assert re.search("air|far away", lines[number - 1])
+    readme.write_text("# Step 10: Glow\n\nYou edit one file: `glow.cpp`.\n", encoding="utf-8")
+    assert not [line for line in command.sample_leftovers(copy, step) if "README.md" in line]
+
+
+def test_the_kits_own_steps_have_nothing_of_the_sample(project: Project) -> None:
+    assert [line for step in read_steps(project) for line in command.sample_leftovers(project, step)] == []
+
+
 def test_a_step_that_is_taken_away_leaves_nothing(copy: Project, capsys: pytest.CaptureFixture[str]) -> None:
     _new(copy, "10-fog")
     for room in (copy.steps, copy.solutions):

@@ -1,6 +1,7 @@
 """What `dev check` hands in, and what it makes of the grades."""
 
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 
@@ -9,7 +10,7 @@ from raysteps.course.mutants import read_alternatives, read_mutants
 from raysteps.course.project import Project
 from raysteps.results.model import Diagnosis, StepResult, TestResult
 from tools.grade_audit import ObservedGrade, problems_of, random_pairs, rounds_of, row_of, shortfalls, total
-from tools.test_submissions import Entrant, Kind, mutants
+from tools.test_submissions import Entrant, Kind, half_done, mutants
 
 
 def _seen(
@@ -84,6 +85,7 @@ def test_pairs_sit_in_two_steps_and_are_drawn_again_from_their_seed(project: Pro
     ("kind", "points", "says"),
     [
         ("stub", 1.0, "a stub has 1 of"),
+        ("stub", 6.0, "a stub has 6 of 10 points, for test 'a test'"),
         ("reference", 9.0, "it is right and has 9 of"),
         ("alternative", 9.5, "it is right and has 9.5 of"),
         ("mutant", 10.0, "nobody notices it"),
@@ -137,3 +139,11 @@ def test_the_table_counts_each_file_once_and_knows_what_is_too_few(project: Proj
     assert (row.alternatives, row.full) == (1, 1)
     assert len(shortfalls(total([row]))) == 2
     assert shortfalls(total([row_of(step.id, seen[:3])])) == []
+
+
+def test_what_is_fair_follows_the_points_of_a_course(project: Project, steps: list[Step]) -> None:
+    usual, doubled = half_done(project, steps[1]), half_done(project, replace(steps[1], points=steps[1].points * 2))
+    for one, two in zip(usual, doubled, strict=True):
+        assert one.band is not None
+        assert two.band is not None
+        assert (two.band.low, two.band.high) == (one.band.low * 2, one.band.high * 2)

@@ -8,6 +8,7 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from dataclasses import replace
+from datetime import date
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
@@ -33,7 +34,7 @@ def released(
     request: pytest.FixtureRequest, kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
     folder = tmp_path_factory.mktemp("course") / "kit"
-    write_release(kit, first_steps(None if request.param == "all" else request.param, steps), "Graphics 101", folder)
+    write_release(kit, first_steps([] if request.param == "all" else [request.param], steps), "Graphics 101", folder)
     return folder
 
 
@@ -187,6 +188,15 @@ def test_a_printed_check_shows_the_points_that_students_see(steps: list[Step]) -
     assert as_printed(shown, steps[2]) == (
         "03-phong-shading Phong shading: passed, 9.8 of 9.8\n  tests    all 12 passed\n"
     )
+
+
+def test_the_readme_says_when_the_rest_follows(steps: list[Step]) -> None:
+    soon, late = date(2026, 11, 2), date(2026, 11, 23)
+    later = [(steps[4], late), (steps[2], soon), (steps[3], late)]
+    page = readme("Graphics 101", steps[:2], "Autumn 2026", later).decode()
+    assert page.startswith("# Graphics 101\n\nAutumn 2026.\n\n")
+    assert "\n\nStep 3 follows on 2026-11-02, and steps 4-5 on 2026-11-23.\n\n## Begin" in page
+    assert "follow" not in readme("Graphics 101", steps[:2]).decode().partition("## Begin")[0]
 
 
 def test_every_handout_shows_such_a_check(released: Path, steps: list[Step]) -> None:

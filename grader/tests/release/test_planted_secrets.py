@@ -72,6 +72,7 @@ def test_in_every_kind_of_file_that_goes_out(
         f"{package}/report/static/x.js": "// " + mutants[mutants.index('sees = "Surfaces behind') :].partition("\n")[0],
         f"{package}/release/overlay/notes.md": solution,
     }
+    monkeypatch.delenv("RAYSTEPS_COURSE")
     (copy.root / "course.toml").write_text(f"seed = {_SEED}\n", encoding="utf-8")
     made = (
         "framework/core/notes.egg-info/a.txt",

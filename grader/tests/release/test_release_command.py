@@ -71,7 +71,7 @@ def _alone(root: Path, room: Path, *words: str) -> Outcome:
 
 
 def test_the_line_that_grades_a_release_names_its_steps(steps: list[Step]) -> None:
-    assert line_to_grade(steps[:4], steps) == "./raysteps grade-class submissions --out grades --only 1 2 3 4"
+    assert line_to_grade(steps[:4], steps) == "./raysteps grade-class submissions --out grades --only 1-4"
     assert line_to_grade(steps, steps) == "./raysteps grade-class submissions --out grades"
 
 

@@ -22,7 +22,7 @@ _LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
 @pytest.fixture(scope="module")
 def released(kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("course") / "kit"
-    write_release(kit, first_steps("1-4", steps), "Graphics 101", folder)
+    write_release(kit, first_steps(["1-4"], steps), "Graphics 101", folder)
     return folder
 
 
@@ -69,22 +69,25 @@ def test_no_link_leads_nowhere(released: Path) -> None:
 
 
 def test_the_steps_of_a_release_begin_at_the_first(steps: list[Step]) -> None:
-    assert [step.number for step in first_steps("1-3", steps)] == ["01", "02", "03"]
-    assert first_steps(None, steps) == steps
-    for text in ("2-4", "x", "1-", "3-1", ""):
-        with pytest.raises(UsageError, match="such as 1-4"):
-            first_steps(text, steps)
-    for text, number in (("1-12", 12), ("0", 0)):
-        with pytest.raises(UsageError, match=rf"there is no step {number}; the steps are 01-camera-rays, .*, 09-bvh$"):
-            first_steps(text, steps)
+    for text in ("1-3", "1,2,3", "01 02 03", "3"):
+        assert [step.number for step in first_steps([text], steps)] == ["01", "02", "03"]
+    assert first_steps([], steps) == steps
+    for text in ("2-4", "1,3", "", "2-3,7"):
+        with pytest.raises(UsageError, match=f"--steps {text}: .*such as 1-4"):
+            first_steps([text], steps)
+    for text, words in (("1-12", "no step '12'"), ("0", "no step '0'"), ("x", "no step 'x'"), ("3-1", "expected 1-3")):
+        with pytest.raises(UsageError, match=rf"^--steps {text}: .*{words}"):
+            first_steps([text], steps)
+    with pytest.raises(UsageError, match=r"^course\.toml:1:1: expected the first and the last"):
+        first_steps(["3"], steps, "course.toml:1:1")
 
 
 def test_the_steps_of_a_course_that_begins_later(steps: list[Step]) -> None:
     later = [steps[1], steps[2], *steps[4:]]
-    assert [step.number for step in first_steps("3", later)] == ["02", "03"]
-    assert [step.number for step in first_steps("2-5", later)] == ["02", "03", "05"]
-    with pytest.raises(UsageError, match=r"--steps 2-4: there is no step 4; the steps are 02-"):
-        first_steps("2-4", later)
+    assert [step.number for step in first_steps(["3"], later)] == ["02", "03"]
+    assert [step.number for step in first_steps(["2-5"], later)] == ["02", "03", "05"]
+    with pytest.raises(UsageError, match=r"--steps 2-4: there is no step '4'.* The steps are 02-"):
+        first_steps(["2-4"], later)
 
 
 def test_a_step_that_is_left_out_in_between_is_refused(kit: BuiltKit, steps: list[Step], tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling, b
 from class_documents import STEPS, document, many, missing, result, student, submission
 from playwright.sync_api import Page
 
-from raysteps.common.text import tenths
+from raysteps.common.text import searchable, tenths
 from raysteps.report.class_page import write_class_report
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
@@ -119,6 +119,73 @@ def test_search_status_and_marks_filter(open_page: OpenPage, tmp_path: Path) -> 
     assert _names(page) == ["bob"]
     page.click("text=Show all")
     assert len(_names(page)) == 5
+
+
+@pytest.mark.parametrize(
+    ("name", "search"),
+    [
+        ("Jörg Müller", "muller jorg"),
+        ("Jörg Müller", "MU\u0308LLER"),
+        ("Łukasz Żółć", "lukasz zolc"),
+        ("Lukasz Zolc", "łukasz żółć"),
+        ("Søren Đorđe Straße", "soren dorde strasse"),
+        ("İpek Y\u0131ld\u0131z", "ipek yildiz"),
+        ("Þór Æsir", "thor aesir"),
+        ("Nguyễn Thị Ánh", "nguyen thi anh"),
+    ],
+)
+def test_search_needs_no_accents_and_no_foreign_keys(
+    open_page: OpenPage, tmp_path: Path, name: str, search: str
+) -> None:
+    facts = document([submission("one", students=[student(name)]), submission("two", students=[student("Ann Lee")])])
+    page = open_page(write_class_report(facts, tmp_path))
+    page.fill("#search", search)
+    assert _names(page) == [name]
+
+
+def test_what_is_searched_for_is_made_alike_in_both_languages(open_page: OpenPage, tmp_path: Path) -> None:
+    page = open_page(_page(tmp_path))
+    letters = "".join(
+        map(chr, [*range(0x21, 0x250), *range(0x1E00, 0x1F00), *range(0x3B1, 0x3C9), *range(0x410, 0x450)])
+    )
+    made = page.evaluate(
+        """text => ClassFilter.prototype.searchable.call(
+            { letters: JSON.parse(document.getElementById("data").textContent).letters }, text)""",
+        letters,
+    )
+    assert made == searchable(letters)
+    assert all(letter.isascii() for letter in searchable("łøđħŧßæœþð\u0131ŋƶÄéçŠž"))
+
+
+@pytest.mark.parametrize("amount", [3, 40, 500])
+def test_the_table_stands_on_the_first_screen(open_page: OpenPage, tmp_path: Path, amount: int) -> None:
+    page = open_page(write_class_report(many(amount), tmp_path), width=1400, height=900)
+    rows = page.locator(".class-table tbody tr")
+    seen = rows.nth(min(amount, 10) - 1).bounding_box()
+    assert seen is not None
+    assert seen["y"] + seen["height"] <= 900
+    assert page.locator(".tiles").bounding_box()["y"] < 300  # type: ignore[index]
+    assert_no_sideways_scrolling(page)
+
+
+def test_a_sign_stays_beside_its_points(open_page: OpenPage, tmp_path: Path) -> None:
+    page = open_page(write_class_report(many(40), tmp_path), width=1400, height=900)
+    wrong = page.eval_on_selector_all(
+        ".class-table tbody tr td[class]:not(.marks)",
+        """cells => cells.map(cell => {
+            return cell.scrollWidth > cell.clientWidth || getComputedStyle(cell).whiteSpace !== "nowrap";
+        })""",
+    )
+    assert wrong
+    assert not any(wrong)
+
+
+@pytest.mark.parametrize("steps", [4, 5, 6, 7, 8, 9, 10, 11])
+def test_no_card_stands_alone(open_page: OpenPage, tmp_path: Path, steps: int) -> None:
+    some = [{**STEPS[0], "id": f"{number:02d}-step"} for number in range(1, steps + 1)]
+    page = open_page(write_class_report(document([], steps=some), tmp_path), width=1400, height=900)
+    tops = [box["y"] for card in page.locator(".card").all() if (box := card.bounding_box()) is not None]
+    assert tops.count(tops[-1]) > 1
 
 
 def test_a_common_mistake_shows_who_made_it(open_page: OpenPage, tmp_path: Path) -> None:

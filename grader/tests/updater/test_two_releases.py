@@ -38,7 +38,7 @@ BESIDE = {
 @pytest.fixture(scope="module")
 def old(kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("old") / "course"
-    write_release(kit, first_steps("1-2", steps), "Graphics 101", folder)
+    write_release(kit, first_steps(["1-2"], steps), "Graphics 101", folder)
     return folder
 
 
@@ -52,7 +52,7 @@ def new(kit: BuiltKit, steps: list[Step], tmp_path_factory: pytest.TempPathFacto
     folder = tmp_path_factory.mktemp("new") / "course"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(contents, "pristine_stub", stub)
-        write_release(kit, first_steps("1-4", steps), "Graphics 101", folder)
+        write_release(kit, first_steps(["1-4"], steps), "Graphics 101", folder)
     return folder
 
 

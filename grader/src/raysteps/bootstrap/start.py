@@ -3,26 +3,28 @@
 import sys
 from pathlib import Path
 
-from raysteps.bootstrap.venv import CannotSetUp, Venv, say
+from raysteps.bootstrap.venv import CannotSetUp, Venv, say, set_for
 
 _USAGE = 2
 
 
-def _set_up(venv: Venv) -> None:
+def _set_up(venv: Venv, wanted: str) -> None:
     from raysteps.bootstrap.requirements import get_what_is_needed, get_what_is_useful  # rarely: they take long to load
 
     get_what_is_needed()
-    if (venv.root / "solutions").is_dir():  # a students' kit grades nobody and has no wide trees
+    if venv.is_whole:  # a students' kit grades nobody and has no wide trees
         get_what_is_useful()
-    venv.make()
+    venv.make(wanted)
 
 
 def main(root: str, words: list[str]) -> int:
     """Sets up what is missing, once, and runs the command: in this process where it is the right one already."""
-    venv = Venv(Path(root))
+    venv, wanted = Venv(Path(root)), set_for(words)
     try:
-        if not venv.is_ready():
-            _set_up(venv)
+        if not venv.is_made():
+            _set_up(venv, wanted)
+        elif not venv.has(wanted):
+            venv.add(wanted, " ".join(words[:2] if words[0] == "dev" else words[:1]))
         elif venv.is_this():
             sys.argv[1:] = words
             from raysteps.cli.app import run_process

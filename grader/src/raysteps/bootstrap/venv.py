@@ -3,6 +3,7 @@
 import hashlib
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 
@@ -11,8 +12,40 @@ def say(text: str) -> None:
     print(f"raysteps: {text}", file=sys.stderr, flush=True)
 
 
+_TAKES = ("about half a minute", "some minutes, 500 MB")  # without the makers' set, and with it
+
+
+_EVERY = 20  # seconds
+
+
+def _run(words: Sequence[str]) -> int:
+    """The exit code of a program that may take long and says little."""
+    import subprocess  # takes long to load, and is rarely needed
+    import time
+
+    start = time.monotonic()
+    with subprocess.Popen(words, stdout=2, stdin=subprocess.DEVNULL) as process:
+        while True:
+            try:
+                return process.wait(_EVERY)
+            except subprocess.TimeoutExpired:
+                say(f"still at it, for {time.monotonic() - start:.0f} s")
+
+
 class CannotSetUp(Exception):
     """What is missing, and what to type."""
+
+
+# Three sets of packages: the student's, which every kit needs, and on top of it those of the extras of pyproject.toml.
+INSTRUCTOR = "instructor"
+MAKER = "dev"
+_OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, and what of them where it is not all
+
+
+def set_for(words: Sequence[str]) -> str:
+    """What a command needs beside the usual set of its kit; nothing for most."""
+    some = _OF_MAKERS.get(words[0]) if words else None
+    return MAKER if some is not None and (not some or (words[1:2] and words[1] in some)) else ""
 
 
 class Venv:
@@ -22,6 +55,23 @@ class Venv:
         self.root = root
         self.folder = root / ".venv"
         self._stamp = self.folder / "raysteps-stamp"
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it is the kit of an instructor."""
+        return (self.root / "solutions").is_dir()
+
+    def _usual(self) -> set[str]:
+        return {INSTRUCTOR} if self.is_whole else set()
+
+    def _installed(self) -> tuple[str, set[str]]:
+        """The fingerprint that it was made with, and the sets beside the student's."""
+        try:
+            first, *sets = self._stamp.read_text(encoding="utf-8").split()
+        except (OSError, ValueError):
+            return "", set()
+        # an older kit installed everything for everybody, and wrote no sets
+        return first, set(sets) or ({MAKER} if (self.root / "grader" / "tests").is_dir() else set())
 
     @property
     def python(self) -> Path:
@@ -42,32 +92,43 @@ class Venv:
         """Whether this process is its Python, started as `run` would start it."""
         return self._is_mine() and bool(sys.flags.utf8_mode) and sys.flags.safe_path
 
-    def is_ready(self) -> bool:
-        try:
-            if self._stamp.read_text(encoding="utf-8") != self._fingerprint():
-                return False
-            if self._is_mine():
-                return True
-            import subprocess  # takes long to load, and is rarely needed
+    def is_made(self) -> bool:
+        """Whether its Python starts, and its packages are those of this kit."""
+        if self._installed()[0] != self._fingerprint():
+            return False
+        if self._is_mine():
+            return True
+        import subprocess  # takes long to load, and is rarely needed
 
+        try:
             return subprocess.run([self.python, "-c", ""], capture_output=True, check=False).returncode == 0
         except OSError:
             return False
 
-    def make(self) -> None:
-        """Anew, with all packages."""
-        import subprocess
+    def has(self, wanted: str) -> bool:
+        """Whether a set is there, or has no use: a kit that was packed without tools tests nothing."""
+        return not wanted or not (self.root / "tools").is_dir() or wanted in self._installed()[1]
 
-        say("setting up the Python part in .venv (once, about a minute)")
+    def make(self, wanted: str = "") -> None:
+        """Anew, with the usual set, the one that is wanted and those that were there before."""
+        sets = self._usual() | self._installed()[1] | (set() if self.has(wanted) else {wanted})
+        say(f"setting up the Python part in .venv (once, {_TAKES[MAKER in sets]})")
         words = [getattr(sys, "_base_executable", sys.executable), "-m", "venv", "--clear", str(self.folder)]
-        if subprocess.run(words, check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
+        if _run(words) != 0:
             raise CannotSetUp(f"{self.folder} cannot be made; the lines above say why")
+        self._install(sets)
+
+    def add(self, wanted: str, command: str) -> None:
+        """One more set."""
+        say(f"installing what only `{command}` and the like need into .venv (once, {_TAKES[True]})")
+        self._install(self._usual() | self._installed()[1] | {wanted})
+
+    def _install(self, sets: set[str]) -> None:
         install = [str(self.python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e"]
-        tests = (self.root / "grader" / "tests").is_dir()  # a students' kit has none
-        wanted = f"{self.root / 'grader'}{'[dev]' if tests else ''}"
-        if subprocess.run([*install, wanted], check=False, stdout=2, stdin=subprocess.DEVNULL).returncode != 0:
+        wanted = f"{self.root / 'grader'}{'[' + ','.join(sorted(sets)) + ']' if sets else ''}"
+        if _run([*install, wanted]) != 0:
             raise CannotSetUp("the Python packages could not be installed; is there a network connection?")
-        self._stamp.write_text(self._fingerprint(), encoding="utf-8")
+        self._stamp.write_text(" ".join([self._fingerprint(), *sorted(sets)]), encoding="utf-8")
 
     def run(self, words: list[str]) -> int:
         """Hands over to the package. -P: a file in the current folder is no module of ours."""

@@ -13,6 +13,8 @@ from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
 from raysteps.common.documents import Malformed, checked, convert, parse
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.project import here
+from raysteps.course.settings import read_course
 from raysteps.results.class_model import (
     ClassResults,
     ClassRun,
@@ -27,7 +29,7 @@ from raysteps.results.class_model import (
     StepPoints,
     Student,
 )
-from raysteps.results.model import StepResult
+from raysteps.results.model import HandIn, StepResult
 from raysteps.results.settings import Settings
 from raysteps.results.store import stored_results
 
@@ -166,9 +168,15 @@ class _Report:
         rows = self._query("SELECT name FROM submissions WHERE scope = ? ORDER BY entry", (scope,))
         return [row["name"] for row in rows]
 
+    def _standings(self) -> Standings:
+        return Standings(self._database, self._policy, _last_runs(self._runs))
+
+    def standing(self, name: str) -> GradedSubmission:
+        return self._standings().of(self._query("SELECT * FROM submissions WHERE name = ?", (name,)).fetchone())
+
     def document(self) -> ClassResults:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
-        standings = Standings(self._database, self._policy, _last_runs(self._runs))
+        standings = self._standings()
         submissions = [standings.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
@@ -182,6 +190,7 @@ class _Report:
         finals = [one.final for one in submissions if one.status == "graded" and one.final is not None]
         return ClassResults(
             schema="raysteps/class/v1",
+            course=read_course(here()).name,
             run=self._run(self._last),
             runs=[self._run(row) for row in self._runs],
             steps=convert(json.loads(self._last["steps"]), list[GradedStep]),
@@ -209,6 +218,13 @@ class _Report:
                 round(statistics.median(finals), 2) if finals else None,
             ),
         )
+
+
+def hand_in(database: ClassDatabase, name: str) -> HandIn:
+    """What a report says of a submission beside its steps, by the roster and the late policy of the last run."""
+    one = _Report(database).standing(name)
+    names = [student.name or student.id or student.email for student in one.students]
+    return HandIn(names, one.submitted_at, one.submitted_from == "files", one.late)
 
 
 def class_document(database: ClassDatabase) -> ClassResults:

@@ -7,10 +7,11 @@ import io
 import sqlite3
 import sys
 from collections.abc import Container, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from raysteps.classroom.class_document import class_document, read_class_document
+from raysteps.classroom.class_document import class_document, hand_in, read_class_document
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.common.csv_safety import escape_formula
@@ -20,6 +21,7 @@ from raysteps.common.files import forget_unfinished, write_bytes, write_if_chang
 from raysteps.common.text import number
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import here
+from raysteps.course.settings import read_course
 from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
@@ -97,7 +99,10 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
         for left in ("results.json", REPORT):
             (folder / left).unlink(missing_ok=True)
         return
-    results = withhold(stored, database.feedback()) if stored is not None else None
+    results = None
+    if stored is not None:
+        told = withhold(stored, database.feedback())
+        results = replace(told, course=read_course(here()).name, handed_in=hand_in(database, name))
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(results, files)
     _forget_files(folder, shown)

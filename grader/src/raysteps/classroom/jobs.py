@@ -3,7 +3,7 @@
 import importlib
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal, Protocol, TypeVar, cast
@@ -87,6 +87,9 @@ class Grader(Protocol):
 
     fingerprint: str
     isolation: Isolation
+
+    def learn(self, steps: Sequence[str], say: ProgressCallback) -> None:
+        """What takes long once, before a submission has to wait for it: of these steps."""
 
     def grade(self, submission: Submission, settings: Settings, out: Path, say: ProgressCallback) -> None:
         """Writes out/results.json and the pictures that it names."""

@@ -2,8 +2,6 @@
 
 import json
 import math
-import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, date, datetime, time, timedelta
@@ -13,10 +11,10 @@ from typing import Annotated
 from msgspec import Meta
 
 from raysteps.classroom.entry_names import folded
-from raysteps.common.documents import Malformed, convert
+from raysteps.common.documents import Malformed, convert, place_in_toml, read_toml
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, number
-from raysteps.results.class_model import Lateness
+from raysteps.results.model import Lateness
 
 
 @dataclass(frozen=True)
@@ -71,35 +69,23 @@ def _plain(value: object) -> object:
     return value.isoformat() if isinstance(value, (datetime, date, time)) else value
 
 
-def _line_of(text: str, path: list[str]) -> int:
-    """The line that sets a key: the longest part of its path that is found, 1 for the whole file."""
-    found, table = 1, [""]
-    depth = 0
-    for line_number, line in enumerate(text.splitlines(), start=1):
-        header = re.match(r"\s*\[([^\[\]]+)\]", line)
-        setting = re.match(r"\s*((?:\"[^\"]*\"|'[^']*'|[\w-]+)(?:\s*\.\s*(?:\"[^\"]*\"|'[^']*'|[\w-]+))*)\s*=", line)
-        if header is not None:
-            table = [header[1].strip()]
-        words = table if header is not None else [*table, setting[1]] if setting is not None else []
-        parts = [part.strip("\"'") for word in words for part in re.findall(r"\"[^\"]*\"|'[^']*'|[\w-]+", word) if part]
-        if parts and len(parts) > depth and parts == path[: len(parts)]:
-            found, depth = line_number, len(parts)
-    return found
+def _place(text: str, name: str, within: Sequence[str], path: Sequence[str]) -> str:
+    return f"{name}:{place_in_toml(text, [*within, *path])}"
 
 
-def _read(text: str, name: str) -> tuple[_File, dict[str, str | float]]:
+def _read(text: str, name: str, within: Sequence[str]) -> tuple[_File, dict[str, str | float]]:
     """What the file says, and its extensions."""
 
     def refuse(path: list[str], words: str) -> UsageError:
-        return UsageError(f"{name}:{_line_of(text, path)}: {words}")
+        return UsageError(f"{_place(text, name, within, path)}: {words}")
 
     def wrong(path: list[str], expected: str, found: object) -> UsageError:
         return refuse(path, f"`{'.'.join(path)}`: expected {expected}, found {json.dumps(found)}")
 
-    try:
-        table = {key: _plain(value) for key, value in tomllib.loads(text).items()}
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{name}: is not TOML: {error}") from error
+    whole = read_toml(text, name)
+    for key in within:
+        whole = whole[key]
+    table = {key: _plain(value) for key, value in whole.items()}
     for key in table:
         if key not in _EXPECTED:
             raise refuse([key], f"`{key}` is no key of a late policy; they are {', '.join(_EXPECTED)}")
@@ -120,13 +106,13 @@ def _read(text: str, name: str) -> tuple[_File, dict[str, str | float]]:
     return file, ends
 
 
-def parse_late_policy(text: str, name: str) -> LatePolicy:
-    """Reads the text of a late policy; `name` stands in messages."""
-    file, ends = _read(text, name)
-    deadline = _moment(file.deadline, f"{name}:{_line_of(text, ['deadline'])}")
+def parse_late_policy(text: str, name: str, within: Sequence[str] = ()) -> LatePolicy:
+    """Reads the text of a late policy, or of a file that has one as its table `within`; `name` stands in messages."""
+    file, ends = _read(text, name, within)
+    deadline = _moment(file.deadline, _place(text, name, within, ["deadline"]))
     extensions: dict[str, datetime] = {}
     for student, value in ends.items():
-        where = f"{name}:{_line_of(text, ['extensions', student])}"
+        where = _place(text, name, within, ["extensions", student])
         extended = _moment(value, where) if isinstance(value, str) else deadline + timedelta(days=value)
         if extended < deadline:
             raise UsageError(f"{where}: `extensions.{student}` ends before the deadline")
@@ -134,6 +120,19 @@ def parse_late_policy(text: str, name: str) -> LatePolicy:
             raise UsageError(f"{where}: `extensions.{student}` stands there twice, in upper and lower case")
     grace = timedelta(minutes=file.grace_minutes)
     return LatePolicy(deadline, file.percent_per_day, grace, file.max_days, extensions)
+
+
+def _as_toml(value: object) -> str:
+    return value.isoformat() if isinstance(value, datetime) else json.dumps(value, ensure_ascii=False)
+
+
+def late_policy_text(table: Mapping[str, object]) -> str:
+    """A table of course.toml as a file of its own."""
+    lines = [f"{key} = {_as_toml(value)}" for key, value in table.items() if not isinstance(value, dict)]
+    for key, inner in table.items():
+        if isinstance(inner, dict):
+            lines += ["", f"[{key}]", *(f"{json.dumps(name)} = {_as_toml(value)}" for name, value in inner.items())]
+    return "\n".join(lines) + "\n"
 
 
 def _moment(text: str, where: str) -> datetime:

@@ -14,13 +14,14 @@ from raysteps.classroom.database import FILE, LOCK, ClassDatabase, Registered, R
 from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
 from raysteps.classroom.entry_names import name_entries
 from raysteps.classroom.jobs import KIT_GRADER
-from raysteps.classroom.late_policy import parse_late_policy
+from raysteps.classroom.late_policy import late_policy_text, parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
 from raysteps.common.documents import Amount
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count
-from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
+from raysteps.course.settings import Course
 from raysteps.results.settings import Feedback, Settings
 
 # What was asked for.
@@ -46,6 +47,7 @@ class ClassOptions:
     grader: str = KIT_GRADER
     no_roster: bool = False  # nor that of the last run
     no_late_policy: bool = False
+    course: Course = field(default_factory=Course)
 
 
 # The folders and files that a class is graded from, and into.
@@ -136,6 +138,9 @@ def read_run_inputs(options: ClassOptions) -> RunInputs:
     if options.late_policy is not None:
         given.late_policy = read_text(options.late_policy)
         parse_late_policy(given.late_policy, str(options.late_policy))
+    elif options.course.late_table and not options.no_late_policy:
+        parse_late_policy(options.course.text, str(options.course.path), ["late_policy"])
+        given.late_policy = late_policy_text(options.course.late_table)
     elif last.late_policy and not options.no_late_policy:
         given.late_policy = last.late_policy
         given.said.append(_used_again(last, options.out, "--late-policy", "the late policy"))
@@ -172,7 +177,7 @@ class Plan:
     def grading(self) -> Settings:
         """Beside the kit and the submission, all that a grade depends on. The database keeps everything that is known;
         what a student is not to see is left out when results.json is made from it."""
-        only = tuple(step.id for step in self.chosen) if self.options.only else ()
+        only = tuple(step.id for step in self.chosen) if self.chosen != self.steps else ()
         return Settings("full", self.options.limits, only, self.options.seed)
 
     @property
@@ -246,7 +251,7 @@ def make_plan(project: Project, options: ClassOptions) -> Plan:
     """Everything that can be wrong with the inputs is found here."""
     check_places(options.folder, options.out, resume=options.resume)
     steps = read_steps(project)
-    chosen = choose(steps, list(options.only))
+    chosen = chosen_steps(project, options.only)
     given = read_run_inputs(options)
     listing = list_entries(options.folder, given.files)
     matches = match([entry.label for entry in listing.entries], given.students)

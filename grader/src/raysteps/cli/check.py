@@ -4,7 +4,7 @@ import argparse
 
 from rich.console import Console
 
-from raysteps.course.manifest import choose, read_steps
+from raysteps.course.manifest import STEPS_HELP, chosen_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
 from raysteps.progress.check import check_steps
@@ -16,12 +16,12 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which steps."""
-    parser.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
+    parser.add_argument("steps", nargs="*", metavar="STEP", help=f"{STEPS_HELP}; all when none is given")
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Checks the steps in the repository and explains what is wrong."""
-    chosen = choose(read_steps(project), arguments.steps)
+    chosen = chosen_steps(project, arguments.steps)
     out = project.build / "check"
     told = []
 

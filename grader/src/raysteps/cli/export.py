@@ -13,7 +13,7 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
-from raysteps.course.manifest import choose, read_steps
+from raysteps.course.manifest import STEPS_HELP, choose, course_steps, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.exports import hosted as running
@@ -140,7 +140,7 @@ def _add_grading(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         default=[],
         metavar="STEP",
-        help="only these; all when none is given",
+        help=f"only these, {STEPS_HELP}; those of course.toml, else all, when none is given",
     )
     group.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help=LIMIT_HELP)
     group.add_argument("--minutes", type=_minutes, default=9.0, metavar="N", help="give up after that long (9)")
@@ -301,6 +301,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     course = read_course(project)
     if arguments.seed is None and course.seed is not None:
         arguments.seed = str(course.seed)  # what is uploaded does not take course.toml along
+    if not arguments.steps and course.steps:
+        arguments.steps = steps_words(course_steps(project))
     for path in package(project, arguments):
         print(f"raysteps: wrote {path}", file=sys.stderr)
     return 0

@@ -14,7 +14,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.common.platform import own_command, quote_command
 from raysteps.common.text import join_and
-from raysteps.course.manifest import choose, read_steps
+from raysteps.course.manifest import STEPS_HELP, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.grading.pipeline import grade_submission
@@ -25,6 +25,7 @@ from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
 from raysteps.results.settings import Settings
+from raysteps.results.store import write_results
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
@@ -48,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("submission", type=Path)
     parser.add_argument("--out", type=Path, help="where results.json and the pictures go")
     parser.add_argument("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
-    parser.add_argument("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only")
+    parser.add_argument("--only", "--steps", nargs="+", default=[], metavar="STEP", help=f"these steps, {STEPS_HELP}")
     parser.add_argument(
         "--feedback", choices=["full", "diagnosis", "score"], default="full", help="what results.json tells"
     )
@@ -93,7 +94,8 @@ def _refuse_a_class(project: Project, path: Path) -> None:
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Grades one submission."""
     _refuse_a_class(project, arguments.submission)
-    only = [step.id for step in choose(read_steps(project), arguments.only)] if arguments.only else []
+    chosen = chosen_steps(project, arguments.only)
+    only = [step.id for step in chosen] if chosen != read_steps(project) else []
     seed = read_course(project).seed_or(arguments.seed)
     settings = Settings(arguments.feedback, parse_limits(arguments.limit), tuple(only), seed)
     options = GradeOptions(
@@ -119,10 +121,12 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         clear(out, kit.steps, kit.steps)
         jobs = options.jobs or os.cpu_count() or 1
         results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs)
+        results.course = read_course(project).name
+        feedback = options.settings.feedback
+        told = results if feedback == "full" else withhold(results, feedback)  # the terminal may be the student's, too
+        write_results(told, out)
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
-    feedback = options.settings.feedback
-    told = results if feedback == "full" else withhold(results, feedback)  # the terminal may be the student's, too
     if options.details:
         print_details(console, told, kit.steps, out, again)
         console.print()

@@ -24,6 +24,7 @@ from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import try_lock, usable_folder
 from raysteps.common.platform import refuse_on_windows
+from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
 from raysteps.results.class_model import ClassResults
@@ -43,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--roster", metavar="CSV", help="the students: id, name, email, submission, submitted_at; or `none`")
     add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
     add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
-    add("--only", nargs="+", default=[], metavar="STEP", help="grade these steps only: 02, 2 or 02-intersection")
+    add("--only", "--steps", nargs="+", default=[], metavar="STEP", help=f"grade these steps only, {STEPS_HELP}")
     add(
         "--late-policy",
         metavar="TOML",
@@ -104,6 +105,7 @@ def read_options(arguments: argparse.Namespace, grader: str, course: Course = _N
         grader,
         no_roster=arguments.roster == _NONE,
         no_late_policy=arguments.late_policy == _NONE,
+        course=course,
     )
 
 
@@ -166,12 +168,14 @@ def _runner(plan: Plan, kit: str, meter: ProgressMeter) -> Runner:
     return Cluster(options.scheduler, plan.uid, kit, options.grader, require_sandbox=sandbox, say=meter.say)
 
 
-def _prepare(options: ClassOptions, meter: ProgressMeter) -> Grader:
+def _prepare(plan: Plan, meter: ProgressMeter) -> Grader:
     """The kit of this machine: its fingerprint is what every result is held against."""
+    options = plan.options
     sandbox = options.require_sandbox and not options.scheduler
     grader = make_grader(options.grader, require_sandbox=sandbox, say=meter.say)
     if not options.scheduler:
         meter.say(grader.isolation.description)
+        grader.learn([step.id for step in plan.chosen], meter.say)
     return grader
 
 
@@ -232,7 +236,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
             meter.say(words)
         try:
             with terminated_as_interrupted():
-                made = _prepare(plan.options, meter)
+                made = _prepare(plan, meter)
         except KeyboardInterrupt:
             return _interrupted(console, _again(plan.options))
         return _grade(console, plan, made, meter)

@@ -25,7 +25,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the folder of a graded class, its class.json or class.sqlite, or results.json files",
     )
     parser.add_argument(
-        "--step", action="append", default=[], metavar="STEP", help="such as 06; may be repeated (all with counters)"
+        "--step",
+        action="append",
+        default=[],
+        metavar="STEP",
+        help="such as 06 or 6,9 (all with counters)",
     )
     parser.add_argument("--anonymous", action="store_true", help="leave the names out")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the ranking there, too")

@@ -1,6 +1,7 @@
 """The command `release`."""
 
 import argparse
+from datetime import date
 from pathlib import Path
 
 from rich.console import Console
@@ -9,9 +10,10 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.platform import own_command, quote_command
 from raysteps.common.text import count, join_and, tenths
-from raysteps.course.manifest import Step, read_steps
+from raysteps.course.manifest import Step, choose, course_steps, read_steps, steps_words
 from raysteps.course.project import Project
-from raysteps.release.build_release import first_steps, release, usable, written_files
+from raysteps.course.settings import read_course
+from raysteps.release.build_release import due_steps, first_steps, release, usable, written_files
 from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searched
 from raysteps.release.secrets import Secrets, gather
 from raysteps.report.terminal import progress
@@ -26,8 +28,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("--out", type=Path, metavar="DIR", help="a new or empty folder, or an earlier release")
     where.add_argument("--check", type=Path, metavar="DIR", help="look for solutions in a folder that is to go out")
-    parser.add_argument("--steps", metavar="1-N", help="the first steps only, such as 1-4, or 4")
-    parser.add_argument("--course", default="Raysteps", metavar="NAME", help="for the README (Raysteps)")
+    parser.add_argument(
+        "--steps", "--only", nargs="+", default=[], metavar="STEP", help="the first steps only, such as 1-4"
+    )
+    parser.add_argument("--course", metavar="NAME", help="for the README (that of course.toml, else Raysteps)")
 
 
 def _tell(console: Console, leaks: list[Leak]) -> bool:
@@ -66,16 +70,24 @@ def _say(console: Console, text: str) -> None:
     console.print(escape(text), highlight=False, soft_wrap=True)
 
 
-def _chosen(project: Project, text: str | None, console: Console) -> list[Step]:
-    steps = first_steps(text, read_steps(project))
-    if text is not None and "-" not in text and len(steps) > 1:
-        _say(console, f"steps {steps[0].index}-{steps[-1].index}: a kit begins with step {steps[0].number}")
+def _chosen(project: Project, names: list[str], console: Console) -> list[Step]:
+    if not names:
+        steps = due_steps(project, date.today())
+        later = [step for step in course_steps(project) if step not in steps]
+        if later:
+            _say(
+                console, f"not yet given out, by {read_course(project).place('steps')}: {join_and(steps_words(later))}"
+            )
+        return steps
+    steps = first_steps(names, read_steps(project))
+    if len(choose(steps, names)) < len(steps):
+        _say(console, f"steps {steps_words(steps)[0]}: a kit begins with step {steps[0].number}")
     return steps
 
 
 def line_to_grade(steps: list[Step], course: list[Step]) -> str:
     """The line for what comes back of a kit with these steps: the others were not given out, and count nothing."""
-    only = ["--only", *(str(step.index) for step in steps)] if len(steps) < len(course) else []
+    only = ["--only", *steps_words(steps)] if steps != course else []
     return f"{own_command()} {quote_command(['grade-class', 'submissions', '--out', 'grades', *only])}"
 
 
@@ -85,8 +97,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         raise UsageError("a students' kit cannot be released; expected the whole kit, with solutions/")
     if arguments.check is not None:
         return _check(gather(project), arguments.check, console)
-    course = arguments.course.strip()
-    if "\n" in arguments.course or not course:
+    named = (read_course(project).title or "Raysteps") if arguments.course is None else arguments.course
+    course = named.strip()
+    if "\n" in named or not course:
         raise UsageError("--course: expected a name of one line")
     out = arguments.out.resolve()
     refuse_inside(project, out)
@@ -111,7 +124,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     worth = tenths(sum(step.points for step in steps if not step.bonus))
     bonus = tenths(sum(step.points for step in steps if step.bonus))
     more = f" and {bonus} of bonus" if any(step.bonus for step in steps) else ""
-    _say(console, f"Grade what comes back, of {worth} points{more}: {line_to_grade(steps, read_steps(project))}")
+    _say(console, f"Grade what comes back, of {worth} points{more}: {line_to_grade(steps, course_steps(project))}")
     kept = [name for name in FOLDERS if (out / name).is_dir()]
     if kept:
         _say(console, f"Kept from before, and not searched: {join_and(kept)}")

@@ -22,6 +22,7 @@ from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
+from raysteps.report.terminal import progress
 from raysteps.report.wording import check_command
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.sandbox.limits_only import LimitsOnly
@@ -168,7 +169,7 @@ def replay(project: Project, path: Path, submission: Path | None, console: Conso
     if step.id not in taken.sources:
         raise UsageError(taken.notes.get(step.id) or f"{submission or project.steps}: {step.file} is not there")
     with console.status("starting") as status, tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        kit = build_kit(project, status.update)
+        kit = build_kit(project, progress(console, status))
         if submission is None:
             kit = kit.in_one_process()
         status.update(f"building step {step.number}")

@@ -4,15 +4,15 @@ import codecs
 import json
 import re
 import tomllib
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import msgspec
 from msgspec import Meta
 
-from raysteps.common.errors import GraderFault, reason
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import shorten
 
 T = TypeVar("T")
@@ -127,6 +127,39 @@ def checked(document: T, name: str) -> T:
 def as_text(document: object) -> str:
     """The document as it is written to a file."""
     return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+# TOML that people write: where in it something is wrong.
+
+_KEY = r"(?:\"[^\"]*\"|'[^']*'|[\w-]+)"
+_HEADER = re.compile(r"\s*\[([^\[\]]+)\]")
+_SETTING = re.compile(rf"\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*=")
+
+
+def place_in_toml(text: str, path: Sequence[str]) -> str:
+    """`LINE:COLUMN` of a key: of the longest part of its path that is found, 1:1 for the whole file."""
+    found, depth, table = "1:1", 0, ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        header, setting = _HEADER.match(line), _SETTING.match(line)
+        if header is not None:
+            table = header[1].strip()
+        named = table if header is not None else f"{table}.{setting[1]}" if setting is not None else ""
+        parts = [part.strip("\"'") for part in re.findall(_KEY, named)]
+        if depth < len(parts) <= len(path) and parts == list(path[: len(parts)]):
+            found, depth = f"{number}:{len(line) - len(line.lstrip()) + 1}", len(parts)
+    return found
+
+
+def read_toml(text: str, name: str) -> dict[str, Any]:
+    """What a person wrote, as a table; `name` is that of the file."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        what, _, _ = str(error).partition(" (at ")
+        told = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
+        lines = text.splitlines() or [""]
+        place = f"{told[1]}:{told[2]}" if told is not None else f"{len(lines)}:{len(lines[-1]) + 1}"
+        raise UsageError(f"{name}:{place}: is not TOML: {what[0].lower()}{what[1:]}") from error
 
 
 # Tables of the kit in TOML. A bad one is the kit's fault.

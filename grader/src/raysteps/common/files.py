@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -36,15 +36,17 @@ def try_lock(handle: int) -> bool:
 
 
 @contextmanager
-def one_at_a_time(lock: Path) -> Iterator[None]:
-    """Waits until nobody else holds the lock."""
+def one_at_a_time(lock: Path, wait: Callable[[], None] = lambda: None) -> Iterator[None]:
+    """Waits until nobody else holds the lock; before that it calls `wait`."""
     lock.parent.mkdir(parents=True, exist_ok=True)
     with lock.open("a") as file:
-        if sys.platform == "win32":
-            while not try_lock(file.fileno()):  # the waiting that Windows offers gives up after 10 seconds
-                time.sleep(_LOOK_EVERY)
-        else:
-            fcntl.flock(file, fcntl.LOCK_EX)
+        if not try_lock(file.fileno()):
+            wait()
+            if sys.platform == "win32":
+                while not try_lock(file.fileno()):  # the waiting that Windows offers gives up after 10 seconds
+                    time.sleep(_LOOK_EVERY)
+            else:
+                fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 

@@ -2,7 +2,9 @@
 
 import math
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
+from functools import cache
 
 _UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -27,6 +29,28 @@ def clean(text: str, limit: int = 4000) -> str:
 def join_and(words: Sequence[str]) -> str:
     """`a`, `a and b` or `a, b and c`."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+_LETTER = re.compile(r"LATIN SMALL LETTER ([A-Z]) WITH ")
+
+
+@cache
+def plain_letters() -> dict[str, str]:
+    """What people without such keys type for letters that do not decompose: `ł` is `l`, `ß` is `ss`."""
+    found = {"ß": "ss", "æ": "ae", "œ": "oe", "þ": "th", "ð": "d", "\u0131": "i", "ŋ": "n", "ə": "e"}
+    for letter in map(chr, range(0xC0, 0x250)):
+        named = _LETTER.match(unicodedata.name(letter, ""))
+        if named is not None and len(unicodedata.normalize("NFKD", letter)) == 1:
+            found[letter] = named[1].lower()
+    return found
+
+
+def searchable(text: str) -> str:
+    """As the script `class-filter` makes what is searched for: no capitals, no accents, no letters that only some
+    keyboards have."""
+    letters = unicodedata.normalize("NFKD", text.lower())
+    bare = (letter for letter in letters if unicodedata.category(letter) != "Mn")
+    return "".join(plain_letters().get(letter, letter) for letter in bare)
 
 
 _ALIKE = 0.65  # of three letters two in their order are enough, of five not three

@@ -1,14 +1,21 @@
 """Reads steps/NN-name/step.toml."""
 
+from __future__ import annotations
+
 import re
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import date
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import did_you_mean
 from raysteps.course.project import Project
+
+if TYPE_CHECKING:  # what checks the types of documents takes long to load
+    from raysteps.course.settings import Course
 
 
 @dataclass(frozen=True)
@@ -148,7 +155,7 @@ def read_all_steps(project: Project) -> list[Step]:
     twice = next((step for step in steps if numbers.count(step.number) > 1), None)
     if twice is not None:
         raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
-    return steps
+    return _with_points(project, steps)
 
 
 def read_steps(project: Project) -> list[Step]:
@@ -159,16 +166,116 @@ def read_steps(project: Project) -> list[Step]:
     return steps
 
 
-def choose(steps: list[Step], names: list[str]) -> list[Step]:
-    """The steps with these names (`02`, `2` or `02-intersection`); all of them when there are no names."""
+_RANGE = re.compile(r"([0-9]{1,2})[-\u2013]([0-9]{1,2})")
+STEPS_HELP = "such as 1-4, 01 02 or 1,3"  # what `choose` takes
+
+
+def _one(steps: list[Step], name: str) -> Step:
+    number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
+    found = [step for step in steps if name == step.id or number == step.number]
+    if not found:
+        meant = did_you_mean(name, [step.id for step in steps]) or "."
+        raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}")
+    return found[0]
+
+
+def _range(steps: list[Step], word: str) -> list[Step]:
+    ends = _RANGE.fullmatch(word)
+    if ends is None:
+        return [_one(steps, word)]
+    first, last = _one(steps, ends[1]), _one(steps, ends[2])
+    if last.index < first.index:
+        raise UsageError(f"'{word}' ends before it begins; expected {last.index}-{first.index}")
+    return [step for step in steps if first.index <= step.index <= last.index]
+
+
+def choose(steps: list[Step], names: Sequence[str]) -> list[Step]:
+    """The steps with these names (`02`, `2`, `02-intersection`, `1-4` or `1,3`); all of them when there are no
+    names."""
     if not names:
         return steps
-    chosen = []
-    for name in names:
-        number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
-        found = [step for step in steps if name == step.id or number == step.number]
-        if not found:
-            meant = did_you_mean(name, [step.id for step in steps]) or "."
-            raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}")
-        chosen += found
+    words = [word for name in names for word in re.split(r"[,\s]+", name) if word]
+    if not words:
+        raise UsageError(f"expected steps, {STEPS_HELP}")
+    chosen = [step for word in words for step in _range(steps, word)]
     return [step for step in steps if step in chosen]
+
+
+def choose_one(steps: list[Step], name: str) -> Step:
+    """Where a single step is wanted."""
+    found = choose(steps, [name])
+    if len(found) > 1:
+        raise UsageError(f"'{name}': expected one step, such as {found[0].number}")
+    return found[0]
+
+
+def steps_words(steps: Sequence[Step]) -> list[str]:
+    """As they are typed: `1-4`, or each one where some are left out between."""
+    numbers = [step.index for step in steps]
+    if len(numbers) > 1 and numbers == list(range(numbers[0], numbers[-1] + 1)):
+        return [f"{numbers[0]}-{numbers[-1]}"]
+    return [str(number) for number in numbers]
+
+
+# What course.toml says of the steps. A students' kit has none: its manifests were written from it.
+
+
+def _course(project: Project) -> Course | None:
+    if not project.has_reference:
+        return None
+    from raysteps.course.settings import read_course  # students do not have it
+
+    return read_course(project)
+
+
+def _by_course(steps: list[Step], course: Course, key: str, names: str) -> list[Step]:
+    try:
+        return choose(steps, [names])
+    except UsageError as error:
+        raise UsageError(f"{course.place(key, names)}: {key}: {error}") from error
+
+
+def _with_points(project: Project, steps: list[Step]) -> list[Step]:
+    course = _course(project)
+    if course is None or not course.points:
+        return steps
+    worth = {
+        step.id: points
+        for names, points in course.points.items()
+        for step in _by_course(steps, course, "points", names)
+    }
+    return [replace(step, points=worth.get(step.id, step.points)) for step in steps]
+
+
+def course_steps(project: Project) -> list[Step]:
+    """Those that course.toml names, else all: what a command takes that is told none."""
+    steps, course = read_steps(project), _course(project)
+    if course is None or not course.steps:
+        return steps
+    chosen = [step for names in course.steps for step in _by_course(steps, course, "steps", names)]
+    return [step for step in steps if step in chosen]
+
+
+def chosen_steps(project: Project, names: Sequence[str]) -> list[Step]:
+    """Those that were named, else those of the course."""
+    return choose(read_steps(project), names) if names else course_steps(project)
+
+
+def dated_steps(project: Project) -> list[tuple[Step, date]]:
+    """The days on which steps are given out, as far as course.toml tells."""
+    steps, course = read_steps(project), _course(project)
+    dates = course.dates if course is not None else {}
+    return [(step, day) for names, day in dates.items() for step in choose(steps, [names])]
+
+
+def course_manifests(project: Project) -> dict[str, bytes]:
+    """Those in which course.toml changes the points, by path: it does not go out itself."""
+    course, made = _course(project), {}
+    for step in read_all_steps(project) if course is not None and course.points else []:
+        path = project.steps / step.id / "step.toml"
+        if read_step(path).points != step.points:
+            text = re.sub(
+                r"^points\s*=.*$", f"points = {step.points:g}", path.read_text("utf-8"), count=1, flags=re.MULTILINE
+            )
+            made[path.relative_to(project.root).as_posix()] = text.encode()
+    return made

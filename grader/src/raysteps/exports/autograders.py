@@ -13,6 +13,7 @@ from pathlib import Path, PurePosixPath
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder, write_bytes
+from raysteps.course.manifest import course_manifests
 from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
 
@@ -127,7 +128,11 @@ def _script(name: str, options: Sequence[str] = ()) -> bytes:
 
 
 def _kit(project: Project, folder: str) -> list[Member]:
-    return [Member(f"{folder}/{file.place}", file.source.read_bytes(), file.executable) for file in kit_files(project)]
+    made = course_manifests(project)  # course.toml stays here
+    return [
+        Member(f"{folder}/{file.place}", made.get(str(file.place)) or file.source.read_bytes(), file.executable)
+        for file in kit_files(project)
+    ]
 
 
 def gradescope_zip(project: Project, options: Sequence[str]) -> bytes:

@@ -232,6 +232,7 @@ def moodle_cell(results: Results | None, graded: GradedStudent, steps: Mapping[s
     if results is None:
         return None
     lines = [summary(results, steps, checks=True)]
-    if graded.points is not None and graded.in_time is not None and graded.points != graded.in_time:
+    told = results.handed_in is not None and results.handed_in.late is not None  # an older kit did not
+    if not told and graded.points is not None and graded.in_time is not None and graded.points != graded.in_time:
         lines.insert(0, f"{tenths(graded.in_time)} points, {number(graded.points)} after lateness.")
     return escape_formula(_plain_signs(as_html("\n".join(lines), _LIMIT)))

@@ -8,7 +8,7 @@ from typing import Literal
 
 from raysteps.common.text import apportion, clean, count, shorten, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import total_words
+from raysteps.report.wording import hand_in_words, total_words
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integration, Results, StepResult, TestResult
 from raysteps.results.statuses import in_words
 
@@ -220,7 +220,7 @@ def _same_for_all(results: Results) -> str:
 def summary(results: Results, steps: Mapping[str, Step], *, points: bool = True, checks: bool = False) -> str:
     """One line per step with what there is to say about it, on request with the checks that failed; without points,
     nothing that hidden checks decide."""
-    lines = [f"{total_words(results.total)}."] if points else []
+    lines = [f"{total_words(results.total)}.", *hand_in_words(results)] if points else []
     same = _same_for_all(results)
     lines += same.splitlines()
     for result in results.steps:

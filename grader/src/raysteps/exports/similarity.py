@@ -10,7 +10,7 @@ from raysteps.classroom.entry_names import name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
-from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.mutants import reference_source
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code
@@ -67,7 +67,7 @@ def _of_kit(project: Project, chosen: list[Step]) -> list[Member]:
 def export_similarity(project: Project, arguments: argparse.Namespace) -> int:
     """Writes the sources, and says how JPlag is called with them."""
     every = read_steps(project)
-    stubs = {step: pristine_stub(project, step) for step in choose(every, arguments.steps)}
+    stubs = {step: pristine_stub(project, step) for step in chosen_steps(project, arguments.steps)}
     out: Path = arguments.out
     members = _of_class(arguments.folder, every, stubs, [out])
     handed_in = {member.name.split("/")[1] for member in members}

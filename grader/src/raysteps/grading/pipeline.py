@@ -288,7 +288,7 @@ def grade_submission(
                 _tell_of_the_limit(steps, together)
             name_crash(steps)
             timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
-            results = Results.of(submission.name, steps, settings.seed, kit.fingerprint, counted.isolation, timing)
+            results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
             if any(grader.has_to_learn for grader in graders):
                 tell(results)
             list(pool.map(HiddenStepGrader.explain, graders))

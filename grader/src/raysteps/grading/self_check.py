@@ -148,7 +148,7 @@ def self_check(
     name_crash(kit, submission, sandbox, say, [found[step.id] for step in chosen])
     timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
     results = Results.of(
-        submission.name, [found[step.id] for step in chosen], 0, kit.fingerprint, counted.isolation, timing
+        submission.name, [found[step.id] for step in chosen], kit.fingerprint, counted.isolation, timing
     )
     try:
         write_results(results, out)

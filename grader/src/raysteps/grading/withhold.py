@@ -52,5 +52,4 @@ def withhold(results: Results, feedback: Feedback) -> Results:
     the hidden part but its shares. The points stay the same."""
     if feedback == "full":
         return results
-    steps = [_withheld_step(step, feedback) for step in results.steps]
-    return replace(results, steps=steps, seed=None)  # whoever has the seed can make the cases
+    return replace(results, steps=[_withheld_step(step, feedback) for step in results.steps])

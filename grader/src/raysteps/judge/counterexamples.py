@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from raysteps.common.documents import Malformed, Text, parse
 from raysteps.common.errors import GraderFault, UsageError, reason
@@ -25,13 +25,14 @@ _LARGEST = 1 << 20  # bytes
 @dataclass(frozen=True)
 class CaseFile:
     """`line` is what the worker reads, with any number in front; the words are what people read, as it was when the
-    file was written."""
+    file was written. It tells no seed: it may be handed back."""
+
+    FORMER_KEYS: ClassVar = ("seed",)
 
     schema: Literal["raysteps/case/v1"]
     step: str
     function: str
     kind: str
-    seed: int
     line: Text
     problem: str
     given: str
@@ -68,7 +69,7 @@ def read_case(path: Path) -> CaseFile:
         if function == former:
             function, line = name, line.replace(former, name, 1)
     words = (printable(text) for text in (case.problem, case.given, case.expected, case.actual))
-    return CaseFile(SCHEMA, printable(case.step), function, printable(case.kind), case.seed, line, *words)
+    return CaseFile(SCHEMA, printable(case.step), function, printable(case.kind), line, *words)
 
 
 LONGEST = 2000  # characters of an input or an answer in words
@@ -112,6 +113,6 @@ class Examples:
         verdict, given = found.verdict, shorten(found.case.given(), LONGEST)
         expected, actual = shorten(verdict.expected, LONGEST), shorten(verdict.actual, LONGEST)
         line, name = found.case.line(1), place_of(step.number, function.name)
-        case = CaseFile(SCHEMA, step.id, function.name, kind, seed, line, str(verdict.problem), given, expected, actual)
+        case = CaseFile(SCHEMA, step.id, function.name, kind, line, str(verdict.problem), given, expected, actual)
         write_case(self.folder / name, case)
         return found, name

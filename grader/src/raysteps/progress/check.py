@@ -57,7 +57,7 @@ def _look_through(
 
 def _with_steps(results: Results, steps: Sequence[StepResult]) -> Results:
     ordered = sorted(steps, key=lambda result: result.id)
-    return Results.of(results.submission, ordered, results.seed or 0, results.kit, results.isolation, results.timing)
+    return Results.of(results.submission, ordered, results.kit, results.isolation, results.timing)
 
 
 def _found_before(out: Path, kit: BuiltKit, chosen: Sequence[Step]) -> Results | None:

@@ -16,7 +16,7 @@ from rich.table import Table
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
 from raysteps.common.text import join_and, tenths
-from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.manifest import Step, choose_one, course_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
 from raysteps.grading.scoring import max_points
@@ -149,7 +149,7 @@ def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standin
 def standings(project: Project) -> list[Standing]:
     """Of all steps, in order."""
     known = recall(project)
-    return [standing_of(project, step, known.get(step.id)) for step in read_steps(project)]
+    return [standing_of(project, step, known.get(step.id)) for step in course_steps(project)]
 
 
 def next_of(found: Sequence[Standing], after: Step | None = None) -> Step | None:
@@ -162,7 +162,7 @@ def next_of(found: Sequence[Standing], after: Step | None = None) -> Step | None
 def chosen_or_next(project: Project, name: str | None) -> Step | None:
     """The step with this name; without a name the next one to work on, none when all are done."""
     if name is not None:
-        return choose(read_steps(project), [name])[0]
+        return choose_one(read_steps(project), name)
     return next_of(standings(project))
 
 

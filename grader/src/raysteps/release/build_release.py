@@ -3,14 +3,16 @@
 import glob
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from datetime import date
 from pathlib import Path
 
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import content_hash, write_bytes
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, read_all_steps
+from raysteps.course.manifest import Step, choose, course_steps, dated_steps, read_all_steps, read_steps, steps_words
 from raysteps.course.project import Project
+from raysteps.course.settings import read_course
 from raysteps.images.render import error_for_nothing, reference_picture, reference_work, write_reference_image
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
@@ -94,10 +96,11 @@ def swap(new: Path, out: Path) -> None:
 # What the reference leaves behind for students: its pictures, and the names of its tests.
 
 
-def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path) -> None:
+def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path, say: ProgressCallback) -> None:
     """Writes folder/reference/."""
     target = Project(folder)
     for step in steps:
+        say(f"drawing the reference's pictures of step {step.number}")
         for case in step.images:
             scene = kit.project.root / case.scene
             pixels = reference_picture(kit, scene, case.args)
@@ -141,7 +144,8 @@ def written_files(project: Project, steps: list[Step], course: str) -> dict[str,
     _refuse_gaps(steps, absent)
     files = kit_contents(project, steps, absent)
     files["grader/pyproject.toml"] = pyproject((project.root / "grader" / "pyproject.toml").read_text("utf-8"))
-    files["README.md"] = readme(course, steps)
+    later = [(step, day) for step, day in dated_steps(project) if step not in steps]
+    files["README.md"] = readme(course, steps, read_course(project).term, later)
     files |= {name: for_editor(files[name], steps) for name in _EDITORS if name in files}
     word_for_students(files, steps)
     add_pictures(files, project.root)
@@ -150,13 +154,15 @@ def written_files(project: Project, steps: list[Step], course: str) -> dict[str,
     return files
 
 
-def write_release(kit: BuiltKit, steps: list[Step], course: str, folder: Path) -> None:
+def write_release(
+    kit: BuiltKit, steps: list[Step], course: str, folder: Path, say: ProgressCallback = lambda text: None
+) -> None:
     """All files into an empty folder."""
     for name, data in written_files(kit.project, steps, course).items():
         write_bytes(folder / name, data)
     for name in _EXECUTABLE:
         (folder / name).chmod(0o755)
-    write_reference_artifacts(kit, steps, folder)
+    write_reference_artifacts(kit, steps, folder, say)
     write_bytes(folder / PLACE, encoded(_list(folder, course, kit, steps)))
 
 
@@ -170,7 +176,7 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
             new = Path(name) / out.name
             new.mkdir(mode=0o755)
             say("writing the files")
-            write_release(kit, steps, course, new)
+            write_release(kit, steps, course, new, say)
             say("looking for leaks")
             if leaks(new, out):
                 return False
@@ -181,20 +187,31 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
     return True
 
 
-def first_steps(text: str | None, steps: list[Step]) -> list[Step]:
-    """`1-4` or `4` for the first four, nothing for all of them."""
-    if text is None:
-        return steps
-    start = str(steps[0].index)
-    first, dash, last = text.partition("-")
-    if not dash:
-        first, last = start, first
-    if not (first.isdecimal() and last.isdecimal()) or int(first) != steps[0].index:
-        such = f"{start}-{steps[min(3, len(steps) - 1)].index}"
+def first_steps(names: Sequence[str], steps: list[Step], said_by: str = "") -> list[Step]:
+    """The steps with these names, all when there are none. One alone stands for all up to it; `said_by` tells where the
+    names are from."""
+    where = said_by or f"--steps {' '.join(names)}"
+    try:
+        chosen = choose(steps, names)
+    except UsageError as error:
+        raise UsageError(f"{where}: {error}") from error
+    until = [step for step in steps if step.index <= chosen[-1].index]
+    if chosen != until and (len(chosen) > 1 or said_by):
         raise UsageError(
-            f"--steps {text}: expected the first and the last, such as {such}; "
+            f"{where}: expected the first and the last, such as {steps_words(steps[:4])[0]}; "
             "each step builds on those before it, so none can be left out among them"
         )
-    if int(last) not in {step.index for step in steps}:
-        raise UsageError(f"--steps {text}: there is no step {last}; the steps are {', '.join(it.id for it in steps)}")
-    return [step for step in steps if step.index <= int(last)]
+    return until
+
+
+def due_steps(project: Project, day: date) -> list[Step]:
+    """Those of the course that may go out on that day, by course.toml."""
+    course, steps = read_course(project), course_steps(project)
+    later = {step.id: when for step, when in dated_steps(project) if when > day}
+    due = [step for step in steps if step.id not in later]
+    if not due:
+        raise UsageError(
+            f"{course.place('steps')}: the first steps are given out on {min(later.values())}; --steps gives out "
+            f"others sooner, such as --steps {steps_words(steps)[0]}"
+        )
+    return first_steps([step.id for step in due], read_steps(project), course.place("steps"))

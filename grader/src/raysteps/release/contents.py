@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.course.tracked_files import places, untracked
@@ -16,8 +16,8 @@ from raysteps.updater.generated_files import is_made_anew
 # The Python modules that a students' kit needs: all that its commands import, and nothing that knows answers.
 
 ENTRIES = ("raysteps.__main__", "raysteps.bootstrap.start", "raysteps.cli.app")
-# They know answers, or formulas of the steps. A module that goes to students may import these inside of a function, for
-# the case that the kit has solutions.
+# They know answers, formulas of the steps or the seed. A module that goes to students may import these inside of a
+# function, for the case that the kit has solutions.
 NEVER = (
     "raysteps.classroom",
     "raysteps.cli.demo",
@@ -31,6 +31,7 @@ NEVER = (
     "raysteps.cli.replay",
     "raysteps.cli.supervise",
     "raysteps.course.mutants",
+    "raysteps.course.settings",
     "raysteps.diagnosis",
     "raysteps.gallery",
     "raysteps.grading.withhold",
@@ -234,6 +235,7 @@ def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dic
     for step in steps:
         stub = pristine_stub(project, step).encode()
         files[f"steps/{step.path.as_posix()}"] = files[f"grader/stubs/{step.path.as_posix()}"] = stub
+    files |= {name: data for name, data in course_manifests(project).items() if name in files}
     files |= missing_step_stubs(project, absent)
     workflow = project.root / _WORKFLOW
     if workflow.is_file():

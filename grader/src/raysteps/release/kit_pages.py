@@ -4,13 +4,15 @@ import json
 import posixpath
 import re
 import tomllib
+from collections.abc import Sequence
+from datetime import date
 from importlib.resources import files
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.markdown import targets, unlinked
-from raysteps.common.text import number
-from raysteps.course.manifest import Step
+from raysteps.common.text import join_and, number
+from raysteps.course.manifest import Step, steps_words
 from raysteps.grading.scoring import max_points
 
 _DATA = ["py.typed", "report/static/*", "report/templates/*"]
@@ -25,8 +27,18 @@ def _picture(steps: list[Step]) -> str:
     return f"./raysteps render {scene} -o first.png --step {index}"
 
 
-def readme(course: str, steps: list[Step]) -> bytes:
-    """Short: the steps, and what to type first."""
+def _follow(later: Sequence[tuple[Step, date]]) -> str:
+    """`Step 3 follows on 2026-11-02, and steps 4-5 on 2026-11-23.`"""
+    days = {day: [step for step, other in later if other == day] for day in sorted({day for _, day in later})}
+    said: list[str] = []
+    for day, steps in days.items():
+        verb = "" if said else " follows" if len(steps) == 1 else " follow"
+        said.append(f"step{'s' * (len(steps) > 1)} {join_and(steps_words(steps))}{verb} on {day}")
+    return f"\n\n{', and '.join(said).capitalize()}." if said else ""
+
+
+def readme(course: str, steps: list[Step], term: str = "", later: Sequence[tuple[Step, date]] = ()) -> bytes:
+    """Short: the steps, and what to type first; `later` follow on their days."""
     rows = [
         f"| [{step.number} {step.title}](steps/{step.id}/README.md){' (bonus)' if step.bonus else ''} "
         f"| `steps/{step.path.as_posix()}` | {number(step.points)} |"
@@ -34,8 +46,8 @@ def readme(course: str, steps: list[Step]) -> bytes:
     ]
     template = files("raysteps.release").joinpath("templates/README.md").read_text(encoding="utf-8")
     words = {
-        "COURSE": course,
-        "STEPS": "\n".join(rows),
+        "COURSE": course + (f"\n\n{term}." if term else ""),
+        "STEPS": "\n".join(rows) + _follow(later),
         "FIRST": steps[0].number,
         "FIRST_FILE": steps[0].path.as_posix(),
         "FIRST_ID": steps[0].id,
@@ -56,9 +68,6 @@ def for_editor(text: bytes, steps: list[Step]) -> bytes:
     return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 
-_FOR_EXPORTS = "jsonschema=="  # a students' kit exports nothing
-
-
 def pyproject(text: str) -> bytes:
     """What the package needs to run, without what it takes to work on it."""
     table = tomllib.loads(text)
@@ -72,7 +81,7 @@ def pyproject(text: str) -> bytes:
         *(f"{key} = {json.dumps(project[key])}" for key in ("name", "dynamic", "requires-python", "license")),
         'description = "Checks the steps of a ray tracing course"',
         "dependencies = [",
-        *(f"    {json.dumps(name)}," for name in project["dependencies"] if not name.startswith(_FOR_EXPORTS)),
+        *(f"    {json.dumps(name)}," for name in project["dependencies"]),
         "]",
         "",
         "[tool.setuptools.dynamic]",
@@ -165,8 +174,8 @@ def for_students(page: str, text: str) -> str:
 
 def as_printed(text: str, step: Step) -> str:
     """What `check` prints of a right step there: the points of the visible part, and nothing hidden."""
-    whole, seen = number(max_points(step, judged=True)), number(max_points(step, judged=False))
-    text = text.replace(f": passed, {whole} of {whole}", f": passed, {seen} of {seen}")
+    seen = number(max_points(step, judged=False))
+    text = re.sub(rf"^({step.id} .*: passed, )([0-9.]+) of \2", rf"\g<1>{seen} of {seen}", text, flags=re.MULTILINE)
     return re.sub(r"^  hidden   all [0-9]+ passed\n", "", text, flags=re.MULTILINE)
 
 

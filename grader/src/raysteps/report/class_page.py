@@ -1,14 +1,13 @@
 """The page of a class: class.html beside class.json."""
 
 import hashlib
-import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
 from raysteps.common.files import write_bytes
-from raysteps.common.text import number, printable, tenths
+from raysteps.common.text import number, plain_letters, printable, searchable, tenths
 from raysteps.report.class_attention import CommonMistake, common_mistakes, groups, marks
 from raysteps.report.class_statistics import (
     StepFigures,
@@ -76,10 +75,9 @@ def _who(one: GradedSubmission) -> tuple[str, str]:
 
 
 def _found_by(one: GradedSubmission) -> str:
-    """As the page makes what is searched for: lower case without folding, and one code for each letter."""
     words = [one.name, one.entry]
     words += [word for student in one.students for word in (student.id, student.name, student.email)]
-    return unicodedata.normalize("NFC", " ".join(dict.fromkeys(word for word in words if word)).lower())
+    return searchable(" ".join(dict.fromkeys(word for word in words if word)))
 
 
 def _cell(result: StepPoints | None) -> Cell | None:
@@ -124,6 +122,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
 
 
 FILE = "class.html"
+_COLUMNS = (3, 4)  # of cards in a wide window: those that leave the fewest gaps in the last row
 _PARTS = 240  # width of a step's bar
 _FILES = ("report.html", "results.json", "fault.txt")
 
@@ -160,6 +159,7 @@ def _facts(document: ClassResults) -> dict[str, object]:
     finals = [one.final for one in graded(document) if one.final is not None]
     return {
         "steps": [_step(one, mistakes) for one in figures],
+        "columns": min(_COLUMNS, key=lambda columns: (-len(figures) % columns, -columns)),
         "regular": regular,
         "bonus": bonus,
         "finals": finals,
@@ -190,6 +190,7 @@ def _data(document: ClassResults, rows: list[Row]) -> dict[str, object]:
             }
             for index, row in enumerate(rows)
         ],
+        "letters": plain_letters(),
         "mistakes": [{"step": mistake.step[:2], "title": mistake.title} for mistake in common_mistakes(document)],
     }
 
@@ -200,6 +201,7 @@ def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str
     rows = table_rows(document, marks(apart), link)
     late = any(row.days for row in rows)
     context = {
+        "course": document.course,
         "run": document.run,
         "policy": document.late_policy,
         "statistics": document.statistics,
@@ -208,6 +210,7 @@ def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str
         "late": late,
         "statuses": STATUSES,
         "look": sum(1 for row in rows if row.marks),
+        "longest_mark": max((len(", ".join(row.marks)) for row in rows), default=0),
         **_facts(document),
     }
     scripts = ("class-rows", "class-filter", "class-names", "class-page")

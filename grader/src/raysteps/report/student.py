@@ -27,6 +27,7 @@ from raysteps.report.wording import (
     after_the_last,
     check_command,
     inspect_command,
+    moment,
     percent,
     replay_command,
     total_words,
@@ -375,12 +376,26 @@ def _total(total: Total) -> dict[str, object]:
     return {
         "words": total_words(total),
         "points": tenths(total.points),
+        "exact": number(total.points),
         "max": tenths(total.max or bonus.max),
         "is_bonus": not total.max,
         "share": min(1.0, total.points / (total.max or bonus.max)) if total.max or bonus.max else 0.0,
         "bonus": tenths(bonus.points),
         "has_bonus": bonus.points > 0,
         "bonus_max": tenths(bonus.max) if bonus.max and total.max else "",
+    }
+
+
+def _hand_in_view(results: Results) -> dict[str, object]:
+    """Whose it is, and what lateness leaves; empty where no class was graded."""
+    found = results.handed_in
+    late = found.late if found is not None else None
+    return {
+        "course": clean(results.course, 200),
+        "who": clean(", ".join(found.students), 200) if found is not None else "",
+        "when": clean(moment(found), 100) if found is not None and found.submitted_at else "",
+        "words": clean(late.words) if late is not None else "",
+        "final": number(late.points) if late is not None and late.days else "",
     }
 
 
@@ -419,6 +434,7 @@ def _page(
     is_perfect = following is None and beyond is None and bool(results.steps)
     context = {
         "name": name,
+        "hand_in": _hand_in_view(results),
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}

@@ -5,11 +5,11 @@ from pathlib import Path
 
 from raysteps.common import platform as systems
 from raysteps.common.platform import own_command
-from raysteps.common.text import tenths
+from raysteps.common.text import number, tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
 from raysteps.images.compare import worst_pixel
-from raysteps.results.model import ImageResult, Total
+from raysteps.results.model import HandIn, ImageResult, Results, Total
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
@@ -89,6 +89,26 @@ class SaidOnce:
         is_new = text not in self._said
         self._said.add(text)
         return text if is_new else ""
+
+
+def hand_in_words(results: Results) -> list[str]:
+    """Of what course it is, when it came, and what lateness leaves of the points: in words that show the sum."""
+    found = results.handed_in
+    lines = [f"{results.course}."] if results.course else []
+    if found is None:
+        return lines
+    if found.late is not None and found.late.days:
+        lines.append(f"Late: {number(found.late.points)} of {number(results.total.points)} points count.")
+    if found.late is not None:
+        lines.append(found.late.words)
+    elif found.submitted_at:
+        lines.append(f"Handed in {moment(found)}.")
+    return lines
+
+
+def moment(found: HandIn) -> str:
+    """`2026-11-21 18:04:00+01:00`, and what says so where it is not sure."""
+    return found.submitted_at.replace("T", " ") + (", by the time of the file" if found.by_file else "")
 
 
 def total_words(total: Total, *, visible_only: bool = False) -> str:

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 from msgspec import Meta
 
 from raysteps.common.documents import OPTIONAL, Amount, Count, Text
+from raysteps.results.model import Lateness
 from raysteps.results.settings import Settings
 
 
@@ -32,17 +33,6 @@ class StepPoints:
     points: Amount
     max: Amount
     status: str
-
-
-@dataclass(frozen=True)
-class Lateness:
-    """`points` is what is left; the points of the results stay as they are."""
-
-    days: Count
-    percent: Annotated[int, Meta(ge=0, le=100)] | Annotated[float, Meta(ge=0, le=100)]
-    points: Amount
-    deadline: str
-    words: str  # the sum in words
 
 
 @dataclass
@@ -151,6 +141,7 @@ class ClassResults:
     FORMER_KEYS: ClassVar = ("inconsistent",)
 
     schema: Literal["raysteps/class/v1"]
+    course: str = field(default="", metadata=OPTIONAL)  # its title and term
     run: ClassRun  # the last one
     runs: Annotated[list[ClassRun], Meta(min_length=1)]
     steps: list[GradedStep]

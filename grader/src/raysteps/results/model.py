@@ -217,17 +217,39 @@ class Total:
     bonus: PointSum
 
 
+@dataclass(frozen=True)
+class Lateness:
+    """`points` is what is left; the points of the results stay as they are."""
+
+    days: Count
+    percent: Annotated[int, Meta(ge=0, le=100)] | Annotated[float, Meta(ge=0, le=100)]
+    points: Amount
+    deadline: str
+    words: str  # the sum in words
+
+
+@dataclass(frozen=True)
+class HandIn:
+    """What the grading of a class knows of a submission beside its steps."""
+
+    students: list[str]  # their names, as the roster has them
+    submitted_at: str  # with a time zone; empty when it is not known
+    by_file: bool  # nobody but the time of a file says when
+    late: Lateness | None  # none where there is no late policy
+
+
 @dataclass(kw_only=True)
 class Results:
-    """All steps of one submission."""
+    """All steps of one submission. Nothing here tells the seed: whoever has it can make the hidden cases."""
 
-    FORMER_KEYS: ClassVar = ("inconsistent",)
+    FORMER_KEYS: ClassVar = ("inconsistent", "seed")
 
     schema: Literal["raysteps/results/v1"]
     submission: Text
     kit: str  # fingerprint of the kit that graded
     version: str = field(default="", metadata=OPTIONAL)  # of that kit
-    seed: int | None  # of the hidden cases; None where they are withheld
+    course: str = field(default="", metadata=OPTIONAL)  # its title and term
+    handed_in: HandIn | None = field(default=None, metadata=OPTIONAL)
     isolation: Isolation
     timing: Timing
     total: Total
@@ -244,7 +266,6 @@ class Results:
         cls,
         submission: str,
         steps: list[StepResult],
-        seed: int = 0,
         kit: str = "",
         isolation: Isolation | None = None,
         timing: Timing | None = None,
@@ -256,7 +277,6 @@ class Results:
             submission=submission,
             kit=kit,
             version=__version__,
-            seed=seed,
             isolation=isolation or Isolation(),
             timing=timing or Timing(),
             total=Total(PointSum.of(steps).points, regular.max, PointSum.of([step for step in steps if step.bonus])),

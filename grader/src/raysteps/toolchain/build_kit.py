@@ -1,5 +1,6 @@
 """Builds the kit for grading, into a folder named by its fingerprint."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -11,7 +12,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable
-from raysteps.course.manifest import Step, read_all_steps, read_steps
+from raysteps.course.manifest import Step, course_manifests, read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Output, Task
@@ -107,11 +108,12 @@ class Assembly:
         self._others += description.catch2
         self._others += [self._copy(path) for path in description.absent]
 
-    def run(self) -> None:
+    def run(self, say: ProgressCallback) -> None:
         """Everything, in order."""
         self._copy_headers()
         if self._description.compiler_version.startswith("GNU"):
             for step in self._steps:
+                say(f"compiling the headers of step {step.number} for later")
                 precompile(self._description, self._folder / "include", step.id)
         if self._boxes is not None:
             self._boxes.copy_parts()
@@ -123,13 +125,15 @@ class Assembly:
             self._add_step(step)
         self._write_known()
         self._write_rest("libraries", [*self._others, self._core])
-        tests = self._add_programs() if self._project.has_reference else self._add_own_programs()
+        tests = self._add_programs(say) if self._project.has_reference else self._add_own_programs(say)
         tools = self._description.seal
         loader = None if tools is None else interpreter_of(tools.readelf, next((self._folder / "bin").iterdir()))
+        if self._project.has_reference:
+            say("measuring how fast the reference is here")
         slowness = _slowness(self._project, self._folder) if self._project.has_reference else 1.0
         write_json(self._folder / "facts.json", {"interpreter": loader, "slowness": slowness, "tests": tests})
 
-    def _add_programs(self) -> Tests:
+    def _add_programs(self, say: ProgressCallback) -> Tests:
         """Around each step by itself, and around all up to one."""
         raytrace = [self._copy(path) for path in self._description.raytrace]
         worker = [self._copy(path) for path in self._description.worker]
@@ -140,6 +144,7 @@ class Assembly:
         self._write_rest("worker", worker)
         tests: dict[str, dict[str, list[str]]] = {}
         for at, step in enumerate(self._course, start=1):
+            say(f"linking the programs of step {step.number}")
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._write_rest(f"test-{step.number}", objects)
             self._link_reference(f"test-{step.number}", objects)
@@ -170,10 +175,11 @@ class Assembly:
         self._add_program(f"test-isolated-{last.number}", tests, [last])
         self._add_program(f"raytrace-cumulative-{last.number}", raytrace, up_to)
 
-    def _add_own_programs(self) -> Tests:
+    def _add_own_programs(self, say: ProgressCallback) -> Tests:
         """In a students' kit: all steps up to one are the student's, and those after it are stubs."""
         raytrace = [self._copy(path) for path in self._description.raytrace]
         for at, step in enumerate(self._steps, start=1):
+            say(f"linking the programs of step {step.number}")
             self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._write_rest(f"test-{step.number}", objects)
@@ -270,7 +276,9 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
 def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
     description = read_description(folder / "kit.json")
     table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
-    mark = f"{folder.name} {description.compiler_version}"
+    worth = course_manifests(project)  # built alike, and graded otherwise
+    own = f"-{hashlib.sha256(repr(sorted(worth.items())).encode()).hexdigest()[:8]}" if worth else ""
+    mark = f"{folder.name}{own} {description.compiler_version}"
     return BuiltKit(project, folder, mark, steps, description, table["tests"], table["interpreter"], table["slowness"])
 
 
@@ -287,19 +295,18 @@ def _build(project: Project, steps: list[Step], folder: Path, say: ProgressCallb
     say(what)
     folder.parent.mkdir(parents=True, exist_ok=True)
     tree = release_tree(project)
-    with tree.locked(), tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent) as name:
+    with tree.locked(say), tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent) as name:
         if (folder / "kit.json").is_file():
             return  # somebody else was faster
         outcome = tree.build(["kit"], lambda far: say(f"{what}: {far}"))
         if outcome.code != 0:
             raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
-        say("linking its programs" + (", and measuring how fast they are here" if project.has_reference else ""))
         for left in folder.parent.glob(".new-*"):  # by builds that were killed: this one has the lock
             if left != Path(name):
                 shutil.rmtree(left, ignore_errors=True)
         new = Path(name) / "kit"
         new.mkdir()
-        Assembly(project, read_all_steps(project), steps, new, read_description(tree.folder / "kit.json")).run()
+        Assembly(project, read_all_steps(project), steps, new, read_description(tree.folder / "kit.json")).run(say)
         shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
         shutil.rmtree(folder, ignore_errors=True)
         new.rename(folder)

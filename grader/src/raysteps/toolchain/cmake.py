@@ -100,6 +100,8 @@ class BuildTree:
 
     def build(self, targets: list[str], say: ProgressCallback = lambda text: None) -> Outcome:
         """Builds the targets (all of them when there are none). `say` gets how far it is, every few seconds."""
+        if not self.is_configured():
+            say("looking for the compiler and the libraries")
         self.configure()
         cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for whoever uses ccache: copies of the kit share it
         command: list[str | Path] = ["cmake", "-E", "env", cached, "cmake", "--build", self.folder]
@@ -110,9 +112,9 @@ class BuildTree:
         return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root, heard=_HowFar(say).heard)
 
     @contextmanager
-    def locked(self) -> Iterator[None]:
+    def locked(self, say: ProgressCallback = lambda text: None) -> Iterator[None]:
         """One command at a time in this folder."""
-        with one_at_a_time(self.folder / ".lock"):
+        with one_at_a_time(self.folder / ".lock", lambda: say("waiting for another command, which builds here")):
             yield
 
 

@@ -6,11 +6,13 @@ class ClassFilter {
    * @param {HTMLFormElement} form
    * @param {ClassRows} rows
    * @param {{step: string, title: string}[]} mistakes
+   * @param {Object<string, string>} letters what is typed for letters that do not decompose
    */
-  constructor(form, rows, mistakes) {
+  constructor(form, rows, mistakes, letters) {
     this.form = form;
     this.rows = rows;
     this.mistakes = mistakes;
+    this.letters = letters;
     this.mistake = null;
     this.chosen = document.getElementById("chosen");
     this.shown = document.getElementById("shown");
@@ -36,6 +38,15 @@ class ClassFilter {
     this.apply();
   }
 
+  /** As Python makes the words of a row. */
+  searchable(text) {
+    const bare = text
+      .toLowerCase()
+      .normalize("NFKD")
+      .replace(/\p{Mn}/gu, "");
+    return Array.from(bare, (letter) => this.letters[letter] ?? letter).join("");
+  }
+
   matchesStep(facts) {
     const [step, status] = [this.value("step"), this.value("status")];
     if (status === "") {
@@ -48,7 +59,7 @@ class ClassFilter {
   }
 
   apply() {
-    const search = this.value("search").trim().toLowerCase().normalize("NFC").split(/\s+/).filter(Boolean);
+    const search = this.searchable(this.value("search")).split(/\s+/).filter(Boolean);
     const hidden = this.rows.namesHidden;
     const count = this.rows.filter(({ facts }) => {
       const words = hidden ? facts.alias : facts.words;

@@ -9,7 +9,7 @@ function startClassPage() {
   const rows = new ClassRows(table, data.rows);
   const names = new ClassNames(rows);
   const sortAgain = makeSortable(table, rows);
-  const filter = new ClassFilter(form, rows, data.mistakes);
+  const filter = new ClassFilter(form, rows, data.mistakes, data.letters);
 
   for (const button of document.querySelectorAll("button[data-mistake]")) {
     button.addEventListener("click", () => {
