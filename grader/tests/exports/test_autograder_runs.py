@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from raysteps.course.project import Project
-from raysteps.exports.autograders import autolab_tar, gradescope_zip, into_folder, prairielearn_folder
+from raysteps.exports.autograders import autolab_tar, gradescope_zip, into_folder, prairielearn_course
 from raysteps.exports.formats import validate
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("many programs")]
@@ -117,7 +117,7 @@ def test_gradescope_reports_its_own_faults(autograder: Path, project: Project) -
 
 def test_prairielearn(autograder: Path, project: Project, tmp_path: Path) -> None:
     folder = tmp_path / "serverFilesCourse" / "raysteps"
-    into_folder(prairielearn_folder(project, ["--minutes", "9", "--steps", "01", "04"]), folder)
+    into_folder(prairielearn_course(project, ["--minutes", "9", "--steps", "01", "04"]), folder)
     shutil.copytree(project.samples / "partial", tmp_path / "student")
     environment = _environment(RAYSTEPS_GRADE=str(tmp_path), RAYSTEPS_KIT=str(autograder / "source" / "kit"))
     done = subprocess.run([folder / "run.sh"], env=environment, capture_output=True, check=False)

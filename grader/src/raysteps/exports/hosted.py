@@ -18,7 +18,7 @@ from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import remove, validate, write
 from raysteps.exports.github import output_line, to_classroom50, to_legacy
 from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_gradescope
-from raysteps.exports.items import harmless_log, summary
+from raysteps.exports.items import harmless_log, summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results
@@ -147,7 +147,8 @@ def gradescope(project: Project, root: Path, options: Options, hidden: Visibilit
 
 
 def prairielearn(project: Project, root: Path, options: Options) -> int:
-    """ROOT/student to ROOT/results/results.json, as in PrairieLearn's container."""
+    """ROOT/student to ROOT/results/results.json, as in PrairieLearn's container. The script that calls this ends with 0
+    after a fault, too: PrairieLearn reads nothing otherwise."""
     path = root / "results" / "results.json"
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
@@ -155,18 +156,17 @@ def prairielearn(project: Project, root: Path, options: Options) -> int:
 
     why = _grade(project, root / "student", options, deliver)
     if why:
-        text = f"This submission was not graded: {why}\nNo attempt was used up. Please tell your instructors."
-        write(not_gradable(text), "prairielearn", path)
+        write(not_gradable(why), "prairielearn", path)
     return GraderFault.exit_code if why else 0
 
 
 def autolab(project: Project, handin: Path, options: Options) -> int:
-    """Prints what a student may read, and the scores in the last line; without that line there is no score."""
+    """Prints what a student may read, and the scores in the last line. After a fault the Makefile prints that line."""
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
         lines = to_autolab(results, steps)
         validate(lines, "autolab")
-        print(summary(results, steps, checks=True))
+        print(wrapped(summary(results, steps, checks=True)))
         print(as_lines(lines), end="", flush=True)
 
     return GraderFault.exit_code if _grade(project, handin, options, deliver) else 0
