@@ -1,6 +1,7 @@
 """The command `export`: results, autograders and gradebooks for other systems."""
 
 import argparse
+import json
 import re
 import sys
 from collections.abc import Mapping, Sequence
@@ -13,7 +14,7 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
-from raysteps.course.manifest import choose, read_steps
+from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.exports import hosted as running
@@ -28,6 +29,7 @@ from raysteps.exports.autograders import (
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.class_results import GradedStudent, moodle_cell, read_class, results_of
 from raysteps.exports.formats import validate, write
+from raysteps.exports.github import release_assets
 from raysteps.exports.gradebook import MOODLE_COLUMNS, canvas, fill, moodle, read_sheet
 from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
 from raysteps.exports.hosted import Options, by_id
@@ -241,15 +243,17 @@ def package(project: Project, arguments: argparse.Namespace) -> list[Path]:
             chosen = [step.number for step in steps] if arguments.steps else []
             into_folder(prairielearn_course(project, words, steps, chosen, arguments.image), path)
         case _:
-            return _package_github(arguments, words)
+            return _package_github(arguments, words, steps)
     return [path]
 
 
-def _package_github(arguments: argparse.Namespace, words: list[str]) -> list[Path]:
+def _package_github(arguments: argparse.Namespace, words: list[str], steps: Sequence[Step]) -> list[Path]:
     if arguments.workflow is not None:
         write_out(arguments.workflow, github_workflow(arguments.kit, words, legacy=arguments.legacy))
     if arguments.autograder is not None:
         write_out(arguments.autograder, classroom50_autograder(words))
+        listed = json.dumps(release_assets(step.id for step in steps))
+        print(f'raysteps: give the assignment "release_assets": {listed}', file=sys.stderr)
     written = [path for path in (arguments.workflow, arguments.autograder) if path is not None]
     if not written:
         raise UsageError("expected --results FILE, --workflow FILE or --autograder FILE")
@@ -294,7 +298,14 @@ def _convert(project: Project, arguments: argparse.Namespace) -> int:
             else:
                 write_out(arguments.out, as_lines(lines).encode())
         case _:
-            running.deliver_github(document, steps, arguments.out, arguments.repository, legacy=arguments.legacy)
+            running.deliver_github(
+                document,
+                steps,
+                arguments.out,
+                arguments.repository,
+                arguments.results.parent,
+                legacy=arguments.legacy,
+            )
     return 0
 
 

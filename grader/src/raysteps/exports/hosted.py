@@ -10,13 +10,22 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason, reason_and_place
+from raysteps.common.files import write_out
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import clean, number, shorten
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import remove, validate, write
-from raysteps.exports.github import output_line, to_classroom50, to_legacy
+from raysteps.exports.github import (
+    BODY,
+    FOLDER,
+    output_line,
+    release_body,
+    release_files,
+    to_classroom50,
+    to_legacy,
+)
 from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_gradescope
 from raysteps.exports.items import harmless_log, summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
@@ -193,39 +202,48 @@ def submitted_at(repository: Path) -> datetime:
         return datetime.now(UTC)
 
 
-def append_output(line: str, path: Path | None) -> None:
-    """To the file, or to the one that $GITHUB_OUTPUT names."""
-    place = path or (Path(os.environ["GITHUB_OUTPUT"]) if os.environ.get("GITHUB_OUTPUT") else None)
+def append_output(text: str, path: Path | None, variable: str = "GITHUB_OUTPUT") -> None:
+    """To the file, or to the one that the variable names."""
+    place = path or (Path(os.environ[variable]) if os.environ.get(variable) else None)
     if place is None:
-        raise UsageError("GITHUB_OUTPUT is not set; say where the output goes with --out FILE")
+        raise UsageError(f"{variable} is not set; say where the output goes with --out FILE")
     try:
         with place.open("a", encoding="utf-8") as file:
-            file.write(line)
+            file.write(text)
     except OSError as error:
         raise UsageError(f"{place}: cannot be written: {reason(error)}") from error
 
 
 def deliver_github(
-    results: Results, steps: Mapping[str, Step], out: Path | None, repository: Path, *, legacy: bool
+    results: Results, steps: Mapping[str, Step], out: Path | None, repository: Path, folder: Path, *, legacy: bool
 ) -> None:
-    """result.json of Classroom 50, or the output of a step of GitHub Classroom."""
+    """result.json of Classroom 50 and what is published with it, or the output of a step of GitHub Classroom and the
+    summary of its run. The pictures are in the folder."""
     if legacy:
         result = to_legacy(results, steps)
         validate(result, "github-legacy")
         append_output(output_line(result), out)
+        if os.environ.get("GITHUB_STEP_SUMMARY"):
+            append_output(release_body(results, steps, (), os.environ), None, "GITHUB_STEP_SUMMARY")
         return
     if out is None:
         raise UsageError("say where the result goes with --out result.json")
-    write(to_classroom50(results, steps, os.environ, submitted_at(repository)), "classroom50", out)
+    result = to_classroom50(results, steps, os.environ, submitted_at(repository))
+    files = release_files(results, steps, folder)
+    files[BODY] = release_body(results, steps, files, os.environ).encode()
+    for place, data in files.items():
+        write_out(out.parent / place, data)
+    write(result, "classroom50", out)
 
 
 def github(project: Project, submission: Path, options: Options, out: Path | None, *, legacy: bool) -> int:
     """Nothing is written when the grader fails: the runner then reports an error, not a score. Nor does anything stay
-    that was handed in under that name."""
+    that was handed in under those names."""
     if out is not None and not legacy:
-        remove(out)
+        for path in (out, out.parent / BODY, out.parent / FOLDER):
+            remove(path)
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
-        deliver_github(results, steps, out, submission, legacy=legacy)
+        deliver_github(results, steps, out, submission, work, legacy=legacy)
 
     return GraderFault.exit_code if _grade(project, submission, options, deliver) else 0
