@@ -285,7 +285,8 @@ def _convert(project: Project, arguments: argparse.Namespace) -> int:
     match arguments.system:
         case "gradescope":
             names = submitters(arguments.metadata) if arguments.metadata is not None else []
-            results = to_gradescope(document, steps, hidden=arguments.hidden, names=names)
+            folder = arguments.results.parent
+            results = to_gradescope(document, steps, hidden=arguments.hidden, names=names, folder=folder)
             write(results, "gradescope", out_file(arguments, "results.json"))
         case "prairielearn":
             results = to_prairielearn(document, steps, arguments.results.parent)

@@ -147,7 +147,7 @@ def gradescope(project: Project, root: Path, options: Options, hidden: Visibilit
     names = submitters(root / "submission_metadata.json")
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
-        write(to_gradescope(results, steps, hidden=hidden, names=names), "gradescope", path)
+        write(to_gradescope(results, steps, hidden=hidden, names=names, folder=work), "gradescope", path)
 
     why = _grade(project, root / "submission", options, deliver)
     if why:
