@@ -171,8 +171,8 @@ def _file_names(page: str) -> tuple[str, list[str]]:
     """As PrairieLearn reads the attribute, by its page on pl-file-upload: a list in CSV without quotes, with the
     backslash before a comma that belongs to a name. Of several lines it takes the first only."""
     attribute, value = re.search(r'<pl-file-upload ([a-z-]+)="([^"]*)">', page).groups()  # type: ignore[union-attr]
-    options = {"quoting": csv.QUOTE_NONE, "escapechar": "\\", "skipinitialspace": True, "strict": True}
-    return attribute, next(csv.reader(io.StringIO(value), **options))  # type: ignore[call-overload]
+    reader = csv.reader(io.StringIO(value), quoting=csv.QUOTE_NONE, escapechar="\\", skipinitialspace=True, strict=True)
+    return attribute, next(reader)
 
 
 def test_the_question_asks_for_the_files_of_its_steps(steps: list[Step], tmp_path: Path) -> None:
