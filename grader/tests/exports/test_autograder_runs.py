@@ -15,8 +15,9 @@ from typing import Any
 
 import pytest
 
+from raysteps.course.manifest import Step, choose
 from raysteps.course.project import Project
-from raysteps.exports.autograders import autolab_tar, gradescope_zip, into_folder, prairielearn_folder
+from raysteps.exports.autograders import autolab_tar, gradescope_zip, into_folder, prairielearn_course
 from raysteps.exports.formats import validate
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("many programs")]
@@ -115,23 +116,26 @@ def test_gradescope_reports_its_own_faults(autograder: Path, project: Project) -
     assert "no score yet" in results["output"]
 
 
-def test_prairielearn(autograder: Path, project: Project, tmp_path: Path) -> None:
-    folder = tmp_path / "serverFilesCourse" / "raysteps"
-    into_folder(prairielearn_folder(project, ["--minutes", "9", "--steps", "01", "04"]), folder)
+def test_prairielearn(autograder: Path, project: Project, steps: list[Step], tmp_path: Path) -> None:
+    words, chosen = ["--minutes", "9"], ["01", "04"]
+    into_folder(prairielearn_course(project, words, choose(steps, chosen), chosen, "me/raysteps"), tmp_path / "course")
+    (tmp_path / "course" / "serverFilesCourse").rename(tmp_path / "serverFilesCourse")
+    script = tmp_path / "serverFilesCourse" / "raysteps" / "run.sh"
     shutil.copytree(project.samples / "partial", tmp_path / "student")
     environment = _environment(RAYSTEPS_GRADE=str(tmp_path), RAYSTEPS_KIT=str(autograder / "source" / "kit"))
-    done = subprocess.run([folder / "run.sh"], env=environment, capture_output=True, check=False)
+    done = subprocess.run([script, "--steps", *chosen], env=environment, capture_output=True, check=False)
     assert done.returncode == 0, done.stderr.decode()
     results = json.loads((tmp_path / "results" / "results.json").read_text())
     validate(results, "prairielearn")
     assert 0.5 < results["score"] < 1
-    assert sum(len(test.get("images", [])) for test in results["tests"]) == 3 * 5
+    assert [len(test["images"]) for test in results["tests"]] == [2, 3]
 
 
-def test_autolab(autograder: Path, project: Project, tmp_path: Path) -> None:
-    with tarfile.open(fileobj=io.BytesIO(autolab_tar(project, ["--minutes", "9", "--steps", "04"]))) as archive:
+def test_autolab(autograder: Path, project: Project, steps: list[Step], tmp_path: Path) -> None:
+    with tarfile.open(fileobj=io.BytesIO(autolab_tar(project, ["--minutes", "9", "--steps", "04"], steps))) as archive:
         archive.extractall(tmp_path, filter="data")
     (tmp_path / "autograde-Makefile").rename(tmp_path / "Makefile")
+    (tmp_path / "hooks.rb").unlink()
     with zipfile.ZipFile(tmp_path / "handin.zip", "w") as archive:
         for path in (project.samples / "partial").rglob("*.cpp"):
             archive.write(path, path.relative_to(project.samples / "partial"))

@@ -2,22 +2,37 @@
 
 import ast
 import base64
+import io
 import json
 import os
+import re
 import subprocess
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
 from export_documents import HOSTILE, document, full, mixed, step_result
+from PIL import Image
 
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.markdown import prose
 from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 from raysteps.exports.autograders import classroom50_autograder, github_workflow
 from raysteps.exports.formats import validate
-from raysteps.exports.github import output_line, to_classroom50, to_legacy, whole_points
+from raysteps.exports.github import (
+    output_line,
+    release_assets,
+    release_body,
+    release_files,
+    to_classroom50,
+    to_legacy,
+    whole_points,
+)
 from raysteps.exports.hosted import by_id, deliver_github, submitted_at
 from raysteps.exports.items import harmless_log
+from raysteps.report.wording import total_words
+from raysteps.results.model import Results
 
 ENVIRONMENT = {
     "CLASSROOM": "graphics",
@@ -71,7 +86,8 @@ def test_legacy_output(steps: list[Step], tmp_path: Path, monkeypatch: pytest.Mo
     sink = tmp_path / "output"
     sink.write_text("before=1\n")
     monkeypatch.setenv("GITHUB_OUTPUT", str(sink))
-    deliver_github(mixed(steps, HOSTILE), by_id(steps), None, tmp_path, legacy=True)
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary"))
+    deliver_github(mixed(steps, HOSTILE), by_id(steps), None, tmp_path, tmp_path, legacy=True)
     first, second = sink.read_text().splitlines()
     assert first == "before=1"
     result = json.loads(base64.b64decode(second.removeprefix("result=")))
@@ -81,6 +97,7 @@ def test_legacy_output(steps: list[Step], tmp_path: Path, monkeypatch: pytest.Mo
     assert "##[" not in json.dumps(result)
     assert not any(line.lstrip().startswith("::") for test in result["tests"] for line in test["message"].splitlines())
     assert result["tests"][1]["filename"] == "steps/02-intersection/intersection.cpp"
+    assert (tmp_path / "summary").read_text().startswith("### ")
 
 
 def test_legacy_status(steps: list[Step], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -90,7 +107,7 @@ def test_legacy_status(steps: list[Step], tmp_path: Path, monkeypatch: pytest.Mo
     assert output_line({"version": 1}).count("\n") == 1
     monkeypatch.delenv("GITHUB_OUTPUT", raising=False)
     with pytest.raises(UsageError, match="GITHUB_OUTPUT"):
-        deliver_github(made, by_id(steps), None, tmp_path, legacy=True)
+        deliver_github(made, by_id(steps), None, tmp_path, tmp_path, legacy=True)
 
 
 def test_the_commit_says_when(tmp_path: Path) -> None:
@@ -128,3 +145,73 @@ def test_no_form_of_a_command_is_left() -> None:
     assert harmless_log("a ##[set-output name=x]1\n  ::error::b\nc::d ###[x") == (
         "a # #[set-output name=x]1\n  : :error::b\nc::d ## #[x"
     )
+
+
+def _with_pictures(made: Results, folder: Path) -> Results:
+    for result in made.steps:
+        for image in result.images:
+            for kind in ("mine", "reference", "difference"):
+                setattr(image, kind, f"pictures/{result.id}-{image.name}-{kind}.png")
+                (folder / "pictures").mkdir(exist_ok=True)
+                Image.new("RGB", (40, 30), (9, 9, 9)).save(folder / getattr(image, kind))
+    return made
+
+
+def test_the_release_gets_the_report_and_a_picture_per_step(steps: list[Step], tmp_path: Path) -> None:
+    files = release_files(_with_pictures(mixed(steps), tmp_path), by_id(steps), tmp_path)
+    with_pictures = [step.id for step in steps if step.index not in (7, 8)]  # not built, not begun
+    assert set(files) == {"raysteps-report/report.html", *(f"raysteps-report/{name}.png" for name in with_pictures)}
+    for name in with_pictures:
+        with Image.open(io.BytesIO(files[f"raysteps-report/{name}.png"])) as picture:
+            assert picture.height > 60 * len(next(step for step in steps if step.id == name).images)
+    assert b"secret" not in files["raysteps-report/report.html"], "a hidden case"
+    assert sum(map(len, files.values())) < 10 << 20
+
+
+def test_the_files_are_those_that_the_documents_tell_to_publish(steps: list[Step], project: Project) -> None:
+    """By Classroom 50's limits: at most 50 relative paths of 8 KiB in all, whose last parts are different, of letters,
+    digits and `._-`, and not the runner's own."""
+    paths = release_assets(step.id for step in steps)
+    names = [path.rpartition("/")[2] for path in paths]
+    assert len(paths) <= 50
+    assert sum(len(path.encode()) for path in paths) <= 8192
+    assert len(set(names)) == len(names)
+    assert all(re.fullmatch(r"[A-Za-z0-9_-][A-Za-z0-9._-]*[A-Za-z0-9_-]", name) and ".." not in name for name in names)
+    assert not {"result.json", "release-body.md"} & set(names)
+    text = (project.root / "docs" / "exports.md").read_text()
+    told = re.search(r'"release_assets": (\[[^]]*\])', text)
+    assert told is not None
+    assert json.loads(told[1]) == paths
+
+
+def test_the_release_says_what_is_wrong(steps: list[Step], tmp_path: Path) -> None:
+    made = mixed(steps, HOSTILE + "\n````\n# a heading\n| a | b |\n[x](javascript:alert)\n@everybody")
+    files = ["raysteps-report/report.html", "raysteps-report/02-intersection.png"]
+    listed = json.dumps([*files, "raysteps-report/03-phong-shading.png"])
+    body = release_body(made, by_id(steps), files, {**ENVIRONMENT, "RELEASE_ASSETS": listed})
+    assert body.startswith(f"### {total_words(made.total)}\n")
+    assert "| 02 Intersection | partly right |" in body
+    text = prose(body)
+    assert "https://github.com/o/r/releases/download/1/report.html" in body
+    assert body.count("releases/download/1/02-intersection.png") == 2, (
+        "the picture, and the link where it cannot be seen"
+    )
+    assert "03-phong-shading.png" not in body, "it was not made"
+    for said in ("script", "heading", "javascript", "everybody", "evil"):
+        assert said in body
+        assert said not in text, "what a program says is only a block of code"
+    assert "secret" not in body
+
+
+@pytest.mark.parametrize("assets", ["", "[", "{}", '["other.png"]'])
+def test_there_are_no_links_to_what_is_not_published(steps: list[Step], assets: str) -> None:
+    environment = {**ENVIRONMENT, "RELEASE_ASSETS": assets}
+    assert "releases/download" not in release_body(mixed(steps), by_id(steps), release_assets(["01-x"]), environment)
+
+
+def test_a_release_has_its_limit(steps: list[Step]) -> None:
+    made = mixed(steps, "x " * 30_000)
+    for result in made.steps:
+        result.messages *= 30
+        result.tests *= 40
+    assert len(release_body(made, by_id(steps), (), ENVIRONMENT)) < 125_000

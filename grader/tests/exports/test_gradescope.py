@@ -1,11 +1,14 @@
 """results.json of Gradescope."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from export_documents import HOSTILE, document, full, mixed, step_result
+from PIL import Image
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
@@ -150,3 +153,30 @@ def test_metadata_is_read_with_patience(tmp_path: Path, text: str, names: list[s
     path.write_text(text)
     assert submitters(path) == names
     assert submitters(tmp_path / "none.json") == []
+
+
+def test_a_pictures_check_shows_the_pictures(steps: list[Step], tmp_path: Path) -> None:
+    made = document([step_result(steps[1], share=0.37, text=HOSTILE)])
+    for image in made.steps[0].images:
+        image.mine = image.reference = f"{image.name}.png"
+        Image.new("RGB", (160, 120), (9, 9, 9)).save(tmp_path / image.mine)
+    results = _converted(made, steps, folder=tmp_path)
+    shown = [test for test in results["tests"] if test.get("output_format") == "html"]
+    assert [test["name"].split(": picture ")[1] for test in shown] == [image.name for image in made.steps[0].images]
+    for test in shown:
+        tags = re.findall("<[^>]*>", test["output"])
+        assert {tag.split()[0] for tag in tags} <= {"<br>", "<img"}, "what a program says is escaped"
+        assert re.search(r'<img alt="[^"<>]+" src="data:image/png;base64,[A-Za-z0-9+/]+=*">', test["output"])
+    assert "&lt;script&gt;" in shown[-1]["output"]
+    assert not any("<img" in test["output"] for test in results["tests"] if test not in shown)
+
+
+def test_pictures_have_a_limit(steps: list[Step], tmp_path: Path) -> None:
+    made = full(steps)
+    chance = np.random.default_rng(3)
+    for result in made.steps:
+        for image in result.images:
+            image.mine = f"{result.id}-{image.name}.png"
+            Image.fromarray(chance.integers(0, 255, (480, 640, 3)).astype(np.uint8)).save(tmp_path / image.mine)
+    results = _converted(made, steps, folder=tmp_path)
+    assert 300_000 < sum(len(test["output"]) for test in results["tests"] if "<img" in test["output"]) <= 500_000

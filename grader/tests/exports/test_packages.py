@@ -1,6 +1,7 @@
 """What is uploaded to other systems: archives, scripts, and which files of the kit are in them."""
 
 import io
+import json
 import os
 import shutil
 import stat
@@ -24,7 +25,7 @@ from raysteps.exports.autograders import (
     gradescope_zip,
     into_folder,
     kit_files,
-    prairielearn_folder,
+    prairielearn_course,
 )
 
 _WORDS = ["--minutes", "9", "--limit", "seconds=40", "--steps", "01", "it's; echo $HOME"]
@@ -41,6 +42,7 @@ def _small_kit(root: Path) -> Project:
     for name in ("src/raysteps/cli.py", "tests/test_a.py", "src/raysteps.egg-info/x", "src/raysteps/__pycache__/a.pyc"):
         (root / "grader" / name).parent.mkdir(parents=True, exist_ok=True)
         (root / "grader" / name).write_text(name)
+    (root / "grader" / "pyproject.toml").write_text('[project]\ndependencies = ["numpy==2.4.6"]\n')
     for name in ("docs/index.md", "build/release/x.o", ".venv/bin/python", "grades/ann/results.json", ".ci/run.sh"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(name)
@@ -55,6 +57,7 @@ _EXPECTED = [
     "README.md",
     "cmake/a.cmake",
     "framework/core/ray.hpp",
+    "grader/pyproject.toml",
     "grader/src/raysteps/cli.py",
     "raysteps",
     "scenes/a.nff",
@@ -120,45 +123,69 @@ def test_gradescope_zip(tmp_path: Path) -> None:
     assert "@" not in script.replace('"$@"', "")
 
 
-def test_autolab_tar(tmp_path: Path) -> None:
-    project = _small_kit(tmp_path / "kit")
-    with tarfile.open(fileobj=io.BytesIO(autolab_tar(project, _WORDS))) as outer:
-        assert outer.getnames() == ["autograde-Makefile", "autograde.tar"]
-        inside = outer.extractfile("autograde.tar")
-        assert inside is not None
-        with tarfile.open(fileobj=inside) as inner:
-            modes = {info.name: info.mode for info in inner}
-    assert modes["raysteps-autolab/driver.sh"] == 0o755
-    assert modes["raysteps-autolab/kit/raysteps"] == 0o755
-    assert "raysteps-autolab/kit/solutions/01-a/a.cpp" in modes
+def _unpacked(data: bytes) -> dict[str, tuple[bytes, int]]:
+    with tarfile.open(fileobj=io.BytesIO(data)) as archive:
+        return {info.name: (file.read(), info.mode) for info in archive if (file := archive.extractfile(info))}
 
 
-def test_prairielearn_folder(tmp_path: Path) -> None:
+def test_autolab_tar(tmp_path: Path, steps: list[Step]) -> None:
+    outer = _unpacked(autolab_tar(_small_kit(tmp_path / "kit"), _WORDS, steps[:2]))
+    assert set(outer) == {"autograde-Makefile", "autograde.tar", "hooks.rb"}
+    inner = _unpacked(outer["autograde.tar"][0])
+    assert inner["raysteps-autolab/driver.sh"][1] == 0o755
+    assert inner["raysteps-autolab/kit/raysteps"][1] == 0o755
+    assert "raysteps-autolab/kit/solutions/01-a/a.cpp" in inner
+    assert b'{"scores": {"01-camera-rays": null, "02-intersection": null}}' in outer["autograde-Makefile"][0]
+
+
+def _course(project: Project, steps: list[Step], *chosen: str) -> dict[str, Member]:
+    members = prairielearn_course(project, _WORDS, steps, chosen, "me/raysteps")
+    return {member.name: member for member in members}
+
+
+def test_what_is_added_to_a_course_of_prairielearn(tmp_path: Path, steps: list[Step]) -> None:
     project = _small_kit(tmp_path / "kit")
-    folder = tmp_path / "serverFilesCourse" / "raysteps"
-    into_folder(prairielearn_folder(project, []), folder)
-    assert {path.name for path in folder.iterdir()} == {"run.sh", "setup.sh", "Dockerfile", "kit"}
-    assert os.access(folder / "run.sh", os.X_OK)
-    assert os.access(folder / "kit" / "raysteps", os.X_OK)
+    members = _course(project, steps)
+    bundle = "serverFilesCourse/raysteps"
+    assert set(members) == {
+        "questions/raysteps/info.json",
+        "questions/raysteps/question.html",
+        *(f"{bundle}/{name}" for name in ("run.sh", "prepare.sh", "setup.sh", "kit.tar")),
+        "image/Dockerfile",
+        "image/requirements.txt",
+    }
+    kit = _unpacked(members[f"{bundle}/kit.tar"].data)
+    assert list(kit) == [f"kit/{place}" for place in _EXPECTED]
+    assert kit["kit/raysteps"][1] == 0o755
+    assert "questions/raysteps-02-04/info.json" in _course(project, [steps[1], steps[3]], "02", "04")
+    with pytest.raises(UsageError, match="--image"):
+        prairielearn_course(project, [], steps, [], "")
+    into_folder(list(members.values()), tmp_path / "out")
+    assert os.access(tmp_path / "out" / bundle / "run.sh", os.X_OK)
     with pytest.raises(UsageError, match="new or an empty folder"):
-        into_folder([Member("a", b"")], folder)
+        into_folder([Member("a", b"")], tmp_path / "out")
 
 
-@pytest.mark.parametrize("name", ["setup.sh", "run_autograder", "run.sh", "driver.sh"])
-def test_scripts_are_shell(project: Project, tmp_path: Path, name: str) -> None:
-    members = {member.name: member for member in prairielearn_folder(project, _WORDS)}
+def test_the_image_for_prairielearn_holds_no_file_of_the_kit(tmp_path: Path, steps: list[Step]) -> None:
+    """Its registry is public."""
+    image = {name: member.data.decode() for name, member in _course(_small_kit(tmp_path / "kit"), steps).items()}
+    copied = [line for line in image["image/Dockerfile"].splitlines() if line.startswith(("COPY", "ADD"))]
+    assert copied == ["COPY requirements.txt /opt/raysteps/"]
+    assert image["image/requirements.txt"] == "numpy==2.4.6\n"
+    assert " g++ " in image["image/Dockerfile"]
+
+
+def test_scripts_are_shell(project: Project, steps: list[Step]) -> None:
+    course = _course(project, steps)
     with zipfile.ZipFile(io.BytesIO(gradescope_zip(project, _WORDS))) as archive:
         scripts = {"setup.sh": archive.read("setup.sh"), "run_autograder": archive.read("run_autograder")}
-    with tarfile.open(fileobj=io.BytesIO(autolab_tar(project, _WORDS))) as outer:
-        inside = outer.extractfile("autograde.tar")
-        assert inside is not None
-        with tarfile.open(fileobj=inside) as inner:
-            driver = inner.extractfile("raysteps-autolab/driver.sh")
-            assert driver is not None
-            scripts["driver.sh"] = driver.read()
-    scripts["run.sh"] = members["run.sh"].data
-    done = subprocess.run(["sh", "-n"], input=scripts[name], capture_output=True, check=False)
-    assert (done.returncode, done.stderr) == (0, b"")
+    inner = _unpacked(_unpacked(autolab_tar(project, _WORDS, steps))["autograde.tar"][0])
+    scripts["driver.sh"] = inner["raysteps-autolab/driver.sh"][0]
+    scripts |= {name: course[f"serverFilesCourse/raysteps/{name}"].data for name in ("run.sh", "prepare.sh")}
+    for script in scripts.values():
+        done = subprocess.run(["sh", "-n"], input=script, capture_output=True, check=False)
+        assert (done.returncode, done.stderr) == (0, b"")
+        assert b"@" not in script.replace(b'"$@"', b"")
 
 
 def _export(project: Project, *words: str | Path) -> int:
@@ -191,7 +218,10 @@ def test_the_command_packs(project: Project, tmp_path: Path) -> None:
         "--feedback diagnosis --limit seconds=40 --steps 1 02"
     )
     assert _export(project, "autolab", "--out", tmp_path / "a.tar") == 0
-    assert _export(project, "prairielearn", "--out", tmp_path / "pl") == 0
+    assert _export(project, "prairielearn", "--out", tmp_path / "pl", "--image", "me/raysteps", *words) == 0
+    info = json.loads((tmp_path / "pl" / "questions" / "raysteps-01-02" / "info.json").read_text())
+    assert info["externalGradingOptions"]["entrypoint"][1:] == ["--steps", "01", "02"]
+    assert "--steps" not in (tmp_path / "pl" / "serverFilesCourse" / "raysteps" / "run.sh").read_text()
     assert _export(project, "classroom50", "--autograder", tmp_path / "autograder.py") == 0
     assert _export(project, "classroom50", "--workflow", tmp_path / "w.yaml", "--kit", "o/kit") == 0
     assert (tmp_path / "w.yaml").is_file()
@@ -204,6 +234,8 @@ def test_the_command_packs(project: Project, tmp_path: Path) -> None:
         (["gradescope", "--out", "x.zip", "--steps", "99"], "no step '99'"),
         (["gradescope", "--out", "x.zip", "--limit", "speed=1"], "speed"),
         (["gradescope", "--out", "/nowhere/there/x.zip"], "cannot be written"),
+        (["prairielearn", "--out", "x"], "--image"),
+        (["prairielearn", "--out", "x", "--image", "me/x", "--minutes", "10"], "--minutes 9.5 or less"),
         (["classroom50"], "--workflow FILE"),
         (["classroom50", "--workflow", "x.yaml"], "--kit"),
         (["gradescope", "--results", "none.json", "--out", "x"], "is not there"),

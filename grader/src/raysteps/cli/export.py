@@ -1,9 +1,10 @@
 """The command `export`: results, autograders and gradebooks for other systems."""
 
 import argparse
+import json
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
-from raysteps.course.manifest import STEPS_HELP, choose, course_steps, read_steps, steps_words
+from raysteps.course.manifest import STEPS_HELP, Step, choose, course_steps, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.exports import hosted as running
@@ -23,15 +24,16 @@ from raysteps.exports.autograders import (
     github_workflow,
     gradescope_zip,
     into_folder,
-    prairielearn_folder,
+    prairielearn_course,
 )
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.class_results import GradedStudent, moodle_cell, read_class, results_of
 from raysteps.exports.formats import validate, write
+from raysteps.exports.github import release_assets
 from raysteps.exports.gradebook import MOODLE_COLUMNS, canvas, fill, moodle, read_sheet
 from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
 from raysteps.exports.hosted import Options, by_id
-from raysteps.exports.prairielearn import to_prairielearn
+from raysteps.exports.prairielearn import SECONDS, to_prairielearn
 from raysteps.exports.similarity import add_similarity_arguments, export_similarity
 from raysteps.grading.withhold import withhold
 from raysteps.results.store import read_results
@@ -172,26 +174,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = systems.add_parser("autolab", help="a tar with Makefile and driver, or the last lines of one")
     _add_results(add)
     _add_grading(add)
-    add = systems.add_parser("prairielearn", help="a folder for serverFilesCourse, or one results.json")
+    add = systems.add_parser("prairielearn", help="a question, its grader and an image, or one results.json")
     _add_results(add)
+    add.add_argument("--image", default="", metavar="ACCOUNT/NAME", help="what the image that grades will be called")
     _add_grading(add)
     add_gradebook_arguments(systems)
     add_similarity_arguments(systems)
 
 
-def grading_words(arguments: argparse.Namespace) -> list[str]:
+def grading_words(arguments: argparse.Namespace, steps: Sequence[str]) -> list[str]:
     """The options that are passed on to `grade`."""
     words = ["--require-sandbox"] if arguments.require_sandbox else []
     words += ["--seed", arguments.seed] if arguments.seed is not None else []
     words += ["--feedback", arguments.feedback] if arguments.feedback is not None else []
     for limit in arguments.limit:
         words += ["--limit", limit]
-    return words + (["--only", *arguments.steps] if arguments.steps else [])
+    return words + (["--only", *steps] if steps else [])
 
 
 def refuse_grading_words(arguments: argparse.Namespace) -> None:
     """With --results everything is graded already; only --feedback still makes a difference."""
-    for word in grading_words(arguments):
+    for word in grading_words(arguments, arguments.steps):
         if word.startswith("--") and word != "--feedback":
             option = "--steps" if word == "--only" else word
             raise UsageError(f"--results converts what is graded already; leave {option} out, it is for grading")
@@ -199,7 +202,8 @@ def refuse_grading_words(arguments: argparse.Namespace) -> None:
 
 def script_words(arguments: argparse.Namespace) -> list[str]:
     """The same options as `export` takes them, for the scripts that call it."""
-    words = ["--minutes", f"{arguments.minutes:g}", *grading_words(arguments)]
+    chosen = [] if arguments.system == "prairielearn" else arguments.steps  # there the question says which
+    words = ["--minutes", f"{arguments.minutes:g}", *grading_words(arguments, chosen)]
     words = ["--steps" if word == "--only" else word for word in words]
     return ["--hidden", arguments.hidden, *words] if arguments.system == "gradescope" else words
 
@@ -214,10 +218,12 @@ def out_file(arguments: argparse.Namespace, what: str) -> Path:
 
 # Writes what is uploaded to another system.
 
+_MARGIN = 30  # seconds that are left for what happens before and after grading
+
 
 def package(project: Project, arguments: argparse.Namespace) -> list[Path]:
     """The files or folders that were written."""
-    choose(read_steps(project), arguments.steps)
+    steps = choose(read_steps(project), arguments.steps)
     parse_limits(arguments.limit)
     words = script_words(arguments)
     match arguments.system:
@@ -226,20 +232,28 @@ def package(project: Project, arguments: argparse.Namespace) -> list[Path]:
             write_out(path, gradescope_zip(project, words))
         case "autolab":
             path = out_file(arguments, "raysteps-autolab.tar")
-            write_out(path, autolab_tar(project, words))
+            write_out(path, autolab_tar(project, words, steps))
         case "prairielearn":
-            path = out_file(arguments, "serverFilesCourse/raysteps")
-            into_folder(prairielearn_folder(project, words), path)
+            path = out_file(arguments, "pl-raysteps")
+            if arguments.minutes * 60 > SECONDS - _MARGIN:
+                raise UsageError(
+                    f"PrairieLearn itself ends a job after {SECONDS} seconds; "
+                    f"expected --minutes {(SECONDS - _MARGIN) / 60:g} or less"
+                )
+            chosen = [step.number for step in steps] if arguments.steps else []
+            into_folder(prairielearn_course(project, words, steps, chosen, arguments.image), path)
         case _:
-            return _package_github(arguments, words)
+            return _package_github(arguments, words, steps)
     return [path]
 
 
-def _package_github(arguments: argparse.Namespace, words: list[str]) -> list[Path]:
+def _package_github(arguments: argparse.Namespace, words: list[str], steps: Sequence[Step]) -> list[Path]:
     if arguments.workflow is not None:
         write_out(arguments.workflow, github_workflow(arguments.kit, words, legacy=arguments.legacy))
     if arguments.autograder is not None:
         write_out(arguments.autograder, classroom50_autograder(words))
+        listed = json.dumps(release_assets(step.id for step in steps))
+        print(f'raysteps: give the assignment "release_assets": {listed}', file=sys.stderr)
     written = [path for path in (arguments.workflow, arguments.autograder) if path is not None]
     if not written:
         raise UsageError("expected --results FILE, --workflow FILE or --autograder FILE")
@@ -247,7 +261,7 @@ def _package_github(arguments: argparse.Namespace, words: list[str]) -> list[Pat
 
 
 def _options(arguments: argparse.Namespace) -> Options:
-    words = tuple(grading_words(arguments))
+    words = tuple(grading_words(arguments, arguments.steps))
     return Options(arguments.minutes * 60, tuple(arguments.steps), words, echo=arguments.system == "gradescope")
 
 
@@ -271,7 +285,8 @@ def _convert(project: Project, arguments: argparse.Namespace) -> int:
     match arguments.system:
         case "gradescope":
             names = submitters(arguments.metadata) if arguments.metadata is not None else []
-            results = to_gradescope(document, steps, hidden=arguments.hidden, names=names)
+            folder = arguments.results.parent
+            results = to_gradescope(document, steps, hidden=arguments.hidden, names=names, folder=folder)
             write(results, "gradescope", out_file(arguments, "results.json"))
         case "prairielearn":
             results = to_prairielearn(document, steps, arguments.results.parent)
@@ -284,7 +299,14 @@ def _convert(project: Project, arguments: argparse.Namespace) -> int:
             else:
                 write_out(arguments.out, as_lines(lines).encode())
         case _:
-            running.deliver_github(document, steps, arguments.out, arguments.repository, legacy=arguments.legacy)
+            running.deliver_github(
+                document,
+                steps,
+                arguments.out,
+                arguments.repository,
+                arguments.results.parent,
+                legacy=arguments.legacy,
+            )
     return 0
 
 

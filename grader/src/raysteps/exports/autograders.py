@@ -5,17 +5,21 @@ import os
 import re
 import shlex
 import tarfile
+import tomllib
 import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path, PurePosixPath
 
+from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder, write_bytes
-from raysteps.course.manifest import course_manifests
+from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
+from raysteps.exports.autolab import no_scores
+from raysteps.exports.prairielearn import question_info, question_name, question_page
 
 # Archives and folders whose bytes depend on their content only.
 
@@ -122,8 +126,8 @@ def _template(name: str) -> str:
 
 
 def _script(name: str, options: Sequence[str] = ()) -> bytes:
-    """A shell script: with the function that calls the kit, and the options of this export."""
-    text = _template(name).replace("@KIT@\n", _template("kit.sh"))
+    """A shell script: with the functions that it shares with others, and the options of this export."""
+    text = _template(name).replace("@KIT@\n", _template("kit.sh")).replace("@UNPACK@\n", _template("unpack.sh"))
     return text.replace("@OPTIONS@", shlex.join(options)).encode()
 
 
@@ -144,24 +148,53 @@ def gradescope_zip(project: Project, options: Sequence[str]) -> bytes:
     return as_zip([*own, *_kit(project, "kit")])
 
 
-def autolab_tar(project: Project, options: Sequence[str]) -> bytes:
-    """autograde-Makefile and autograde.tar; the kit and the driver are in the latter."""
+def autolab_tar(project: Project, options: Sequence[str], steps: Sequence[Step]) -> bytes:
+    """autograde-Makefile and autograde.tar, which holds the kit and the driver; and hooks for a configuration file."""
     inner = [
         Member(f"{_AUTOLAB}/setup.sh", _script("setup.sh"), executable=True),
         Member(f"{_AUTOLAB}/driver.sh", _script("driver.sh", options), executable=True),
         *_kit(project, f"{_AUTOLAB}/kit"),
     ]
-    makefile = Member("autograde-Makefile", _template("autograde-Makefile").encode())
-    return as_tar([makefile, Member("autograde.tar", as_tar(inner))])
+    makefile = _template("autograde-Makefile").replace("@NOTHING@", no_scores(step.id for step in steps))
+    return as_tar(
+        [
+            Member("autograde-Makefile", makefile.encode()),
+            Member("autograde.tar", as_tar(inner)),
+            Member("hooks.rb", _template("hooks.rb").encode()),
+        ]
+    )
 
 
-def prairielearn_folder(project: Project, options: Sequence[str]) -> list[Member]:
-    """A folder for serverFilesCourse that is also what the grading image is built from."""
+def _image(project: Project) -> list[Member]:
+    """What the image for PrairieLearn is made from: nothing of the kit but the names of what it needs."""
+    needs = (COMPILER, CMAKE, NINJA, VENV, *LIBRARIES, HIGHWAY, SANDBOX)
+    packages = " ".join(sorted({"xz-utils", *(need.packages["apt-get"] for need in needs)}))
+    package = tomllib.loads((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8"))
+    lines = "".join(f"{line}\n" for line in package["project"]["dependencies"])
     return [
-        Member("run.sh", _script("run.sh", options), executable=True),
-        Member("setup.sh", _script("setup.sh"), executable=True),
-        Member("Dockerfile", _template("Dockerfile").encode()),
-        *_kit(project, "kit"),
+        Member("image/Dockerfile", _template("Dockerfile").replace("@PACKAGES@", packages).encode()),
+        Member("image/requirements.txt", lines.encode()),
+    ]
+
+
+def prairielearn_course(
+    project: Project, options: Sequence[str], steps: Sequence[Step], chosen: Sequence[str], image: str
+) -> list[Member]:
+    """What is added to a course, and the image that grades there. `chosen`: the steps of the question; all of them when
+    there are none."""
+    if not image:
+        raise UsageError("say what the image that grades will be called with --image ACCOUNT/NAME")
+    question, bundle = f"questions/{question_name(chosen)}", "serverFilesCourse/raysteps"
+    scripts = [
+        Member(f"{bundle}/run.sh", _script("run.sh", options), executable=True),
+        *(Member(f"{bundle}/{name}", _script(name), executable=True) for name in ("prepare.sh", "setup.sh")),
+    ]
+    return [
+        Member(f"{question}/info.json", question_info(steps, chosen, image)),
+        Member(f"{question}/question.html", question_page(steps)),
+        *scripts,
+        Member(f"{bundle}/kit.tar", as_tar(_kit(project, "kit"))),
+        *_image(project),
     ]
 
 

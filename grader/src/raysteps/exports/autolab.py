@@ -1,7 +1,7 @@
-"""The last lines that an Autolab driver prints."""
+"""The last lines that an Autolab job prints."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from raysteps.common.text import clean
@@ -34,6 +34,11 @@ def to_autolab(results: Results, steps: Mapping[str, Step]) -> list[dict[str, An
         "scoreboard": [results.total.points, _BRUTE_FORCE if tested is None else tested],
     }
     return [{"_presentation": "semantic", "stages": list(stages), **stages}, scores]
+
+
+def no_scores(ids: Iterable[str]) -> str:
+    """The last line after a fault: null is no score, while a line that cannot be read becomes a zero."""
+    return json.dumps({"scores": dict.fromkeys(ids)})
 
 
 def as_lines(document: Sequence[Mapping[str, Any]]) -> str:

@@ -1,16 +1,22 @@
-"""Classroom 50's result.json, and the output of the older GitHub Classroom's autograding steps."""
+"""Classroom 50's result.json with what it publishes beside it, and the output of the older GitHub Classroom."""
 
 import base64
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import apportion, clean
+from raysteps.common.text import apportion, clean, tenths
 from raysteps.course.manifest import Step
-from raysteps.exports.items import harmless_log, one_line, step_text, title
-from raysteps.results.model import Results
+from raysteps.exports.formats import sheet
+from raysteps.exports.items import as_code, failed_checks, harmless_log, items_of, one_line, step_text, title
+from raysteps.grading.withhold import withhold
+from raysteps.report.student import REPORT, student_page
+from raysteps.report.wording import total_words
+from raysteps.results.model import Results, StepResult
+from raysteps.results.statuses import in_words
 
 _FIELDS = {
     "classroom": "CLASSROOM",
@@ -63,6 +69,88 @@ def to_classroom50(
         for step, (points, most) in zip(results.steps, pairs, strict=True)
     ]
     return result
+
+
+# What Classroom 50 publishes beside the points: the text of the release, and files that the assignment names.
+
+BODY = "release-body.md"
+FOLDER = "raysteps-report"  # of the files, in the folder of result.json
+_MAX_BODY = 100_000  # characters; GitHub takes 125,000
+_TEXT = 8_000  # of each step
+
+
+def release_assets(steps: Iterable[str]) -> list[str]:
+    """For the assignment's `release_assets`: the report, and for each step a picture that holds all of its pictures."""
+    return [f"{FOLDER}/{name}" for name in (REPORT, *(f"{step}.png" for step in steps))]
+
+
+def release_files(results: Results, steps: Mapping[str, Step], folder: Path) -> dict[str, bytes]:
+    """By their place below the folder of result.json. Hidden cases are not in them: the release is the student's."""
+    shown = withhold(results, "diagnosis")
+    page = _page(shown, steps, folder)
+    files = {} if page is None else {f"{FOLDER}/{REPORT}": page}
+    for result in shown.steps:
+        pictures = sheet(folder, items_of(result, steps.get(result.id)))
+        if pictures is not None:
+            files[f"{FOLDER}/{result.id}.png"] = pictures
+    return files
+
+
+def _page(results: Results, steps: Mapping[str, Step], folder: Path) -> bytes | None:
+    try:
+        return student_page(results, folder, list(steps.values())).encode()
+    except Exception as error:  # a page is not worth a grade
+        print(f"raysteps: no {REPORT}: {harmless_log(clean(repr(error)))}", flush=True)
+        return None
+
+
+def _links(files: Collection[str], environment: Mapping[str, str]) -> dict[str, str]:
+    """Where the files will lie, by their place: those that the assignment names."""
+    try:
+        listed = json.loads(environment.get("RELEASE_ASSETS") or "[]")
+    except ValueError:
+        return {}
+    base = environment.get("RELEASE_URL", "")
+    if "/releases/tag/" not in base or not isinstance(listed, list):
+        return {}
+    base = base.replace("/releases/tag/", "/releases/download/", 1)
+    return {file: f"{base}/{file.rpartition('/')[2]}" for file in files if file in listed}
+
+
+def _section(result: StepResult, steps: Mapping[str, Step], picture: str | None) -> list[str]:
+    """What is wrong with a step, as a block of code: Markdown and HTML in it are only text."""
+    said = [step_text(result), *failed_checks(result, steps.get(result.id))]
+    name = one_line(title(result, steps))
+    lines = [f"#### {_inline(name)}", "", as_code("\n".join(filter(None, said)) or in_words(result.status), _TEXT)]
+    return [*lines, f"[![The pictures of step {result.id[:2]}]({picture})]({picture})", ""] if picture else lines
+
+
+def _inline(text: str) -> str:
+    """In the middle of Markdown."""
+    return "".join(f"\\{letter}" if letter in "\\`*_{}[]()<>#+-!|~@&:" else letter for letter in text)
+
+
+def release_body(
+    results: Results, steps: Mapping[str, Step], files: Collection[str], environment: Mapping[str, str]
+) -> str:
+    """The points, what is wrong with each step, and links to the files that are published."""
+    links = _links(files, environment)
+    lines = [f"### {total_words(results.total)}", "", "| step | | points |", "|---|---|---|"]
+    for result in results.steps:
+        name = _inline(one_line(title(result, steps)))
+        lines.append(f"| {name} | {in_words(result.status)} | {tenths(result.points)} of {tenths(result.max)} |")
+    pairs = whole_points(results)
+    recorded = f"{sum(points for points, _ in pairs)} of {sum(most for _, most in pairs)}"
+    lines += ["", f"Recorded in whole numbers, bonus included: {recorded}.", ""]
+    report = links.get(f"{FOLDER}/{REPORT}")
+    lines += [f"[The report with all pictures]({report}): download it and open it in a browser.", ""] if report else []
+    for result in results.steps:
+        if result.status != "passed":
+            lines += _section(result, steps, links.get(f"{FOLDER}/{result.id}.png"))
+    text = "\n".join(lines)
+    if len(text) <= _MAX_BODY:
+        return text
+    return "\n".join(lines[: 4 + len(results.steps)]) + "\n\nThere is more to say than fits here; see the report.\n"
 
 
 def to_legacy(results: Results, steps: Mapping[str, Step]) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """results.json of Gradescope."""
 
+import html
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -7,13 +8,16 @@ from typing import Any, Literal, get_args
 
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
-from raysteps.exports.items import Entry, Item, entries_of, one_line, summary, title
+from raysteps.exports.formats import Album, Paste
+from raysteps.exports.items import Entry, Item, as_html, entries_of, one_line, summary, title
 from raysteps.results.model import Results, StepResult
 from raysteps.results.work_ratio import NoWorkRatio, work_ratio_of
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 VISIBILITIES: tuple[Visibility, ...] = get_args(Visibility)
 _MAX_METADATA = 4 << 20
+_MAX_PICTURES = 500_000  # bytes of all of them; Gradescope names no limit, and a page has to show them
+_AROUND_A_PICTURE = 80
 
 
 def _name(name: str, item: Item) -> str:
@@ -38,11 +42,25 @@ def _test(name: str, number: str, entry: Entry, hidden: Visibility) -> dict[str,
     return test
 
 
-def _tests(result: StepResult, steps: Mapping[str, Step], hidden: Visibility) -> list[dict[str, Any]]:
-    entries = entries_of(result, steps.get(result.id))
+def _paste(test: dict[str, Any], item: Item) -> Paste:
+    """The one kind of test whose output is HTML: what a program says is escaped in it."""
+
+    def paste(label: str, uri: str) -> None:
+        said = html.escape(label)
+        test["output"] = f'{as_html(item.text)}<br><img alt="{said}" src="{uri}"><br>{said}'
+        test["output_format"] = "html"
+
+    return paste
+
+
+def _tests(result: StepResult, steps: Mapping[str, Step], hidden: Visibility, album: Album) -> list[dict[str, Any]]:
+    tests = []
     number = int(result.id[:2])
     name = one_line(title(result, steps))
-    return [_test(name, f"{number}.{at}", entry, hidden) for at, entry in enumerate(entries, 1)]
+    for at, entry in enumerate(entries_of(result, steps.get(result.id)), 1):
+        tests.append(_test(name, f"{number}.{at}", entry, hidden))
+        album.offer(entry.item, _paste(tests[-1], entry.item))
+    return tests
 
 
 def _leaderboard(result: StepResult, steps: Mapping[str, Step]) -> list[dict[str, Any]]:
@@ -74,17 +92,23 @@ def to_gradescope(
     *,
     hidden: Visibility = "visible",
     names: Sequence[str] = (),
+    folder: Path | None = None,
 ) -> dict[str, Any]:
-    """Every check with its points. With hidden checks out of sight, nothing visible tells the total."""
+    """Every check with its points, and its pictures where they are in the folder. With hidden checks out of sight,
+    nothing visible tells the total."""
     output = summary(results, steps, points=hidden == "visible")
     if names:
         output = f"Submitted by {', '.join(names)}.\n{output}"
+    album = Album(_AROUND_A_PICTURE)
+    tests = [test for result in results.steps for test in _tests(result, steps, hidden, album)]
+    if folder is not None:
+        album.fill(folder, _MAX_PICTURES)
     made: dict[str, object] = {
         "output": output,
         **_formats(),
         "execution_time": round(results.timing.seconds),
         "extra_data": {"kit": results.kit, "isolation": results.isolation.name},
-        "tests": [test for result in results.steps for test in _tests(result, steps, hidden)],
+        "tests": tests,
     }
     board = [entry for result in results.steps for entry in _leaderboard(result, steps)]
     return {**made, "leaderboard": board} if board else made

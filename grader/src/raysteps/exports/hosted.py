@@ -10,15 +10,24 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason, reason_and_place
+from raysteps.common.files import write_out
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import clean, number, shorten
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.formats import remove, validate, write
-from raysteps.exports.github import output_line, to_classroom50, to_legacy
+from raysteps.exports.github import (
+    BODY,
+    FOLDER,
+    output_line,
+    release_body,
+    release_files,
+    to_classroom50,
+    to_legacy,
+)
 from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_gradescope
-from raysteps.exports.items import harmless_log, summary
+from raysteps.exports.items import harmless_log, summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results
@@ -138,7 +147,7 @@ def gradescope(project: Project, root: Path, options: Options, hidden: Visibilit
     names = submitters(root / "submission_metadata.json")
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
-        write(to_gradescope(results, steps, hidden=hidden, names=names), "gradescope", path)
+        write(to_gradescope(results, steps, hidden=hidden, names=names, folder=work), "gradescope", path)
 
     why = _grade(project, root / "submission", options, deliver)
     if why:
@@ -147,7 +156,8 @@ def gradescope(project: Project, root: Path, options: Options, hidden: Visibilit
 
 
 def prairielearn(project: Project, root: Path, options: Options) -> int:
-    """ROOT/student to ROOT/results/results.json, as in PrairieLearn's container."""
+    """ROOT/student to ROOT/results/results.json, as in PrairieLearn's container. The script that calls this ends with 0
+    after a fault, too: PrairieLearn reads nothing otherwise."""
     path = root / "results" / "results.json"
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
@@ -155,18 +165,17 @@ def prairielearn(project: Project, root: Path, options: Options) -> int:
 
     why = _grade(project, root / "student", options, deliver)
     if why:
-        text = f"This submission was not graded: {why}\nNo attempt was used up. Please tell your instructors."
-        write(not_gradable(text), "prairielearn", path)
+        write(not_gradable(why), "prairielearn", path)
     return GraderFault.exit_code if why else 0
 
 
 def autolab(project: Project, handin: Path, options: Options) -> int:
-    """Prints what a student may read, and the scores in the last line; without that line there is no score."""
+    """Prints what a student may read, and the scores in the last line. After a fault the Makefile prints that line."""
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
         lines = to_autolab(results, steps)
         validate(lines, "autolab")
-        print(summary(results, steps, checks=True))
+        print(wrapped(summary(results, steps, checks=True)))
         print(as_lines(lines), end="", flush=True)
 
     return GraderFault.exit_code if _grade(project, handin, options, deliver) else 0
@@ -193,39 +202,48 @@ def submitted_at(repository: Path) -> datetime:
         return datetime.now(UTC)
 
 
-def append_output(line: str, path: Path | None) -> None:
-    """To the file, or to the one that $GITHUB_OUTPUT names."""
-    place = path or (Path(os.environ["GITHUB_OUTPUT"]) if os.environ.get("GITHUB_OUTPUT") else None)
+def append_output(text: str, path: Path | None, variable: str = "GITHUB_OUTPUT") -> None:
+    """To the file, or to the one that the variable names."""
+    place = path or (Path(os.environ[variable]) if os.environ.get(variable) else None)
     if place is None:
-        raise UsageError("GITHUB_OUTPUT is not set; say where the output goes with --out FILE")
+        raise UsageError(f"{variable} is not set; say where the output goes with --out FILE")
     try:
         with place.open("a", encoding="utf-8") as file:
-            file.write(line)
+            file.write(text)
     except OSError as error:
         raise UsageError(f"{place}: cannot be written: {reason(error)}") from error
 
 
 def deliver_github(
-    results: Results, steps: Mapping[str, Step], out: Path | None, repository: Path, *, legacy: bool
+    results: Results, steps: Mapping[str, Step], out: Path | None, repository: Path, folder: Path, *, legacy: bool
 ) -> None:
-    """result.json of Classroom 50, or the output of a step of GitHub Classroom."""
+    """result.json of Classroom 50 and what is published with it, or the output of a step of GitHub Classroom and the
+    summary of its run. The pictures are in the folder."""
     if legacy:
         result = to_legacy(results, steps)
         validate(result, "github-legacy")
         append_output(output_line(result), out)
+        if os.environ.get("GITHUB_STEP_SUMMARY"):
+            append_output(release_body(results, steps, (), os.environ), None, "GITHUB_STEP_SUMMARY")
         return
     if out is None:
         raise UsageError("say where the result goes with --out result.json")
-    write(to_classroom50(results, steps, os.environ, submitted_at(repository)), "classroom50", out)
+    result = to_classroom50(results, steps, os.environ, submitted_at(repository))
+    files = release_files(results, steps, folder)
+    files[BODY] = release_body(results, steps, files, os.environ).encode()
+    for place, data in files.items():
+        write_out(out.parent / place, data)
+    write(result, "classroom50", out)
 
 
 def github(project: Project, submission: Path, options: Options, out: Path | None, *, legacy: bool) -> int:
     """Nothing is written when the grader fails: the runner then reports an error, not a score. Nor does anything stay
-    that was handed in under that name."""
+    that was handed in under those names."""
     if out is not None and not legacy:
-        remove(out)
+        for path in (out, out.parent / BODY, out.parent / FOLDER):
+            remove(path)
 
     def deliver(results: Results, steps: Mapping[str, Step], work: Path) -> None:
-        deliver_github(results, steps, out, submission, legacy=legacy)
+        deliver_github(results, steps, out, submission, work, legacy=legacy)
 
     return GraderFault.exit_code if _grade(project, submission, options, deliver) else 0

@@ -2,6 +2,7 @@
 
 import html
 import re
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -25,6 +26,24 @@ def one_line(text: str, limit: int = 200) -> str:
 def as_html(text: str, limit: int = 4000) -> str:
     """For places that render HTML."""
     return html.escape(clean(text, limit)).replace("\n", "<br>")
+
+
+def as_code(text: str, limit: int = 60_000) -> str:
+    """For places that render Markdown: a block of code, whose fence is longer than any in the text."""
+    said = clean(text, limit)
+    fence = "`" * max(3, 1 + max(map(len, re.findall("`+", said)), default=0))
+    return f"{fence}text\n{said}\n{fence}\n"
+
+
+def wrapped(text: str, width: int = 96) -> str:
+    """For places that show lines as they are, and cut off what is longer; a line goes on where it was indented to."""
+    lines = []
+    for line in text.splitlines():
+        indent = line[: len(line) - len(line.lstrip())] + ("    " if line.lstrip().startswith("- ") else "")
+        lines += textwrap.wrap(
+            line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        ) or [""]
+    return "\n".join(lines)
 
 
 def harmless_log(text: str) -> str:
@@ -108,24 +127,23 @@ def items_of(result: StepResult, step: Step | None) -> list[Item]:
     return [*items, _together(result.cumulative, weights[3])] if items and weights[3] else items
 
 
-def _diagnosis(diagnosis: Diagnosis) -> str:
-    """What explains a wrong step, in a line."""
+def _diagnosis(diagnosis: Diagnosis) -> list[str]:
+    """What explains a wrong step: what it is, where it comes from and what to ask, a line each."""
     title = one_line(diagnosis.title, 600)
-    if diagnosis.kind == "finding":
-        said = title
-    else:
-        others = "".join(f", or when {one_line(other, 600)}" for other in diagnosis.alike)
-        said = f"This is what you get when {title}{others}. {one_line(diagnosis.cause, 600)}".rstrip()
     seen = ", ".join(one_line(name) for name in diagnosis.seen_in)
-    where = f"Seen in {seen}. " if seen and diagnosis.kind != "finding" else ""
     hint = f"Hint: {one_line(diagnosis.hint, 600)}" if diagnosis.hint else ""
-    return f"{said} {where}{hint}".rstrip()
+    if diagnosis.kind == "finding":
+        return [title, *filter(None, [hint])]
+    others = "".join(f", or when {one_line(other, 600)}" for other in diagnosis.alike)
+    where = f"Seen in {seen}." if seen else ""
+    said = (f"This is what you get when {title}{others}.", one_line(diagnosis.cause, 600), where, hint)
+    return [line for line in said if line]
 
 
 def step_text(result: StepResult) -> str:
     """What there is to say about a step as a whole."""
     said = [clean(message) for message in result.messages]
-    said += [_diagnosis(diagnosis) for diagnosis in result.diagnoses]
+    said += [line for diagnosis in result.diagnoses for line in _diagnosis(diagnosis)]
     if result.status == "does-not-build" and result.build_log:
         said.append(clean(result.build_log))
     return "\n".join(said)
@@ -199,7 +217,7 @@ def _visible(result: StepResult) -> str:
     return ", ".join(parts) or in_words(result.status)
 
 
-def _failed_checks(result: StepResult, step: Step | None) -> list[str]:
+def failed_checks(result: StepResult, step: Step | None) -> list[str]:
     """What failed, and why."""
     failed = [(item, _why(item.text)) for item in items_of(result, step) if not item.passed]
     return [f"  - {item.kind} {item.name}: {one_line(why, 300)}" for item, why in failed]
@@ -232,7 +250,7 @@ def summary(results: Results, steps: Mapping[str, Step], *, points: bool = True,
         if not same and (points or result.status in ("not-started", "does-not-build")):
             lines += [f"  {line}" for line in step_text(result).splitlines()]
         if checks:
-            lines += _failed_checks(result, steps.get(result.id))
+            lines += failed_checks(result, steps.get(result.id))
     return "\n".join(lines)
 
 

@@ -1,89 +1,93 @@
-"""results.json of a PrairieLearn external grader."""
+"""results.json of a PrairieLearn external grader, and the question that is graded by it."""
 
-import base64
-import io
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import html
+import json
+import uuid
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from PIL import Image
-
+from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded
-from raysteps.common.text import clean, count
+from raysteps.common.text import clean, count, number, tenths
 from raysteps.course.manifest import Step
-from raysteps.exports.items import Item, entries_of, one_line, summary, title
-from raysteps.results.model import Results, Total
+from raysteps.exports.formats import Album, Paste
+from raysteps.exports.items import Entry, Kind, entries_of, one_line, summary, title, wrapped
+from raysteps.results.model import Results, StepResult, Total
 
-# Pictures that travel inside a JSON document.
+# The question.
 
-_SHRINKINGS = (1, 2, 4)
-_MAX_PIXELS = 4096 * 4096
-_AROUND = 80  # bytes of JSON around a picture and its label
-_ORDER = {"difference": 0, "mine": 1, "reference": 2}
-_LABELS = {"difference": "difference, 8 times brighter", "mine": "yours", "reference": "reference"}
-
-
-def data_uri(path: Path, shrinking: int) -> str | None:
-    """The picture as PNG, each side divided by a number; None when there is no such picture."""
-    try:
-        with Image.open(path, formats=["PNG"]) as picture:
-            if picture.width * picture.height > _MAX_PIXELS:
-                return None
-            size = (max(1, picture.width // shrinking), max(1, picture.height // shrinking))
-            pixels = picture.convert("RGB")
-    except (OSError, ValueError, Image.DecompressionBombError):
-        return None
-    data = io.BytesIO()
-    (pixels if shrinking == 1 else pixels.resize(size)).save(data, format="PNG", optimize=True)
-    return "data:image/png;base64," + base64.b64encode(data.getvalue()).decode("ascii")
+SECONDS = 600  # PrairieLearn gives a job no more
+_ENTRYPOINT = "/grade/serverFilesCourse/raysteps/run.sh"
+_NAMESPACE = uuid.UUID("6f2b6c1e-52c5-4b0c-9a41-6d1d0b5f7a10")
 
 
-@dataclass(frozen=True)
-class _Candidate:
-    test: dict[str, Any]
-    kind: str
-    path: str
-    passed: bool
+def question_name(chosen: Sequence[str]) -> str:
+    """Its folder: `raysteps`, or with the chosen steps `raysteps-02-04`."""
+    return "-".join(["raysteps", *(step[:2] for step in chosen)])
 
 
-@dataclass
-class Album:
-    """Pictures that would like to come along; those of failed checks come first."""
+def question_info(steps: Sequence[Step], chosen: Sequence[str], image: str) -> bytes:
+    """info.json. Made again it has the same identifier, so that it stays the same question."""
+    name = question_name(chosen)
+    whole = steps[0].title if len(steps) == 1 else f"Ray tracer, {count(len(steps), 'step')}"
+    words = [_ENTRYPOINT, *(["--steps", *chosen] if chosen else [])]
+    info = {
+        "uuid": str(uuid.uuid5(_NAMESPACE, f"{image} {name}")),
+        "title": f"{steps[0].number} {whole}" if len(steps) == 1 else whole,
+        "topic": "Ray tracing",
+        "tags": ["code"],
+        "type": "v3",
+        "singleVariant": True,
+        "gradingMethod": "External",
+        "externalGradingOptions": {
+            "image": image,
+            "serverFilesCourse": ["raysteps/"],
+            "entrypoint": words,
+            "timeout": SECONDS,
+        },
+    }
+    return (json.dumps(info, indent=2, ensure_ascii=False) + "\n").encode()
 
-    _candidates: list[_Candidate] = field(default_factory=list)
 
-    def offer(self, test: dict[str, Any], item: Item) -> None:
-        """Takes note of the pictures of a check."""
-        self._candidates += [_Candidate(test, kind, path, item.passed) for kind, path in item.pictures]
+def question_page(steps: Sequence[Step]) -> bytes:
+    """question.html. The list of files is one line, of which PrairieLearn reads the first only. Of several steps a
+    student may hand in those that are begun."""
+    names = [name for step in steps for name in step.files]
+    if len(set(names)) < len(names) or any(set(name) & set(',/\\"') for name in names):
+        raise UsageError(
+            f"PrairieLearn tells the files of a question by their names alone, and {', '.join(names)} cannot be told "
+            "apart by them; expected names without commas, all different, or other --steps"
+        )
+    attribute = "file-names" if len(steps) == 1 else "optional-file-names"
+    said = "".join(f"    <li>{html.escape(f'{step.number} {step.title}')}: <code>{name}</code></li>\n"
+                   for step in steps for name in step.files)  # fmt: skip
+    text = f"""<pl-question-panel>
+  <p>Hand in {"the file of the step" if len(steps) == 1 else "the files of all steps that you have begun"}:</p>
+  <ul>
+{said}  </ul>
+  <pl-file-upload {attribute}="{", ".join(names)}"></pl-file-upload>
+</pl-question-panel>
+<pl-submission-panel>
+  <pl-external-grader-results></pl-external-grader-results>
+  <pl-file-preview></pl-file-preview>
+</pl-submission-panel>
+"""
+    return text.encode()
 
-    def paste(self, folder: Path, room: int) -> int:
-        """Puts into the tests what fits into so many bytes, all at one size; tells how many pictures did not."""
-        order = sorted(self._candidates, key=lambda one: (one.passed, _ORDER.get(one.kind, 9)))
-        for shrinking in _SHRINKINGS:
-            uris = [self._read(folder, candidate, shrinking) for candidate in order]
-            if sum(len(uri) + _AROUND for uri in uris if uri is not None) <= room:
-                break
-        left_out = 0
-        for candidate, uri in zip(order, uris, strict=True):
-            if uri is None:
-                continue
-            if len(uri) + _AROUND > room:
-                left_out += 1
-                continue
-            room -= len(uri) + _AROUND
-            candidate.test.setdefault("images", []).append({"label": _LABELS[candidate.kind], "url": uri})
-        return left_out
 
-    @staticmethod
-    def _read(folder: Path, candidate: _Candidate, shrinking: int) -> str | None:
-        path = (folder / candidate.path).resolve()
-        return data_uri(path, shrinking) if path.is_relative_to(folder.resolve()) else None
-
+# results.json. Messages are shown in lines as they are, and what is longer than a line has to be scrolled to.
 
 MAX_BYTES = 1_000_000
 _TEXT_LIMITS = (4000, 1000, 200, 60)
 _ROOM_FOR_A_NOTE = 200
+_AROUND_A_PICTURE = 40
+_KINDS: Mapping[Kind, str] = {
+    "test": "tests",
+    "picture": "pictures",
+    "hidden": "hidden cases",
+    "together": "with the steps before it",
+}
 
 
 def score(total: Total) -> tuple[float, str]:
@@ -94,29 +98,54 @@ def score(total: Total) -> tuple[float, str]:
     return min(1.0, round(share, 6)), note
 
 
-def _tests(results: Results, steps: Mapping[str, Step], album: Album, limit: int) -> list[dict[str, Any]]:
-    tests = []
-    for result in results.steps:
-        for entry in entries_of(result, steps.get(result.id)):
-            item = entry.item
-            test: dict[str, Any] = {
-                "name": f"{one_line(title(result, steps))}: {item.name}",
-                "points": entry.points,
-                "max_points": entry.most,
-                "message": clean(item.text, limit),
-            }
-            tests.append(test)
-            album.offer(test, item)
-    return tests
+def _said(entry: Entry, limit: int) -> str:
+    """A check in its card: what it gave, and what is wrong."""
+    item = entry.item
+    points = f"{number(entry.points)} of {number(entry.most)} points"
+    text = "" if item.passed else "".join(f"\n  {line}" for line in clean(item.text, limit).splitlines())
+    name = item.name if item.kind == "step" else f"{item.kind} {item.name}"
+    return f"{name}: {points}{text}"
+
+
+def _card(name: str, entries: Sequence[Entry], limit: int, *, bonus: bool) -> dict[str, Any]:
+    """What PrairieLearn calls a test. A bonus adds to the points of the heading, but not to its maximum."""
+    most = round(sum(entry.most for entry in entries), 2)
+    lines = [_said(entry, limit) for entry in sorted(entries, key=lambda entry: entry.item.passed)]
+    return {
+        "name": f"{name}: at most {tenths(most)} points" if bonus else name,
+        "points": round(sum(entry.points for entry in entries), 2),
+        "max_points": 0 if bonus else most,
+        "message": wrapped("\n".join(lines)),
+    }
+
+
+def _cards(result: StepResult, steps: Mapping[str, Step], *, alone: bool) -> list[tuple[str, list[Entry]]]:
+    """One for each step; for a step that is graded alone one for each kind of check."""
+    entries = entries_of(result, steps.get(result.id))
+    if not alone:
+        return [(one_line(title(result, steps)), entries)]
+    groups: dict[str, list[Entry]] = {}
+    for entry in entries:
+        groups.setdefault(_KINDS.get(entry.item.kind, entry.item.name), []).append(entry)
+    return list(groups.items())
 
 
 def _without_pictures(results: Results, steps: Mapping[str, Step], limit: int) -> tuple[dict[str, Any], Album]:
     share, note = score(results.total)
-    album = Album()
-    tests = _tests(results, steps, album, limit)
-    text = summary(results, steps)
-    made = {"gradable": True, "score": share, "message": clean("\n".join(filter(None, [note, text])), 8 * limit)}
-    return {**made, "tests": tests}, album
+    album, tests = Album(_AROUND_A_PICTURE), []
+    for result in results.steps:
+        bonus = result.bonus and bool(results.total.max)
+        for name, entries in _cards(result, steps, alone=len(results.steps) == 1):
+            card = _card(name, entries, limit, bonus=bonus)
+            tests.append(card)
+            for entry in entries:
+                album.offer(entry.item, _paste(card))
+    text = clean("\n".join(filter(None, [note, summary(results, steps)])), 8 * limit)
+    return {"gradable": True, "score": share, "message": wrapped(text), "tests": tests}, album
+
+
+def _paste(card: dict[str, Any]) -> Paste:
+    return lambda label, uri: card.setdefault("images", []).append({"label": label, "url": uri})
 
 
 def to_prairielearn(results: Results, steps: Mapping[str, Step], folder: Path) -> dict[str, Any]:
@@ -126,7 +155,7 @@ def to_prairielearn(results: Results, steps: Mapping[str, Step], folder: Path) -
         room = MAX_BYTES - len(encoded(made)) - _ROOM_FOR_A_NOTE
         if room > 0:
             break
-    left_out = album.paste(folder, room)
+    left_out = album.fill(folder, room)
     if left_out:
         were = "was" if left_out == 1 else "were"
         made["message"] += f"\n{count(left_out, 'picture')} did not fit and {were} left out."
@@ -135,5 +164,8 @@ def to_prairielearn(results: Results, steps: Mapping[str, Step], folder: Path) -
 
 def not_gradable(why: str) -> dict[str, Any]:
     """No score, and no attempt used up."""
-    text = clean(why)
-    return {"gradable": False, "message": text, "format_errors": [text]}
+    return {
+        "gradable": False,
+        "message": wrapped(f"The grader could not do its work: {clean(why)}"),
+        "format_errors": ["This submission was not graded. No attempt was used up. Please tell your instructors."],
+    }

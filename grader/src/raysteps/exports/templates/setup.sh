@@ -1,9 +1,10 @@
 #!/bin/sh
 # Prepares the kit beside this script, once and with a network: packages, and all programs that no submission changes.
+# RAYSTEPS_KIT names another place of the kit.
 # Afterwards grading needs no network. Written by `raysteps export`.
 set -eu
 
-kit=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P)/kit
+kit=${RAYSTEPS_KIT:-$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P)/kit}
 @KIT@
 # One compiler at a time: a container's memory is small, and it sees all processors of its machine.
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-1}"
