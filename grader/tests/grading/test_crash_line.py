@@ -64,6 +64,7 @@ def test_the_line_is_named(kit: BuiltKit, step: Step, solved: Sources, tmp_path:
     assert len(messages) == 1, [test.message for test in result.tests if not test.passed]
     assert f"intersection.cpp, line {line}, in closest_hit: " in messages[0]
     assert cause in messages[0]
+    assert not any("debugger" in test.message for test in result.tests)
     assert said == [f"{_ID} crashed: looking for the line"]
 
 

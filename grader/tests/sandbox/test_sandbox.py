@@ -8,7 +8,17 @@ import time
 from pathlib import Path
 
 import pytest
-from sandboxes import PROGRAM, Misbehave, any_sandbox, control_groups, hostile, misbehave, processes_running, sandbox, secret
+from sandboxes import (
+    PROGRAM,
+    Misbehave,
+    any_sandbox,
+    control_groups,
+    hostile,
+    misbehave,
+    processes_running,
+    sandbox,
+    secret,
+)
 
 from raysteps.course.project import here
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word

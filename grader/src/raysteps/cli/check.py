@@ -8,6 +8,7 @@ from raysteps.course.manifest import choose, read_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
 from raysteps.progress.check import check_steps
+from raysteps.progress.standing import ALL_DONE
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
 from raysteps.results.model import Results
@@ -41,4 +42,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")
+    elif code == 0:
+        console.print(ALL_DONE)
     return code

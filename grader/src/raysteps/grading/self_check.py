@@ -16,7 +16,7 @@ from raysteps.course.manifest import Step
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
-from raysteps.grading.unit_tests import has_crashed, set_aside, tell_crash_line
+from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, set_aside, tell_crash_line
 from raysteps.images.render import reference_image_path
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_results
@@ -80,7 +80,15 @@ def name_crash(
             program, _ = build.program("test", step, binaries, limits, together=not alone)
             if program is not None:
                 files = [Path(other.path).name for other in sources]
-                tell_crash_line(sandbox, program, tests[step.id][0], limits, files)
+                if tell_crash_line(sandbox, program, tests[step.id][0], limits, files):
+                    _without_debugger(next(result for result in found if result.id == step.id))
+
+
+def _without_debugger(result: StepResult) -> None:
+    """Nobody needs one to find a line that is named."""
+    result.messages = [message.removesuffix(FIND_THE_LINE).strip() for message in result.messages]
+    for test in result.tests:
+        test.message = test.message.removesuffix(FIND_THE_LINE).strip()
 
 
 _TROUBLE = {

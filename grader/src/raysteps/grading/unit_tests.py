@@ -17,7 +17,7 @@ from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
 _MAX_HANGS = 6  # tests that are waited for; a clock would say something else each time
-_FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
+FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
@@ -72,8 +72,8 @@ def _why_cut_short(ran: TaskResult) -> str:
         return "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
     words = ran.outcome.signal_words
     if words is not None:
-        return f"The program crashed in the middle of the test ({words}). {_FIND_THE_LINE}"
-    return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {_FIND_THE_LINE}"
+        return f"The program crashed in the middle of the test ({words}). {FIND_THE_LINE}"
+    return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {FIND_THE_LINE}"
 
 
 def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: StepLimits) -> list[TestResult]:
@@ -198,13 +198,14 @@ def crash_line(said: str, files: Collection[str], *, threw: bool) -> str:
 
 def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
-) -> None:
-    """Runs a test that crashed once more, and says beside its message where that was."""
+) -> bool:
+    """Runs a test that crashed once more, and says beside its message where that was, if anybody can tell."""
     patient = replace(limits, seconds=_SLOWER * limits.seconds, memory_mb=_ALL_MEMORY_MB)
     ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)
     found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:
-        test.message = f"{test.message.removesuffix(_FIND_THE_LINE).strip()}\n{found}".strip()
+        test.message = f"{test.message.removesuffix(FIND_THE_LINE).strip()}\n{found}".strip()
+    return bool(found)
 
 
 # What waits for functions that are not written yet.

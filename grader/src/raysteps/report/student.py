@@ -370,14 +370,21 @@ def _walk(results: Results, own: Sequence[OwnPicture]) -> list[OwnPicture]:
     return [last[step.id[:2]] for step in results.steps if step.id[:2] in last]
 
 
+def _share(total: Total) -> float:
+    """Of what there is without a bonus, where there is something."""
+    earned, most = (total.points - total.bonus.points, total.max) if total.max else (total.points, total.bonus.max)
+    return earned / most if most else 0.0
+
+
 def _total(total: Total) -> dict[str, object]:
     bonus = total.bonus
     return {
         "words": total_words(total),
         "points": tenths(total.points),
+        "regular": tenths(total.points - bonus.points if total.max else total.points),
         "max": tenths(total.max or bonus.max),
         "is_bonus": not total.max,
-        "share": min(1.0, total.points / (total.max or bonus.max)) if total.max or bonus.max else 0.0,
+        "share": _share(total),
         "bonus": tenths(bonus.points),
         "has_bonus": bonus.points > 0,
         "bonus_max": tenths(bonus.max) if bonus.max and total.max else "",
