@@ -6,6 +6,7 @@ import re
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling, broken_words
 from page_results import NASTY, document_of, idle_step, of_older_kit, passed_step, wrong_step
@@ -14,6 +15,7 @@ from rich.console import Console
 from raysteps.cli import app as cli
 from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
+from raysteps.images.compare import write_png
 from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
 from raysteps.report.terminal import print_details
@@ -364,3 +366,25 @@ def test_sums_read_naturally(steps: list[Step], tmp_path: Path) -> None:
             parts = parts_of(result, next(step for step in steps if step.id == result.id))
             assert sum(round(part.earned * 10) for part in parts) == pytest.approx(result.points * 10, abs=1)
             assert sum(round(part.most * 10) for part in parts) == round(result.max * 10)
+
+
+def test_a_larger_picture_stands_beside_those_that_are_compared(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    """Before them where they are right; in a report of everything right it is the one that is shown."""
+    results = [passed_step(step, tmp_path) for step in steps]
+    image = results[2].images[0]
+    image.large = f"pictures/{results[2].id}/{image.name}-large.png"
+    write_png(np.full((30, 40, 3), 90, dtype=np.uint8), tmp_path / image.large)
+    page = open_page(write_student_page(document_of(results), tmp_path, steps))
+    shown = page.get_by_role("region", name="Every step is right").locator("figure img").nth(2)
+    assert (shown.get_attribute("width"), shown.get_attribute("height")) == ("40", "30")
+    page.locator(f'.own a[href="#{page.locator("details.picture:has(figure.large)").get_attribute("id")}"]').click()
+    room = page.locator(".viewer-room > *")
+    assert [room.nth(at).evaluate("item => item.localName") for at in range(room.count())] == [
+        "figure",
+        "compare-pictures",
+    ]
+    page.locator(".own a").first.click()
+    assert room.count() == 1
+    assert_accessible(page)

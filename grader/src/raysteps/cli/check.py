@@ -34,9 +34,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
-    if told:
+    if told and project.has_reference:
         print_diagnoses(console, checked.results)
-    else:
+    elif not told:
         tell(checked.kit, checked.results)
     print_files(console, out / "results.json", checked.page)
     code = exit_code(checked.results)
