@@ -388,3 +388,13 @@ def test_a_larger_picture_stands_beside_those_that_are_compared(
     page.locator(".own a").first.click()
     assert room.count() == 1
     assert_accessible(page)
+
+
+def test_a_report_at_home_has_no_column_for_what_nobody_judges_there(steps: list[Step], tmp_path: Path) -> None:
+    result = passed_step(steps[2], tmp_path)
+    assert "Hidden</th>" in student_page(document_of([result]), tmp_path, steps)
+    result.hidden, result.max, result.points = [], 9.8, 9.8
+    text = student_page(document_of([result]), tmp_path, steps)
+    assert "Tests</th>" in text
+    assert "Hidden</th>" not in text
+    assert "hidden by what was right" not in text

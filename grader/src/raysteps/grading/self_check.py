@@ -70,6 +70,10 @@ class SelfCheckGrader(StepGrader):
         return result
 
     @property
+    def has_picture(self) -> bool:
+        return any(image.mine for image in self._result.images[:1])
+
+    @property
     def step_is_right(self) -> bool:
         return is_right(self._result)
 
@@ -94,7 +98,9 @@ class SelfCheckGrader(StepGrader):
 
 def _draw_large(graders: Sequence[SelfCheckGrader], say: ProgressCallback) -> None:
     """What is wrong first, as long as there is time and nobody interrupts: the points are told already."""
-    say("drawing larger pictures for the report")
+    graders = [grader for grader in graders if grader.has_picture]
+    if graders:
+        say("drawing larger pictures for the report")
     end = time.monotonic() + _LARGE_SECONDS
     with suppress(KeyboardInterrupt):
         for grader in sorted(graders, key=lambda grader: grader.step_is_right):

@@ -455,7 +455,7 @@ def _page(
         "is_perfect": is_perfect,
         "try_next": after_the_last(),
         "total": _total(results.total),
-        "columns": _PARTS,
+        "columns": [name for name in _PARTS if not parts or any(part.name == name for part in parts)],
         "sums": _sums(parts),
         "number": number,
         "tenths": tenths,
