@@ -97,6 +97,7 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
 # The line at which a step crashes, by a program of the step that was compiled with sanitizers.
 
 _LONGEST_LINE = 2000  # of a stack that is read; a program may say anything
+_MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
 _ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
 _HEAD = re.compile(
@@ -131,7 +132,15 @@ class _Report:
     kind: str  # "error", "undefined" or "thrown"
     text: str
     said: list[str] = field(default_factory=list)
-    place: str = ""
+    frames: list[tuple[str, str]] = field(default_factory=list)  # functions in the student's files, and their places
+
+    @property
+    def place(self) -> str:
+        """The innermost; where a recursion has no end, the innermost that calls itself, and not what it called last."""
+        functions = [function for function, _ in self.frames]
+        endless = "stack-overflow" in self.text
+        again = (place for function, place in self.frames if endless and functions.count(function) > 1)
+        return next(again, self.frames[0][1] if self.frames else "")
 
 
 def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
@@ -146,10 +155,11 @@ def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
             kind = head.lastgroup or ""
             report, in_stack = _Report(kind, head[kind]), True
         elif report is not None:
-            frame = at.fullmatch(line) if in_stack and not report.place and len(line) < _LONGEST_LINE else None
+            room = len(report.frames) < _MAX_FRAMES and len(line) < _LONGEST_LINE
+            frame = at.fullmatch(line) if in_stack and room else None
             if frame is not None:
                 function = _function_name(frame["function"])
-                report.place = f"{frame['file']}, line {frame['line']}, in {function}"
+                report.frames.append((function, f"{frame['file']}, line {frame['line']}, in {function}"))
             in_stack = in_stack and not (report.said and "#" in report.said[-1] and "#" not in line)
             report.said.append(line)
     if report is not None:
