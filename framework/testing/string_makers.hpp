@@ -1,46 +1,31 @@
 #pragma once
 // How failures print the kit's types. Include it before the first assertion that compares them.
-#include <sstream>
 #include <string>
 
 #include "core/box.hpp"
 #include "core/hit_record.hpp"
 #include "core/image.hpp"
+#include "io/numbers.hpp"
 #include "testing/catch.hpp"
 
 namespace raysteps::testing {
 
-/// Enough digits to tell two floats apart.
-inline std::string text(const glm::vec3& v) {
-    std::ostringstream out;
-    out.precision(9);
-    out << '(' << v.x << ", " << v.y << ", " << v.z << ')';
-    return out.str();
-}
+/// As few digits as tell it from every other float: 0.1, and not 0.100000001.
+inline std::string text(float value) { return number_text(value); }
 
-inline std::string text(float value) {
-    std::ostringstream out;
-    out << value;
-    return out.str();
-}
+inline std::string text(const glm::vec3& v) { return '(' + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ')'; }
 
 inline std::string text(const Ray& ray) { return "ray from " + text(ray.origin) + " along " + text(ray.direction); }
 
 inline std::string text(const Box& box) { return "box from " + text(box.min) + " to " + text(box.max); }
 
 inline std::string text(const Interval& part) {
-    std::ostringstream out;
-    out.precision(9);
-    out << "from distance " << part.enter << " to " << part.leave;
-    return out.str();
+    return "from distance " + text(part.enter) + " to " + text(part.leave);
 }
 
 inline std::string text(const HitRecord& hit) {
-    std::ostringstream out;
-    out.precision(9);
-    out << "hit at distance " << hit.distance << ", position " << text(hit.position) << ", normal " << text(hit.normal)
-        << (hit.front_face ? ", from outside" : ", from inside");
-    return out.str();
+    return "hit at distance " + text(hit.distance) + ", position " + text(hit.position) + ", normal " +
+           text(hit.normal) + (hit.front_face ? ", from outside" : ", from inside");
 }
 
 }  // namespace raysteps::testing

@@ -29,8 +29,10 @@ TEST_CASE("Random gives the same numbers for the same seed", "[testing]") {
     CHECK_THAT(one.unit_vector(), IsUnitLength());
 }
 
-TEST_CASE("A failure prints vectors with all their digits", "[testing]") {
-    CHECK(Catch::Detail::stringify(glm::vec3(0.1F, -2.0F, 0.0F)) == "(0.100000001, -2, 0)");
+TEST_CASE("A failure prints vectors with the digits that tell them apart, and no more", "[testing]") {
+    CHECK(Catch::Detail::stringify(glm::vec3(0.1F, -2.0F, 0.0F)) == "(0.1, -2, 0)");
+    CHECK(Catch::Detail::stringify(glm::vec3(0.1F, 0.10000001F, 0.3F)) == "(0.1, 0.10000001, 0.3)");
+    CHECK(IsNear({3.0F, 4.0F, 0.1F}).describe() == "is expected to be (3, 4, 0.1) within 0.0005");
 }
 
 TEST_CASE("FakeScene answers both questions from one function, and CountingQuery counts them", "[testing]") {

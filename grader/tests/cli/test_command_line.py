@@ -135,6 +135,19 @@ def test_what_must_not_be_read_is_one_message(
     assert "Traceback" not in "".join(said)
 
 
+def test_a_call_of_the_system_that_is_refused_is_the_graders_fault(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It names no file, so nobody can open anything."""
+
+    def refused(*_: object) -> None:
+        raise PermissionError(errno.EPERM, "Operation not permitted")
+
+    monkeypatch.setattr("raysteps.progress.standing.standings", refused)
+    assert main(["list"]) == 4
+    assert "this is a fault of the grader" in capsys.readouterr().err
+
+
 def test_several_submissions_in_one_folder_are_no_submission(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

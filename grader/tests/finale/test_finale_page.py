@@ -39,6 +39,8 @@ def test_it_is_accessible_and_never_wider_than_the_screen(
     page = open_page(page_file, width=width, scheme=scheme)
     assert page.inner_text("h1") == _SCRIPT
     assert_no_sideways_scrolling(page)
+    for part in (page.locator(".work .scroll"), page.locator(".next pre")):
+        assert part.evaluate("box => box.scrollWidth <= box.clientWidth"), "nothing is cut off"
     assert_accessible(page)
 
 

@@ -64,6 +64,7 @@ def test_the_line_is_named(kit: BuiltKit, step: Step, solved: Sources, tmp_path:
     assert len(messages) == 1, [test.message for test in result.tests if not test.passed]
     assert f"intersection.cpp, line {line}, in closest_hit: " in messages[0]
     assert cause in messages[0]
+    assert not any("debugger" in test.message for test in result.tests)
     assert said == [f"{_ID} crashed: looking for the line"]
 
 
@@ -124,3 +125,15 @@ def test_no_line_of_any_shape_is_waited_for(length: int) -> None:
 def test_an_unknown_error_is_told_as_it_is() -> None:
     said = "==7==ERROR: AddressSanitizer: {x} {uses}\n" + _STACK.format(line=2)
     assert crash_line(said, ["intersection.cpp"], threw=False) == "intersection.cpp, line 2, in hit: {x}."
+
+
+def test_a_recursion_is_named_and_not_what_it_called_last() -> None:
+    places = [("mirror", 4), ("reflected_ray", 9), ("trace", 15), ("trace", 16), ("trace", 16)]
+    frames = [
+        f"    #{at} 0x1 in raysteps::{name}(int) /k/reflection.cpp:{line}:3" for at, (name, line) in enumerate(places)
+    ]
+    head = "==7==ERROR: AddressSanitizer: stack-overflow on address 0x1 (pc 0x2)\n"
+    named = crash_line(head + "\n".join(frames) + "\n", ["reflection.cpp"], threw=False)
+    assert named == "reflection.cpp, line 15, in trace: calls itself without an end."
+    only = crash_line(head + frames[0] + "\n", ["reflection.cpp"], threw=False)
+    assert only == "reflection.cpp, line 4, in mirror: calls itself without an end."

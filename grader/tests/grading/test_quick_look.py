@@ -13,6 +13,8 @@ from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
 from raysteps.results.model import StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Task, TaskResult
+from raysteps.toolchain.compile import KeptLibraries, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.watch.runner import WORKER
 
@@ -41,6 +43,44 @@ def test_a_right_step_is_told_bit_by_bit(kit: BuiltKit, step: Step, solved: Sour
         assert image.passed
         assert image.mine
         assert (tmp_path / image.mine).is_file()
+
+
+class _Counting(LimitsOnly):
+    """Counts the runs of compilers and their like."""
+
+    tools = 0
+
+    def run(self, task: Task) -> TaskResult:
+        self.tools += task.tools
+        return super().run(task)
+
+
+def test_what_was_compiled_once_is_not_compiled_again(
+    kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path
+) -> None:
+    """Not the steps before the one that was saved, and nothing by the check that follows a look."""
+    kept = KeptLibraries(tmp_path / "own")
+    counts: list[int] = []
+    for source in (solved[_ID], solved[_ID], solved[_ID] + "\n#warning again\n"):
+        sandbox = _Counting()
+        build = StudentBuild(kit, sandbox, tmp_path / f"build{len(counts)}", kept)
+        compiled = build.compile(step, source.encode(), kit.limits_of(step))
+        assert compiled.binary is not None
+        assert compiled.binary.is_file()
+        counts.append(sandbox.tools)
+    assert counts[0] == counts[2] > 0
+    assert counts[1] == 0
+    again = StudentBuild(kit, LimitsOnly(), tmp_path / "last", kept)
+    said = build_log(again.compile(step, source.encode(), kit.limits_of(step)).ran)
+    assert "again" in said, "what the compiler said is told again, too"
+
+
+def test_libraries_are_kept_for_some_saves_only(kit: BuiltKit, step: Step, tmp_path: Path) -> None:
+    kept = KeptLibraries(tmp_path)
+    for number in range(50):
+        kept.keep(kit, step, b"%d" % number, b"library", "")
+    assert len(list(tmp_path.glob("*.library"))) == len(list(tmp_path.glob("*.log"))) == 40
+    assert kept.find(kit, step, b"49") == (b"library", "")
 
 
 def test_a_step_that_does_not_build(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:

@@ -42,9 +42,16 @@ def text(console: Console) -> str:
     return console.file.getvalue()
 
 
+def save(path: Path, text: str) -> None:
+    """As editors do: a new file takes the name, so nobody finds half of it."""
+    new = path.with_name(f".{path.name}.new")
+    new.write_text(text, encoding="utf-8")
+    new.replace(path)
+
+
 def write_own(project: Project, step: Step, source: str) -> Path:
     path = project.steps / step.path
-    path.write_text(source, encoding="utf-8")
+    save(path, source)
     return path
 
 

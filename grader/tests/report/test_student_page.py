@@ -6,6 +6,7 @@ import re
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling, broken_words
 from page_results import NASTY, document_of, idle_step, of_older_kit, passed_step, wrong_step
@@ -14,6 +15,7 @@ from rich.console import Console
 from raysteps.cli import app as cli
 from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
+from raysteps.images.compare import write_png
 from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
 from raysteps.report.terminal import print_details
@@ -76,7 +78,8 @@ def test_it_tells_what_to_do_next_and_how_the_points_come_about(
     assert strip.count() == len(steps)
     assert "partly right" in strip.nth(2).inner_text()
     total = document.total
-    assert page.get_by_role("img", name=f"{total.points:g} of 100 points").count() == 1
+    regular = total.points - total.bonus.points
+    assert page.get_by_role("img", name=f"{regular:g} of 100 points").count() == 1
     sums = page.locator(".arithmetic tfoot td").all_inner_texts()
     assert sum(float(text) for text in sums[:-1]) == pytest.approx(total.points, abs=0.05)
     assert "× 45 % of 15" in page.locator("#step-03 .parts").inner_text()  # noqa: RUF001
@@ -121,7 +124,7 @@ def test_a_report_of_everything_right_says_so(open_page: OpenPage, steps: list[S
     todo = page.get_by_role("region", name="Next thing to do")
     assert "every step is right" in todo.inner_text()
     assert todo.locator("code").first.inner_text() == "./raysteps finale"
-    assert "20 of 20 bonus points among them" in page.locator(".score").inner_text()
+    assert "20 of 20 bonus points" in page.locator(".score").inner_text()
     party = page.get_by_role("region", name="Every step is right")
     assert party.locator("figure img").count() == len(steps)
     assert party.locator("figure img").first.bounding_box()["width"] > 300  # type: ignore[index]
@@ -308,7 +311,7 @@ def test_how_it_went_is_drawn_and_said_and_what_changed_is_marked(
 def test_the_score_says_how_much_of_the_bonus_was_earned(steps: list[Step], tmp_path: Path) -> None:
     regular = [passed_step(step, tmp_path) for step in steps if not step.bonus]
     none, all_ = [idle_step(step) for step in steps if step.bonus], [passed_step(step, tmp_path) for step in steps[7:]]
-    for bonus, words in ((none, "0 of 20 bonus points<"), (all_, "20 of 20 bonus points among them<")):
+    for bonus, words in ((none, "0 of 20 bonus points<"), (all_, "20 of 20 bonus points<")):
         text = student_page(document_of([*regular, *bonus]), tmp_path, steps)
         assert words in text
         assert f"bonus {words[:2].strip()} of 20" in text
@@ -357,9 +360,41 @@ def test_sums_read_naturally(steps: list[Step], tmp_path: Path) -> None:
     bonus = document_of([wrong_step(step, tmp_path) for step in steps if step.bonus])
     assert re.fullmatch(r"[0-9.]+ of 20 bonus points of the visible part", total_words(bonus.total, visible_only=True))
     regular = document_of([passed_step(step, tmp_path) for step in steps])
-    assert total_words(regular.total) == "120 of 100 points, 20 of them bonus"
+    assert total_words(regular.total) == "100 of 100 points, and 20 of 20 bonus points"
     for results in (bonus, _mixed(steps, tmp_path)):
         for result in results.steps:
             parts = parts_of(result, next(step for step in steps if step.id == result.id))
             assert sum(round(part.earned * 10) for part in parts) == pytest.approx(result.points * 10, abs=1)
             assert sum(round(part.most * 10) for part in parts) == round(result.max * 10)
+
+
+def test_a_larger_picture_stands_beside_those_that_are_compared(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    """Before them where they are right; in a report of everything right it is the one that is shown."""
+    results = [passed_step(step, tmp_path) for step in steps]
+    image = results[2].images[0]
+    image.large = f"pictures/{results[2].id}/{image.name}-large.png"
+    write_png(np.full((30, 40, 3), 90, dtype=np.uint8), tmp_path / image.large)
+    page = open_page(write_student_page(document_of(results), tmp_path, steps))
+    shown = page.get_by_role("region", name="Every step is right").locator("figure img").nth(2)
+    assert (shown.get_attribute("width"), shown.get_attribute("height")) == ("40", "30")
+    page.locator(f'.own a[href="#{page.locator("details.picture:has(figure.large)").get_attribute("id")}"]').click()
+    room = page.locator(".viewer-room > *")
+    assert [room.nth(at).evaluate("item => item.localName") for at in range(room.count())] == [
+        "figure",
+        "compare-pictures",
+    ]
+    page.locator(".own a").first.click()
+    assert room.count() == 1
+    assert_accessible(page)
+
+
+def test_a_report_at_home_has_no_column_for_what_nobody_judges_there(steps: list[Step], tmp_path: Path) -> None:
+    result = passed_step(steps[2], tmp_path)
+    assert "Hidden</th>" in student_page(document_of([result]), tmp_path, steps)
+    result.hidden, result.max, result.points = [], 9.8, 9.8
+    text = student_page(document_of([result]), tmp_path, steps)
+    assert "Tests</th>" in text
+    assert "Hidden</th>" not in text
+    assert "hidden by what was right" not in text

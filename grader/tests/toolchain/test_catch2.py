@@ -33,6 +33,13 @@ def test_complete_reports(text: str) -> None:
     assert (bad.failure.location, bad.failure.notes) == ("a_test.cpp:9", "inner\nthe ray goes up")
 
 
+def test_a_failure_in_a_helper_names_the_test_that_called_it() -> None:
+    outcomes = parse_report(VERSION_3.replace('a_test.cpp" line="9"', 'hits.hpp" line="28"').encode())
+    assert outcomes is not None
+    assert outcomes[1].failure is not None
+    assert outcomes[1].failure.location == "a_test.cpp:7, fails in hits.hpp:28"
+
+
 def test_sections_without_end_hold_nothing_up() -> None:
     """A forged report: what lies deeper than any test of ours is not looked for."""
     deep = '<Section name="a">' * 5000 + "<Failure/>" + "</Section>" * 5000
@@ -82,6 +89,7 @@ def _expression(original: str, expanded: str, success: str = "false") -> str:
         ),
         ("is_lit(scene, hit)", "false", "is_lit(scene, hit) = true", "is_lit(scene, hit) = false"),
         ("!(a) == !(b)", "true == false", "!(a) = false", "!(a) = true"),
+        ("light.r == about(1.0)", "nanf == Approx( 1.0 )", "light.r = about 1.0", "light.r = nan"),
         ("dark == 0", "384 (0x180) == 0", "dark = 0", "dark = 384"),
         ("part-&gt;enter == about(4.0)", "3.5f == Approx( 4.0 )", "part-&gt;enter = about 4.0", "part-&gt;enter = 3.5"),
         (
@@ -102,6 +110,24 @@ def _expression(original: str, expanded: str, success: str = "false") -> str:
             "mirror(d, n) has length 1",
             "mirror(d, n) = (2, 0, 0)",
         ),
+        (
+            "!(ball.intersect({{0.0F, 1.5F, 5.0F}, -down}).has_value())",
+            "!true",
+            "ball.intersect({{0, 1.5, 5}, -down}).has_value() = false",
+            "ball.intersect({{0, 1.5, 5}, -down}).has_value() = true",
+        ),
+        (
+            "shade(hit, std::vector&lt;Light&gt;{{5.0F * up(1e-3F), k_white}}), IsNear(k_white)",
+            "(0, 0, 0) is expected to be (1, 1, 1) within 0.00017",
+            "shade(hit, {{5 * up(1e-3), k_white}}) = (1, 1, 1) within 0.00017",
+            "shade(hit, {{5 * up(1e-3), k_white}}) = (0, 0, 0)",
+        ),
+        (
+            "glm::dot(a, n1) / static_cast&lt;float&gt;(camera.width) == about(0.5)",
+            "2.0f == Approx( 0.5 )",
+            "dot(a, n1) / camera.width = about 0.5",
+            "dot(a, n1) / camera.width = 2.0",
+        ),
         ("a &lt; b", "something else", "a &lt; b", "something else"),
         ("list == other", "{ 1, 2 } == { 1, 3 }", "list = { 1, 3 }", "list = { 1, 2 }"),
     ],
@@ -109,6 +135,13 @@ def _expression(original: str, expanded: str, success: str = "false") -> str:
 def test_what_was_expected_and_what_came_have_a_name(original: str, expanded: str, expected: str, got: str) -> None:
     failure = _failing(_expression(original, expanded))
     assert (failure.expected, failure.got) == (unescape(expected), unescape(got))
+
+
+def test_notes_hold_numbers_as_a_person_writes_them() -> None:
+    note = "<Info>radius := 2.90297f</Info><Info>sphere(2.5f) := a ball: 1f</Info><Info>0.5f of it</Info>"
+    assert (
+        _failing(note + _expression("a", "false")).notes == "radius := 2.90297\nsphere(2.5f) := a ball: 1\n0.5f of it"
+    )
 
 
 def test_trouble_inside_a_test_is_told_in_words() -> None:

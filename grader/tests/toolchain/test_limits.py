@@ -20,6 +20,12 @@ def test_a_course_changes_what_the_manifest_says(steps: list[Step]) -> None:
     assert (changed.processes, changed.seconds, changed.memory_mb, changed.compile_seconds) == (7, 0.5, 100, 9)
 
 
+def test_a_busy_machine_stops_neither_compiler_nor_program(steps: list[Step]) -> None:
+    limits = limits_of(steps[0], {})
+    for most in (limits.of_tools(), limits.of_program()):
+        assert most.wall_seconds == 4 * most.cpu_seconds
+
+
 def test_a_limit_that_there_is_not_is_the_kits_fault(steps: list[Step]) -> None:
     with pytest.raises(GraderFault, match="patience"):
         limits_of(replace(steps[0], more_limits=(("patience", 1.0),)), {})

@@ -8,7 +8,7 @@ from queue import Empty, Queue
 
 import pytest
 import watchfiles
-from course_fakes import small_project
+from course_fakes import save, small_project
 from watch_fakes import wait_for
 
 from raysteps.course.manifest import Step
@@ -75,7 +75,7 @@ def test_a_save_by_renaming(watched: Watched) -> None:
 
 def test_a_burst_is_few_saves(watched: Watched) -> None:
     for number in range(100):
-        watched.path.write_text(f"int a = {number};")
+        save(watched.path, f"int a = {number};")
     watched.next()
     time.sleep(0.5)
     assert watched.events.qsize() < 10
@@ -87,7 +87,7 @@ def test_nothing_new_is_no_save(watched: Watched, steps: list[Step]) -> None:
     os.utime(watched.path)
     for name in (f".{_OWN}.swp", f"{_OWN}~", "notes.txt", ".#camera_rays.cpp", "4913"):
         watched.path.with_name(name).write_text("x")
-    watched.path.parent.with_name(steps[1].id).joinpath(steps[1].file).write_text("another step")
+    save(watched.path.parent.with_name(steps[1].id).joinpath(steps[1].file), "another step")
     watched.assert_quiet(1.2)
 
 
@@ -95,12 +95,12 @@ def test_nothing_new_is_no_save(watched: Watched, steps: list[Step]) -> None:
 def test_a_file_that_goes_and_comes_back(watched: Watched) -> None:
     watched.path.unlink()
     assert watched.next() == FileVanished(_OWN)
-    watched.path.write_text("int back;")
+    save(watched.path, "int back;")
     assert watched.next() == FileSaved(_OWN)
 
 
 def test_the_tests_of_the_step_count_too(watched: Watched) -> None:
-    watched.path.with_name("camera_rays_test.cpp").write_text("// more")
+    save(watched.path.with_name("camera_rays_test.cpp"), "// more")
     assert watched.next() == FileSaved("steps/01-camera-rays/camera_rays_test.cpp", "kit")
 
 
@@ -108,18 +108,18 @@ def test_the_tests_of_the_step_count_too(watched: Watched) -> None:
 def test_what_the_program_is_built_from_counts_too(watched: Watched, course: Project, steps: list[Step]) -> None:
     """The student's own steps before this one, and the kit's sources; no step after it."""
     watched.saves.look_at(steps[2])
-    watched.path.write_text("int earlier;")
+    save(watched.path, "int earlier;")
     assert watched.next() == FileSaved("steps/01-camera-rays/camera_rays.cpp", "earlier")
-    (course.steps / steps[3].path).write_text("int later;")
+    save(course.steps / steps[3].path, "int later;")
     for name in ("framework/core/ray.hpp", "solutions/02-intersection/intersection.cpp"):
-        (course.root / name).write_text("int changed;")
+        save(course.root / name, "int changed;")
         assert watched.next() == FileSaved(name, "kit")
     watched.assert_quiet()
 
 
 def test_many_at_once_are_one_save(watched: Watched, course: Project) -> None:
-    (course.root / "framework" / "core" / "ray.hpp").write_text("int changed;")
-    watched.path.write_text("int changed;")
+    save(course.root / "framework" / "core" / "ray.hpp", "int changed;")
+    save(watched.path, "int changed;")
     found = watched.next()
     assert found in (
         FileSaved("framework/core/ray.hpp and 1 more file", "kit"),
@@ -130,8 +130,8 @@ def test_many_at_once_are_one_save(watched: Watched, course: Project) -> None:
 
 def test_another_step_from_now_on(watched: Watched, course: Project, steps: list[Step]) -> None:
     watched.saves.look_at(steps[1])
-    (course.steps / steps[2].path).write_text("int later;")
-    (course.steps / steps[1].path).write_text("int new_one;")
+    save(course.steps / steps[2].path, "int later;")
+    save(course.steps / steps[1].path, "int new_one;")
     assert watched.next() == FileSaved(steps[1].file)
     watched.assert_quiet()
 
@@ -144,7 +144,7 @@ def test_a_folder_that_is_made_anew(watched: Watched, course: Project) -> None:
     found = [watched.next()]
     while not isinstance(found[-1], FileSaved):
         found.append(watched.next())
-    watched.path.write_text("int later;")
+    save(watched.path, "int later;")
     wait_for(lambda: FileSaved(_OWN) in list(watched.events.queue))
 
 
@@ -163,13 +163,13 @@ def test_where_no_events_come_it_begins_to_poll(
     monkeypatch.setattr(watchfiles, "watch", silent)
     found = Watched(course, steps[0], poll=False)
     found.saves.start()
-    found.path.write_text("int unheard;")
+    save(found.path, "int unheard;")
     assert found.next() == FileSaved(_OWN)
     told = found.next()
     assert isinstance(told, ChangeNoticed)
     assert "from now on files are polled" in told.text
     wait_for(lambda: modes == [False, True])
-    (course.root / "framework" / "core" / "ray.hpp").write_text("int unheard;")  # polling may miss it as well
+    save(course.root / "framework" / "core" / "ray.hpp", "int unheard;")  # polling may miss it as well
     assert found.next() == FileSaved("framework/core/ray.hpp", "kit")
     ended.append(True)
     found.saves.close()
@@ -192,7 +192,7 @@ def test_where_events_cannot_be_had_it_begins_to_poll(
     assert isinstance(told, ChangeNoticed)
     assert "OS file watch limit reached" in told.text
     time.sleep(0.7)
-    found.path.write_text("int seen;")
+    save(found.path, "int seen;")
     assert found.next() == FileSaved(_OWN)
     found.saves.close()
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import watch_fakes
-from course_fakes import small_project, write_own
+from course_fakes import save, small_project, write_own
 from terminals import Terminal
 from watch_fakes import wait_for
 
@@ -62,7 +62,7 @@ def test_a_lesson(course: Project, steps: list[Step], terminals: list[Terminal])
     terminal.wait("hint 1 of 3")
     terminal.press("l")
     assert "partly right, 2.5 of 10" in terminal.wait("Bounding volumes (bonus)")
-    own.write_text("int right;")
+    save(own, "int right;")
     terminal.wait("camera_rays.cpp saved")
     terminal.wait("✓ 2 tests right, 1 picture right.")
     terminal.press("c")
@@ -98,17 +98,17 @@ def test_crashes_and_hangs_do_not_stop_the_loop(course: Project, steps: list[Ste
     terminals.append(terminal := _watch(course, "3", "--no-browser", "--poll"))
     terminal.wait("Files are polled: --poll.")
     terminal.wait("This run ended before it was done (exit code -9): it gets dark")
-    own.write_text("// hang")
+    save(own, "// hang")
     terminal.wait("saved")
-    own.write_text("// broken")
+    save(own, "// broken")
     terminal.wait("✗ It does not build.")
     terminal.wait("1 | // broken")
     own.unlink()
     terminal.wait("phong_shading.cpp is gone. Waiting for it to come back.")
-    own.write_text("// wait check")
+    save(own, "// wait check")
     terminal.wait("✓ 2 tests right, 1 picture right.")
     terminal.wait("checking all of it")
-    own.write_text("int saved_while_it_was_checked;")
+    save(own, "int saved_while_it_was_checked;")
     terminal.wait("✓ 2 tests right, 1 picture right.")
     terminal.wait("✓ Passed: 15 of 15 points.")
     terminal.press(" ")

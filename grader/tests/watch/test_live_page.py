@@ -101,6 +101,17 @@ def test_what_a_run_has_not_told_yet_stays(live: Live, pages: Watched) -> None:
     assert view.evaluate("element => [element.mark, element.view]") == [1, "side"]
 
 
+def test_a_hint_of_sentences_is_seen_whole(live: Live, pages: Watched) -> None:
+    page = pages.open(live.server.address, width=390)
+    sentences = "A surface sends light to the eye in two ways: evenly to all sides, and as a highlight.\nOn what?"
+    code = "for each light   l = unit(light.position - hit.position)\n  add diffuse      " + "and specular " * 9
+    live.show(replace(live.view("// wrong"), hints=[Hint(1, 2, sentences), Hint(2, 2, code)]))
+    _says(page, "#watch-words", "Hint 2 of 2")
+    panels = page.locator(".panel:has(.watch-name:text('Hint'))")
+    assert [panels.nth(at).locator("pre").count() for at in range(2)] == [0, 1]
+    assert panels.first.evaluate("panel => panel.scrollWidth <= panel.clientWidth")
+
+
 def test_before_there_is_a_picture_the_reference_is_shown(live: Live, pages: Watched) -> None:
     page = pages.open(live.server.address)
     view = live.view("int right;")
@@ -160,6 +171,9 @@ def test_the_first_screen_shows_ones_own_picture(live: Live, pages: Watched, wid
     box = page.locator(".compare-stage").first.bounding_box()
     assert box is not None
     assert box["height"] > 150
+    frame = page.locator("#watch-first compare-pictures").bounding_box()
+    assert frame is not None
+    assert box["width"] > 0.95 * frame["width"], "nothing stands beside the picture"
     assert box["y"] + box["height"] <= height
     assert [one.inner_text().split()[0] for one in page.locator("#watch-pictures h2").all()] == ["another"]
 

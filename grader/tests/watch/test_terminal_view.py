@@ -1,10 +1,15 @@
 """How watch prints: whole words in a terminal, and commands that can be copied."""
 
 import io
+from dataclasses import replace
 
 import pytest
+from course_fakes import printed, text
 from rich.console import Console
 
+from raysteps.course.manifest import Step
+from raysteps.results.model import StepResult, TestResult
+from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
 
 _TEXT = "  hidden  sphere intersect: expected a hit at 3.25, where the ray enters the sphere [from outside]"
@@ -29,3 +34,22 @@ def test_a_terminal_gets_whole_words_that_stand_below_the_first() -> None:
 @pytest.mark.parametrize(("terminal", "command"), [(False, False), (True, True), (False, True)])
 def test_a_file_and_what_is_copied_get_one_line(terminal: bool, command: bool) -> None:
     assert _printed(_TEXT, terminal=terminal, command=command) == [_TEXT]
+
+
+def test_a_check_tells_what_the_look_before_it_could_not(steps: list[Step]) -> None:
+    """Such as the line at which a test crashes, and nothing twice."""
+    looked = [TestResult(name, False, "It crashed.", outcome="crashed") for name in ("first", "second")]
+    result = StepResult(steps[0].id, "crashed", 2.0, steps[0].points, bonus=False)
+    result.tests = [
+        replace(looked[0], message="It crashed.\ncamera_rays.cpp, line 7: follows a null pointer."),
+        looked[1],
+    ]
+    view = StepView(steps[0], "idle", result=result, complete=True, full=True, looked=tuple(looked))
+    console = printed()
+    TerminalView(console).result(view)
+    said = text(console)
+    assert "line 7: follows a null pointer." in said
+    assert "second" not in said
+    console = printed()
+    TerminalView(console).result(replace(view, looked=tuple(result.tests)))
+    assert "first" not in text(console)

@@ -170,7 +170,7 @@ def _mean(document: ClassResults) -> str:
     lateness = " after lateness" if document.late_policy is not None else ""
     bonus = sum(step.points for step in document.steps if step.bonus)
     regular = sum(step.points for step in document.steps if not step.bonus)
-    on_top = f", and {number(bonus)} of bonus on top" if bonus else ""
+    on_top = f", with up to {number(bonus)} more as a bonus" if bonus else ""
     points = (
         f"mean {_points(facts.mean)}, median {_points(facts.median)} points{lateness}, of {number(regular)}{on_top}"
     )

@@ -216,7 +216,7 @@ def exit_code_of(error: BaseException) -> int:
     if isinstance(error, IsADirectoryError):
         _tell(f"{reason_and_place(error)}; expected a file there")
         return UsageError.exit_code
-    if isinstance(error, PermissionError):
+    if isinstance(error, PermissionError) and error.filename is not None:  # else it is no file that could be opened
         _tell(f"{reason_and_place(error)}; what it needs there must be open to you")
         return UsageError.exit_code
     if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):

@@ -8,6 +8,7 @@ from raysteps.course.manifest import STEPS_HELP, chosen_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
 from raysteps.progress.check import check_steps
+from raysteps.progress.standing import ALL_DONE
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
 from raysteps.results.model import Results
@@ -33,12 +34,14 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
-    if told:
+    if told and project.has_reference:
         print_diagnoses(console, checked.results)
-    else:
+    elif not told:
         tell(checked.kit, checked.results)
     print_files(console, out / "results.json", checked.page)
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")
+    elif code == 0:
+        console.print(ALL_DONE)
     return code

@@ -123,7 +123,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
     worth = tenths(sum(step.points for step in steps if not step.bonus))
     bonus = tenths(sum(step.points for step in steps if step.bonus))
-    more = f" and {bonus} of bonus" if any(step.bonus for step in steps) else ""
+    more = f" and up to {bonus} more as a bonus" if any(step.bonus for step in steps) else ""
     _say(console, f"Grade what comes back, of {worth} points{more}: {line_to_grade(steps, course_steps(project))}")
     kept = [name for name in FOLDERS if (out / name).is_dir()]
     if kept:

@@ -10,7 +10,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
-from raysteps.grading.self_check import own_steps
+from raysteps.grading.self_check import own_libraries, own_steps
 from raysteps.grading.step import GradingContext, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.images.compare import write_png
@@ -41,7 +41,7 @@ class QuickLook:
         if same_code(source, pristine_stub(self.kit.project, self.step)):
             return self._not_started(result)
         with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-            build = StudentBuild(self.kit, self.sandbox, Path(folder))
+            build = StudentBuild(self.kit, self.sandbox, Path(folder), own_libraries(self.kit))
             compiled = build.compile(self.step, source.encode(), self.kit.limits_of(self.step))
             result.build_log = build_log(compiled.ran)
             if compiled.binary is None:
@@ -64,9 +64,9 @@ class QuickLook:
         """In a students' kit the student's own steps stand before this one."""
         if self.kit.has_reference:
             return {self.step.number: binary}
-        work = GradingContext(
-            self.kit, load_submission(self.kit.project.steps, self.kit.steps), self.sandbox, folder, self.out
-        )
+        own_files = load_submission(self.kit.project.steps, self.kit.steps)
+        kept = own_libraries(self.kit)
+        work = GradingContext(self.kit, own_files, self.sandbox, folder, self.out, kept=kept)
         with ThreadPoolExecutor() as pool:
             earlier = [step for step in self.kit.steps if step.index < self.step.index]
             own = own_steps(work, self.step, compile_steps(work, earlier, pool, {}))

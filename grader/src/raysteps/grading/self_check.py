@@ -4,7 +4,7 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
@@ -16,13 +16,14 @@ from raysteps.course.manifest import Step
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
-from raysteps.grading.unit_tests import has_crashed, set_aside, tell_crash_line
-from raysteps.images.render import reference_image_path
+from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, set_aside, tell_crash_line
+from raysteps.images.compare import write_png
+from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program, StudentBuild
+from raysteps.toolchain.compile import Compiled, KeptLibraries, Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
@@ -35,8 +36,19 @@ def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -
     return {number: binary for number, binary in binaries.items() if binary is not None}
 
 
+_LARGER = 3  # times as wide and as high
+_LARGE_SECONDS = 5.0  # of all large pictures together, on the clock: nobody waits for them
+
+
+def own_libraries(kit: BuiltKit) -> KeptLibraries:
+    """Those of the student whose kit it is."""
+    return KeptLibraries(kit.project.build / "own")
+
+
 class SelfCheckGrader(StepGrader):
     """What a student can be told at home."""
+
+    _raytrace: Program | None = None
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
         own = own_steps(self._work, self.step, self._compiled) | {self.step.number: binary}
@@ -46,6 +58,7 @@ class SelfCheckGrader(StepGrader):
         """The visible part, with its points. The pictures are made with the student's own steps already."""
         result, programs = self._result, self.programs()
         if programs is not None:
+            self._raytrace = programs["raytrace"]
             self._run_tests(programs["test"])
             for case in self.step.images:
                 result.images.append(judge(self._gallery, programs["raytrace"], self.step, case))
@@ -55,6 +68,45 @@ class SelfCheckGrader(StepGrader):
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
+
+    @property
+    def has_picture(self) -> bool:
+        return any(image.mine for image in self._result.images[:1])
+
+    @property
+    def step_is_right(self) -> bool:
+        return is_right(self._result)
+
+    def draw_large(self, seconds: float) -> None:
+        """The step's first picture again, larger than the one that is compared: to be looked at. What does not come out
+        in time is left out."""
+        case, image = self.step.images[0], self._result.images[0] if self._result.images else None
+        if self._raytrace is None or image is None or not image.mine or "--size" not in case.args:
+            return
+        args = list(self._gallery.args_of(case))
+        at = args.index("--size") + 1
+        args[at] = "x".join(str(_LARGER * int(side)) for side in args[at].split("x"))
+        limits = replace(self._work.kit.limits_of(self.step).of_program(), wall_seconds=seconds)
+        drawn = render(
+            self._work.sandbox, self._raytrace, self._work.kit.project.root / case.scene, tuple(args), limits
+        )
+        if drawn.pixels is not None:
+            large = image.mine.replace("-mine.png", "-large.png")
+            write_png(drawn.pixels, self._work.out / large)
+            image.large = large
+
+
+def _draw_large(graders: Sequence[SelfCheckGrader], say: ProgressCallback) -> None:
+    """What is wrong first, as long as there is time and nobody interrupts: the points are told already."""
+    graders = [grader for grader in graders if grader.has_picture]
+    if graders:
+        say("drawing larger pictures for the report")
+    end = time.monotonic() + _LARGE_SECONDS
+    with suppress(KeyboardInterrupt):
+        for grader in sorted(graders, key=lambda grader: grader.step_is_right):
+            left = end - time.monotonic()
+            if left > 0:
+                grader.draw_large(left)
 
 
 def name_crash(
@@ -80,7 +132,15 @@ def name_crash(
             program, _ = build.program("test", step, binaries, limits, together=not alone)
             if program is not None:
                 files = [Path(other.path).name for other in sources]
-                tell_crash_line(sandbox, program, tests[step.id][0], limits, files)
+                if tell_crash_line(sandbox, program, tests[step.id][0], limits, files):
+                    _without_debugger(next(result for result in found if result.id == step.id))
+
+
+def _without_debugger(result: StepResult) -> None:
+    """Nobody needs one to find a line that is named."""
+    result.messages = [message.removesuffix(FIND_THE_LINE).strip() for message in result.messages]
+    for test in result.tests:
+        test.message = test.message.removesuffix(FIND_THE_LINE).strip()
 
 
 _TROUBLE = {
@@ -108,9 +168,13 @@ def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> 
     return lines
 
 
-def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]) -> dict[str, StepResult]:
-    """The chosen steps; the others only where something is wrong that they may have caused, and out of sight."""
+def _check(
+    work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]
+) -> tuple[dict[str, StepResult], list[SelfCheckGrader]]:
+    """The chosen steps, and what checked them; the others only where something is wrong that they may have caused, and
+    out of sight."""
     found: dict[str, StepResult] = {}
+    graders: list[SelfCheckGrader] = []
     with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
         work.say("building the steps")
         compiled = compile_steps(work, list(steps), pool, {})
@@ -118,7 +182,10 @@ def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Seque
         def check(step: Step) -> StepResult:
             unseen = replace(work, out=work.folder / "unseen", say=lambda text: None)
             here = work if step in chosen else unseen
-            return SelfCheckGrader(here, step, work.kit.limits_of(step), compiled).check()
+            grader = SelfCheckGrader(here, step, work.kit.limits_of(step), compiled)
+            if step in chosen:
+                graders.append(grader)
+            return grader.check()
 
         found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))
         wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
@@ -126,7 +193,7 @@ def _check(work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Seque
         found.update(zip([step.id for step in rest], pool.map(check, rest), strict=True))
     for step in wrong:
         found[step.id].messages[:0] = blame(work, step, found)
-    return found
+    return found, graders
 
 
 def self_check(
@@ -137,21 +204,30 @@ def self_check(
     sandbox: Sandbox,
     out: Path,
     say: ProgressCallback,
+    tell: Callable[[Results], None] | None = None,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. Points are those of the visible part."""
+    """Writes out/results.json and out/pictures/. Points are those of the visible part. Where somebody waits to be told
+    of them, larger pictures are drawn after that."""
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = GradingContext(kit, submission, counted, Path(folder), out, say)
+        work = GradingContext(kit, submission, counted, Path(folder), out, say, own_libraries(kit))
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
-        found = _check(work, steps, jobs, chosen)
-    name_crash(kit, submission, sandbox, say, [found[step.id] for step in chosen])
-    timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
-    results = Results.of(
-        submission.name, [found[step.id] for step in chosen], kit.fingerprint, counted.isolation, timing
-    )
+        found, graders = _check(work, steps, jobs, chosen)
+        asked = [found[step.id] for step in chosen]
+        name_crash(kit, submission, sandbox, say, asked)
+        timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+        results = Results.of(submission.name, asked, kit.fingerprint, counted.isolation, timing)
+        _write(results, out)
+        if tell is not None:
+            tell(results)
+            _draw_large(graders, say)
+            _write(results, out)
+    return results
+
+
+def _write(results: Results, out: Path) -> None:
     try:
         write_results(results, out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
-    return results

@@ -23,7 +23,7 @@ from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import place_of
 from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program, StudentBuild, build_log
+from raysteps.toolchain.compile import Compiled, KeptLibraries, Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits
 
@@ -46,7 +46,7 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
             folder = out / "pictures" / step.id
             if folder.is_symlink() or folder.parent.is_symlink() or not folder.is_dir():
                 continue
-            for kind in ("mine", "reference", "difference"):
+            for kind in ("mine", "reference", "difference", "large"):
                 for picture in folder.glob(f"*-{kind}.png"):
                     picture.unlink()
             if not any(folder.iterdir()):
@@ -116,6 +116,7 @@ class GradingContext:
     folder: Path
     out: Path
     say: ProgressCallback = lambda text: None
+    kept: KeptLibraries | None = None
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
@@ -226,7 +227,7 @@ def compile_steps(
 
     def compile_one(item: tuple[Step, str]) -> Compiled:
         step, source = item
-        build = StudentBuild(work.kit, work.sandbox, work.folder)
+        build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
         return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 
     return {step.id: compiled for (step, _), compiled in zip(started, pool.map(compile_one, started), strict=True)}

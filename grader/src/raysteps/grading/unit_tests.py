@@ -17,7 +17,7 @@ from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
 _MAX_HANGS = 6  # tests that are waited for; a clock would say something else each time
-_FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
+FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
 
@@ -72,8 +72,8 @@ def _why_cut_short(ran: TaskResult) -> str:
         return "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
     words = ran.outcome.signal_words
     if words is not None:
-        return f"The program crashed in the middle of the test ({words}). {_FIND_THE_LINE}"
-    return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {_FIND_THE_LINE}"
+        return f"The program crashed in the middle of the test ({words}). {FIND_THE_LINE}"
+    return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {FIND_THE_LINE}"
 
 
 def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: StepLimits) -> list[TestResult]:
@@ -97,6 +97,7 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
 # The line at which a step crashes, by a program of the step that was compiled with sanitizers.
 
 _LONGEST_LINE = 2000  # of a stack that is read; a program may say anything
+_MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
 _ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
 _HEAD = re.compile(
@@ -131,7 +132,15 @@ class _Report:
     kind: str  # "error", "undefined" or "thrown"
     text: str
     said: list[str] = field(default_factory=list)
-    place: str = ""
+    frames: list[tuple[str, str]] = field(default_factory=list)  # functions in the student's files, and their places
+
+    @property
+    def place(self) -> str:
+        """The innermost; where a recursion has no end, the innermost that calls itself, and not what it called last."""
+        functions = [function for function, _ in self.frames]
+        endless = "stack-overflow" in self.text
+        again = (place for function, place in self.frames if endless and functions.count(function) > 1)
+        return next(again, self.frames[0][1] if self.frames else "")
 
 
 def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
@@ -146,10 +155,11 @@ def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
             kind = head.lastgroup or ""
             report, in_stack = _Report(kind, head[kind]), True
         elif report is not None:
-            frame = at.fullmatch(line) if in_stack and not report.place and len(line) < _LONGEST_LINE else None
+            room = len(report.frames) < _MAX_FRAMES and len(line) < _LONGEST_LINE
+            frame = at.fullmatch(line) if in_stack and room else None
             if frame is not None:
                 function = _function_name(frame["function"])
-                report.place = f"{frame['file']}, line {frame['line']}, in {function}"
+                report.frames.append((function, f"{frame['file']}, line {frame['line']}, in {function}"))
             in_stack = in_stack and not (report.said and "#" in report.said[-1] and "#" not in line)
             report.said.append(line)
     if report is not None:
@@ -198,13 +208,14 @@ def crash_line(said: str, files: Collection[str], *, threw: bool) -> str:
 
 def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
-) -> None:
-    """Runs a test that crashed once more, and says beside its message where that was."""
+) -> bool:
+    """Runs a test that crashed once more, and says beside its message where that was, if anybody can tell."""
     patient = replace(limits, seconds=_SLOWER * limits.seconds, memory_mb=_ALL_MEMORY_MB)
     ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)
     found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:
-        test.message = f"{test.message.removesuffix(_FIND_THE_LINE).strip()}\n{found}".strip()
+        test.message = f"{test.message.removesuffix(FIND_THE_LINE).strip()}\n{found}".strip()
+    return bool(found)
 
 
 # What waits for functions that are not written yet.

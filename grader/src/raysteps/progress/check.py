@@ -36,23 +36,26 @@ class CheckResult:
 
 _NEWER: tuple[Kind, ...] = ("changed", "missing", "unreadable")  # than what was checked
 
-Tell = Callable[[BuiltKit, Results], None]  # of results in which no mistake has its name yet
+Tell = Callable[[BuiltKit, Results], None]  # of results in which no mistake has its name, before larger pictures
 
 
 def _look_through(
-    kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: ProgressCallback, tell: Tell
+    kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: ProgressCallback, tell: Tell | None
 ) -> Results:
     jobs = os.cpu_count() or 1
+    first = None if tell is None else partial(tell, kit)
     if not kit.has_reference:
-        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say)
+        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say, first)
     from raysteps.grading.pipeline import (
         grade_submission,  # a students' kit has neither the judge nor what belongs to it
     )
     from raysteps.results.settings import Settings
 
     settings = Settings(only=tuple(step.id for step in chosen))
-    first, crash = partial(tell, kit), partial(name_crash, kit, submission, LimitsOnly(), say)
-    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first, name_crash=crash)
+    crash = partial(name_crash, kit, submission, LimitsOnly(), say)
+    return grade_submission(
+        kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first or (lambda _: None), name_crash=crash
+    )
 
 
 def _with_steps(results: Results, steps: Sequence[StepResult]) -> Results:
@@ -71,12 +74,10 @@ def _found_before(out: Path, kit: BuiltKit, chosen: Sequence[Step]) -> Results |
     return _with_steps(before, kept) if kept and before.kit == kit.fingerprint else None
 
 
-def check_steps(
-    project: Project, chosen: list[Step], say: ProgressCallback, tell: Tell = lambda kit, results: None
-) -> CheckResult:
+def check_steps(project: Project, chosen: list[Step], say: ProgressCallback, tell: Tell | None = None) -> CheckResult:
     """The chosen steps of those in the repository. In build/check they take the place of what was there of them, and
-    the other steps stay. Your own code needs no sandbox. Where mistakes must be learned before they can be named,
-    `tell` gets the results at once."""
+    the other steps stay. Your own code needs no sandbox. `tell` gets the results at once, where mistakes must be
+    learned before they can be named, or larger pictures are still to be drawn."""
     out = project.build / "check"
     with one_at_a_time(project.build / "check.lock"):
         kit = build_kit(project, say).in_one_process()

@@ -177,7 +177,7 @@ def shown(project: Project, step: Step, name: str) -> str:
 
 # The commands `list` and `next`.
 
-_ALL_DONE = "All steps are done. Next: `./raysteps finale` makes a picture, a page and a poster with them."
+ALL_DONE = "All steps are done. Next: `./raysteps finale` makes a picture, a page and a poster with them."
 
 _OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your course gives the rest."
 
@@ -219,7 +219,7 @@ def list_steps(project: Project, console: Console) -> int:
     found = standings(project)
     following = next_of(found)
     print_list(project, console, found, following)
-    told = next((f"next: {_to_type(standing)}" for standing in found if standing.step == following), _ALL_DONE)
+    told = next((f"next: {_to_type(standing)}" for standing in found if standing.step == following), ALL_DONE)
     console.print(f"\n{told}", highlight=False)
     return 0
 
@@ -238,7 +238,7 @@ def next_step(project: Project, console: Console) -> int:
     found = standings(project)
     step = next_of(found)
     if step is None:
-        console.print(_ALL_DONE, highlight=False)
+        console.print(ALL_DONE, highlight=False)
         return 0
     standing = next(each for each in found if each.step == step)
     points = f"{_points(project, step)} points{', bonus' if step.bonus else ''}"

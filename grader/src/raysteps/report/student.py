@@ -46,9 +46,10 @@ Place = tuple[str, str]  # step and name of the picture
 
 @dataclass
 class ShownImage:
-    """What there is to be compared."""
+    """What there is to be compared, and the same larger."""
 
     pictures: dict[str, PictureData | None] = field(default_factory=dict)
+    large: PictureData | None = None
     left_out: bool = False
 
     @property
@@ -96,13 +97,19 @@ def _wrong_first(results: Results) -> Iterator[tuple[Place, ImageResult]]:
 
 
 def make_album(results: Results, folder: Path, room: int) -> dict[Place, ShownImage]:
-    """As many as fit into so many characters: the wrong ones first, then the right ones, and maps last."""
+    """As many as fit into so many characters: the wrong ones first, then the right ones, then larger ones, and maps
+    last."""
     album: dict[Place, ShownImage] = {}
     for place, image in _wrong_first(results):
         sides = {"reference": _read(_path(folder, image.reference)), "mine": _read(_path(folder, image.mine))}
         size = sum(len(side.src) for side in sides.values() if side is not None)
         album[place] = ShownImage(sides) if size <= room else ShownImage(left_out=True)
         room -= size if size <= room else 0
+    for place, image in _wrong_first(results):
+        large = _read(_path(folder, image.large))
+        if large is not None and len(large.src) <= room:
+            album[place].large = large
+            room -= len(large.src)
     for place, image in _wrong_first(results):
         shown = album[place]
         flip = _flip(folder, image, shown.pictures) if shown.any else None
@@ -346,6 +353,7 @@ class OwnPicture:
     name: str
     passed: bool
     message: str
+    is_large: bool
 
 
 def _own_pictures(
@@ -360,15 +368,30 @@ def _own_pictures(
     ]
     found.sort(key=lambda pair: (pair[1]["passed"], pair[0] is not following))
     return [
-        OwnPicture(image["at"], step.id[:2], views[step.id]["title"], image["name"], image["passed"], image["message"])
+        OwnPicture(
+            image["at"],
+            step.id[:2],
+            views[step.id]["title"],
+            image["name"],
+            image["passed"],
+            image["message"],
+            image["shown"].large is not None,
+        )
         for step, image in found
     ]
 
 
 def _walk(results: Results, own: Sequence[OwnPicture]) -> list[OwnPicture]:
-    """The last picture of each step, in their order."""
-    last = {picture.number: picture for picture in reversed(own)}
-    return [last[step.id[:2]] for step in results.steps if step.id[:2] in last]
+    """Of each step, in their order, the first picture that is there larger, else the first."""
+    first = {picture.number: picture for picture in reversed(own)}
+    first |= {picture.number: picture for picture in reversed(own) if picture.is_large}
+    return [first[step.id[:2]] for step in results.steps if step.id[:2] in first]
+
+
+def _share(total: Total) -> float:
+    """Of what there is without a bonus, where there is something."""
+    earned, most = (total.points - total.bonus.points, total.max) if total.max else (total.points, total.bonus.max)
+    return earned / most if most else 0.0
 
 
 def _total(total: Total) -> dict[str, object]:
@@ -377,9 +400,10 @@ def _total(total: Total) -> dict[str, object]:
         "words": total_words(total),
         "points": tenths(total.points),
         "exact": number(total.points),
+        "regular": tenths(total.points - bonus.points if total.max else total.points),
         "max": tenths(total.max or bonus.max),
         "is_bonus": not total.max,
-        "share": min(1.0, total.points / (total.max or bonus.max)) if total.max or bonus.max else 0.0,
+        "share": _share(total),
         "bonus": tenths(bonus.points),
         "has_bonus": bonus.points > 0,
         "bonus_max": tenths(bonus.max) if bonus.max and total.max else "",
@@ -447,7 +471,7 @@ def _page(
         "is_perfect": is_perfect,
         "try_next": after_the_last(),
         "total": _total(results.total),
-        "columns": _PARTS,
+        "columns": [name for name in _PARTS if not parts or any(part.name == name for part in parts)],
         "sums": _sums(parts),
         "number": number,
         "tenths": tenths,

@@ -102,7 +102,8 @@ def _work_lines(mine: Work, reference: Work) -> list[str]:
 def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce) -> None:
     color = "green" if image.passed else "red"
     ended = _ended(image)
-    share = f": {ended}" if ended else "" if image.wrong_share is None else f"  {image.wrong_share:.2%} wrong"
+    share = "" if image.wrong_share is None else f"{image.wrong_share:.2%}"
+    share = f": {ended}" if ended else "" if not share or share in image.message else f"  {share} wrong"
     console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
     if not image.passed:
         message = once(image.message) if ended else image.message

@@ -112,9 +112,10 @@ def moment(found: HandIn) -> str:
 
 
 def total_words(total: Total, *, visible_only: bool = False) -> str:
-    """`85.5 of 100 points, 5 of them bonus`; of a bonus alone `6 of 10 bonus points`."""
+    """`80.5 of 100 points, and 5 of 20 bonus points`; of a bonus alone `6 of 10 bonus points`."""
     of_what = " of the visible part" if visible_only else ""
+    extra = f"{tenths(total.bonus.points)} of {tenths(total.bonus.max)} bonus points"
     if not total.max:
-        return f"{tenths(total.points)} of {tenths(total.bonus.max)} bonus points{of_what}"
-    bonus = f", {tenths(total.bonus.points)} of them bonus" if total.bonus.points else ""
-    return f"{tenths(total.points)} of {tenths(total.max)} points{of_what}{bonus}"
+        return f"{extra}{of_what}"
+    bonus = f", and {extra}" if total.bonus.points else ""
+    return f"{tenths(total.points - total.bonus.points)} of {tenths(total.max)} points{of_what}{bonus}"

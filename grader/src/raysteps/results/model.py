@@ -75,6 +75,9 @@ class ImageResult:
     mine: str | None = None
     reference: str | None = None
     difference: str | None = None
+    large: str | None = field(
+        default=None, metadata=OPTIONAL
+    )  # the same scene by the same program, only to be looked at
     seconds: Amount = 0.0
     outcome: Termination = "ok"
     share: Share = field(default=0.0, metadata=OPTIONAL)  # of its points; 0 where it passed in older kits

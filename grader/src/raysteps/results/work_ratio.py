@@ -132,7 +132,8 @@ def image_tier(image: ImageResult, step: Step) -> WorkTier | None:
         ("better than the reference", (1 - _ALIKE) * reference),
     )
     reached = [name for name, most in tiers if mine <= most]
-    return WorkTier(reached[-1] if reached else "not yet the paper's 64 boxes", case.name, mine, tiers)
+    none = "not yet the paper's 64 boxes, which ask each surface once"
+    return WorkTier(reached[-1] if reached else none, case.name, mine, tiers)
 
 
 def work_tier(result: StepResult, step: Step) -> WorkTier | None:

@@ -3,7 +3,7 @@
 import re
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -56,7 +56,10 @@ def _location(element: Element) -> str:
 
 _BINARY = re.compile(r"[()\[\]{}]|,\s|\s(?:==|!=|<=|>=|<|>)\s")
 _NEGATED = re.compile(r"!\((?P<asked>.+)\)", re.DOTALL)
-_FLOAT = re.compile(r"(?<![\w.])(\d[\d.]{0,40}(?:e[-+]\d{1,4})?)f(?!\w)")  # as Catch2 writes 0.5f
+_FLOAT = re.compile(r"(?<![\w.])(\d[\d.]{0,40}(?:e[-+]\d{1,4})?|nan|inf)f(?!\w)")  # as Catch2 writes 0.5f, nanf
+_LITERAL = re.compile(r"(?<![\w.])(\d[\d.]{0,40}?(?:e[-+]?\d{1,4})?)(?:\.0)?F(?!\w)")  # as a test writes 0.5F and 5.0F
+_QUALIFIER = re.compile(r"\b(?:glm|std)::(?:vector<\w{1,40}>(?=\{))?")
+_CAST = re.compile(r"static_cast<[\w:]{1,40}>\(([\w.]{1,40})\)")
 _HEX = re.compile(r" \(0x[0-9a-f]{1,16}\)")
 _ABOUT = re.compile(r"Approx\( (?P<value>[-+.\w]{1,40}) \)")
 _MATCHED = " is expected to "  # of the matchers in framework/testing
@@ -66,6 +69,17 @@ _VERBS = {"be ": "= ", "have ": "has ", "point ": "points "}
 def _value(text: str) -> str:
     """Without what only Catch2 and C++ need."""
     return _HEX.sub("", _FLOAT.sub(r"\1", _ABOUT.sub(r"about \g<value>", text.strip())))
+
+
+def _name(text: str) -> str:
+    """What a test calls what it asks, without what only C++ needs: `sphere.intersect({{0, 0, 5}, -down})`."""
+    return _LITERAL.sub(r"\1", _CAST.sub(r"\1", _QUALIFIER.sub("", text.strip())))
+
+
+def _note(text: str) -> str:
+    """One that holds a value, `radius := 2.5f`, without what only C++ needs."""
+    name, assigned, value = text.partition(" := ")
+    return f"{name}{assigned}{_value(value)}" if assigned else text
 
 
 def _marks(text: str) -> Iterator[re.Match[str]]:
@@ -100,7 +114,7 @@ def _of_matcher(original: str, expanded: str) -> tuple[str, str] | None:
 
 def _compared(element: Element) -> tuple[str, str]:
     """What was expected, and what came instead, by the name that the test has for it."""
-    original, expanded = _text(element.find("Original")), _text(element.find("Expanded"))
+    original, expanded = _name(_text(element.find("Original"))), _text(element.find("Expanded"))
     matched = _of_matcher(original, expanded)
     if matched is not None:
         return matched
@@ -132,7 +146,7 @@ def _failure(element: Element, notes: list[str]) -> Failure | None:
             problem = element.find("FatalErrorCondition")
         expected, got = _compared(element)
         if problem is not None:
-            expected, got = _text(element.find("Original")), f"{_TROUBLE[problem.tag]}{_text(problem)}"
+            expected, got = _name(_text(element.find("Original"))), f"{_TROUBLE[problem.tag]}{_text(problem)}"
         return Failure(expected, got, _location(element), _joined(notes))
     if element.tag == "Failure":
         return Failure("", "", _location(element), _joined([*notes, _text(element)]))
@@ -150,7 +164,7 @@ def _first_failure(room: Element, sections: tuple[str, ...] = ()) -> Failure | N
     notes = list(sections)
     for element in room:
         if element.tag in ("Info", "Warning"):
-            notes.append(_text(element))
+            notes.append(_note(_text(element)))
             continue
         if element.tag == "Section":
             found = _first_failure(element, (*sections, shorten(printable(element.get("name", "")))))
@@ -163,11 +177,21 @@ def _first_failure(room: Element, sections: tuple[str, ...] = ()) -> Failure | N
     return None
 
 
+def _in_the_test(failure: Failure, case: Element) -> Failure:
+    """A failure in a helper is looked for from the test on that called it."""
+    if re.match(r"\w+_test\.cpp:", failure.location):
+        return failure
+    places = [_location(case), failure.location]
+    return replace(failure, location=", fails in ".join(filter(None, places)))
+
+
 def _outcome(case: Element) -> TestOutcome:
     overall = case.find("OverallResult")
     passed = overall is not None and overall.get("success") == "true"
     tags = tuple(re.findall(r"\[([^\[\]]+)\]", case.get("tags", "")))
-    return TestOutcome(printable(case.get("name", "")), passed, None if passed else _first_failure(case), tags)
+    failure = None if passed else _first_failure(case)
+    failure = failure if failure is None else _in_the_test(failure, case)
+    return TestOutcome(printable(case.get("name", "")), passed, failure, tags)
 
 
 def parse_report(report: bytes) -> list[TestOutcome] | None:

@@ -25,8 +25,8 @@ _PATIENCE = 4  # seconds on the clock for one of a processor: others may use the
 
 @dataclass(frozen=True)
 class StepLimits:
-    """`seconds` is processor time for one program, with all its processes, so that a busy machine changes no grade. On
-    the clock it may take four times as long."""
+    """`seconds` is processor time for one program, with all its processes, and `compile_seconds` for one run of the
+    compiler, so that a busy machine changes no grade. On the clock each may take four times as long."""
 
     seconds: float
     memory_mb: int
@@ -44,7 +44,7 @@ class StepLimits:
     def of_tools(self) -> Limits:
         """For the compiler, the assembler and the linker."""
         return Limits(
-            wall_seconds=self.compile_seconds,
+            wall_seconds=_PATIENCE * self.compile_seconds,
             cpu_seconds=self.compile_seconds,
             memory_mb=self.compile_memory_mb,
             processes=self.processes,

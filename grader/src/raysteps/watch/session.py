@@ -225,6 +225,8 @@ class Session:
         """All of the step: when nothing was saved for a while, or when somebody asks for it."""
         self._check_at = None
         self.view.phase, self.view.said = "checking", ""
+        if self.view.result is not None and not self.view.full:
+            self.view.looked = tuple(self.view.result.tests)
         hidden = ", hidden cases too" if self.project.has_reference else ""
         self.showing.dim(f"checking all of it{hidden}; a save stops it")
         self._runner.start("check", self.view.step)

@@ -81,6 +81,7 @@ class StepView:
     out: Path | None = None
     complete: bool = False
     full: bool = False
+    looked: tuple[TestResult, ...] = ()  # what the look before a check said of the tests
     gone: bool = False
     problem: str = ""
     hints: list[Hint] = field(default_factory=list)

@@ -37,6 +37,14 @@ space  build, test and draw once more
 q      quit"""
 
 
+def _is_news(test: TestResult, looked: Sequence[TestResult]) -> bool:
+    """Whether a check says of a test what the look before it did not, such as the line at which it crashes. How long
+    a test hung is none."""
+    return test.outcome != "timeout" and all(
+        (test.name, test.message) != (other.name, other.message) for other in looked
+    )
+
+
 class TerminalView:
     """Prints; knows nothing of what happens next."""
 
@@ -87,7 +95,9 @@ class TerminalView:
                 for line in message.splitlines():
                     self.line(f"  {line}")
             return
-        if not view.full:
+        if view.full:
+            self._tests([test for test in view.failed_tests if _is_news(test, view.looked)][:1])
+        else:
             self._tests(view.failed_tests)
             self._pictures(view.result)
         self._diagnoses(view.result)

@@ -34,6 +34,11 @@ function comparisonAt(id) {
   return document.getElementById(id)?.querySelector("compare-pictures");
 }
 
+/** The same scene, larger, where a picture has it. */
+function largeAt(id) {
+  return document.getElementById(id)?.querySelector("figure.large");
+}
+
 /** Large, above all steps: one of the student's pictures after the other, chosen from a list. */
 class PictureViewer {
   #room;
@@ -65,10 +70,12 @@ class PictureViewer {
   #show(at) {
     const link = this.#links[at];
     const from = comparisonAt(link.hash.slice(1));
-    const view = this.#room.firstElementChild?.view ?? "slider";
+    const view = this.#room.querySelector("compare-pictures")?.view ?? "slider";
     const shown = from.cloneNode(false);
     shown.append(...[...from.querySelectorAll(":scope > img")].map((image) => image.cloneNode()));
-    this.#room.replaceChildren(shown);
+    const large = largeAt(link.hash.slice(1))?.cloneNode(true);
+    const both = large ? [large, shown] : [shown];
+    this.#room.replaceChildren(...("passed" in link.dataset ? both : both.reverse()));
     shown.view = view;
     for (const other of this.#links) {
       other.toggleAttribute("aria-current", false);
@@ -83,7 +90,8 @@ class PictureViewer {
 /** The pictures of a report in which all is right. */
 function hangPictures() {
   for (const figure of document.querySelectorAll("figure[data-picture]")) {
-    const image = comparisonAt(figure.dataset.picture)?.querySelector(':scope > img[data-role="mine"]');
+    const small = comparisonAt(figure.dataset.picture)?.querySelector(':scope > img[data-role="mine"]');
+    const image = largeAt(figure.dataset.picture)?.querySelector("img") ?? small;
     if (image) {
       figure.prepend(image.cloneNode());
     }

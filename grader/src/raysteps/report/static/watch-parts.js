@@ -84,8 +84,11 @@ function watchKind(title, items, makeOne) {
   return [make("h2", {}, `${title}: `, sign), ...items.failed.map(makeOne)];
 }
 
+/** Sentences are broken where the panel ends; only pseudocode keeps its columns. */
 function watchHint(hint) {
-  return watchPanel("plain", watchName(`Hint ${hint.level} of ${hint.of}`), watchLines(hint.text, "the hint"));
+  const inColumns = /\S {2,}\S/.test(hint.text);
+  const text = inColumns ? watchLines(hint.text, "the hint") : make("p", {}, hint.text);
+  return watchPanel("plain", watchName(`Hint ${hint.level} of ${hint.of}`), text);
 }
 
 /** Everything but the pictures. */
