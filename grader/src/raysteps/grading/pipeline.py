@@ -59,6 +59,7 @@ class HiddenStepGrader(StepGrader):
         self._settings = settings
         self._ran = False
         self._unexplained = False
+        self._spoilt: list[str] = []  # functions that are better where the reference's stand for those before them
         self._ask: Ask | None = None
         self.fault = ""  # of the grader, in this step
         if self._plan is not None:
@@ -215,6 +216,7 @@ class HiddenStepGrader(StepGrader):
                 better[item.name] = again
                 if item.case and not again.case:
                     (self._gallery.out / item.case).unlink(missing_ok=True)
+        self._spoilt = list(better)
         if better:
             result.hidden = [better.get(item.name, item) for item in result.hidden]
             result.messages.append(
@@ -239,7 +241,8 @@ class HiddenStepGrader(StepGrader):
             return
         doctor = Diagnostician(self._work.kit, self.step, self._plan, self._ask, self._work.say)
         try:
-            self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
+            found = doctor.diagnose(self._result, self._gallery.made, self._unfinished, self._spoilt)
+            self._result.diagnoses = found
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
 
