@@ -1,6 +1,7 @@
 """Matching on made-up answers: the same, different, ties and noise."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, 
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
 from raysteps.images.compare import Pixels
 from raysteps.judge.functions import Case, functions_of
+from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.random_source import RandomSource
 
 pytestmark = pytest.mark.portable
@@ -159,6 +161,32 @@ def test_pictures_alone_name_a_mistake_where_there_is_no_judge() -> None:
     ]
     (named,) = name_mistakes(matches)
     assert (named.mutant.id, named.explains) == ("a", ("lit",))
+
+
+def test_what_finds_nothing_may_have_any_cause_but_one_that_is_right() -> None:
+    lost = _wrong("miss", *range(30), problem=NOTHING_FOUND)
+    other = _wrong("4 5 6", *range(30))
+    for spoilt, names in ((lost, []), (other, ["up"])):
+        known = MutantFingerprint({"mirror": spoilt, "specular": spoilt}, {})
+        evidence = replace(_evidence({"specular": spoilt}), right={"mirror"})
+        assert [one.mutant.id for one in name_mistakes([match(_mutant("up"), known, evidence)])] == names
+
+
+def test_pictures_deny_what_a_yes_or_no_says_and_what_is_seen() -> None:
+    reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
+    mine, drawn = reference.copy(), reference.copy()
+    mine[:15] //= 2
+    drawn[15:] //= 2
+    for name, weak in (("is_lit", True), ("shadow_ray", False)):
+        known = functions_of("04")[name]
+        questions = Questions(known, [Case(name, "any", {})] * 30, ["1"] * 30)
+        said = {number: ObservedAnswers("0", "it is wrong") for number in range(30)}
+        for picture, sees in ((drawn, ""), (mine, "sees")):
+            evidence = Evidence({name: questions}, {name: said}, {"lit": _picture(mine, reference)})
+            fingerprint = MutantFingerprint({name: said}, {"lit": picture})
+            named = name_mistakes([match(_mutant("is_it", name), fingerprint, evidence)])
+            assert bool(named) == (bool(sees) or not weak)
+            assert all(bool(one.diagnosis().sees) == bool(sees) for one in named)
 
 
 def test_a_picture_of_one_colour_has_no_name() -> None:

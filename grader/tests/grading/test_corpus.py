@@ -22,7 +22,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 
 pytestmark = pytest.mark.slow
 
-_FOLDER = Path(__file__).parents[1] / "corpus"
+_FOLDERS = [Path(__file__).parents[1] / name for name in ("corpus", "second_corpus")]  # two people's, apart
 _ALL = os.environ.get("RAYSTEPS_CORPUS", "") == "all"
 _RUN = "PYTEST_XDIST_TESTRUNUID"  # the same in all processes of a run, which must choose the same tests
 _SEED = os.environ.get("RAYSTEPS_CORPUS_SEED") or os.environ.get(_RUN) or str(random.SystemRandom().randrange(10**9))
@@ -58,20 +58,41 @@ def _changed(sources: dict[str, str], entry: dict[str, Any]) -> str:
     return source
 
 
-def _entries(folder: Path) -> list[Entry]:
-    table = tomllib.loads((folder / "corpus.toml").read_text(encoding="utf-8"))
+def _of_files(folder: Path, table: dict[str, Any]) -> list[Entry]:
+    """Each in a file of its own."""
+    return [
+        Entry(
+            folder.name,
+            one["kind"],
+            one["id"],
+            (folder / one["kind"] / f"{one['id']}.cpp").read_text(encoding="utf-8"),
+            one.get("low", 0.0),
+            one.get("high", 0.0),
+        )
+        for one in table["entry"]
+    ]
+
+
+def _of_edits(folder: Path, table: dict[str, Any]) -> list[Entry]:
+    """The right ones in files, the others as changes of them."""
     sources = {path.stem: path.read_text(encoding="utf-8") for path in sorted(folder.glob("right/*.cpp"))}
-    known = table.get("known", {})
     found = [Entry(folder.name, "right", name, source) for name, source in sources.items()]
     for kind in ("wrong", "half"):
         for one in table.get(kind, []):
             band = (one.get("low", 0.0), one.get("high", 0.0))
             found.append(Entry(folder.name, kind, one["id"], _changed(sources, one), *band))
+    return found
+
+
+def _entries(folder: Path) -> list[Entry]:
+    table = tomllib.loads((folder / "corpus.toml").read_text(encoding="utf-8"))
+    known = table.get("known", {})
+    found = _of_files(folder, table) if "entry" in table else _of_edits(folder, table)
     assert known.keys() <= {one.name for one in found}
     return [replace(one, known=known.get(one.name)) for one in found]
 
 
-_CORPUS = [one for folder in sorted(_FOLDER.iterdir()) for one in _entries(folder)]
+_CORPUS = [one for room in _FOLDERS for folder in sorted(room.iterdir()) for one in _entries(folder)]
 
 
 def _rounds() -> list[list[Entry]]:
@@ -111,6 +132,6 @@ def test_the_verdict_is_the_one_decided_beforehand(
 
 def test_there_is_enough_of_each_kind() -> None:
     amounts = [sum(one.kind == kind for one in _CORPUS) for kind in ("right", "wrong", "half")]
-    assert amounts[0] >= 60
-    assert amounts[1] >= 60
-    assert amounts[2] >= 30
+    assert amounts[0] >= 78
+    assert amounts[1] >= 78
+    assert amounts[2] >= 80

@@ -1,14 +1,17 @@
-"""A function that is not written costs its own points only: the others are judged with the reference's in its place."""
+"""A function that is not written costs its own points only: the others are judged with the reference's in its place. So
+are, in the hidden part, those after a function that is wrong."""
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from conftest import Sources
 from machine_code import reference_code
 
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import make_stub
 from raysteps.grading.pipeline import grade_submission
+from raysteps.grading.scoring import test_weights as weights_of
 from raysteps.results.model import StepResult
 from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
@@ -87,6 +90,40 @@ def test_what_is_wrong_is_wrong_all_the_same(kit: BuiltKit, tmp_path: Path) -> N
     failed = [test for test in result.tests if not test.passed and not test.waits_for]
     assert failed
     assert {name for test in failed for name in kit.tests[step.id][test.name]} == {"is_lit"}
+
+
+def test_one_that_is_wrong_costs_its_own_hidden_points_only(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == "06")
+    old = "const bool upwards = inverse[axis] >= 0.0F;"
+    assert solved[step.id].count(old) == 1
+    result = _graded(kit, step, solved[step.id].replace(old, "const bool upwards = true;"), tmp_path)
+    shares = {item.name: item.share for item in result.hidden if item.kind == "function"}
+    assert 0 < shares.pop("Box::clip") < 1
+    assert set(shares.values()) == {1.0}, "by themselves they are right"
+    assert any("with the reference's functions in place" in message for message in result.messages)
+    failed = {name for test in result.tests if not test.passed for name in kit.tests[step.id][test.name]}
+    assert "closest_hit_in_octree" in failed, "the visible tests try the step as it is"
+
+
+def test_two_that_are_wrong_both_cost_theirs(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == "03")
+    source = solved[step.id]
+    mirrored, weighed = "return direction - 2.0F", "return fill.kd * cosine"
+    for old, new in ((mirrored, "return -direction + 2.0F"), (weighed, "return cosine")):
+        assert source.count(old) == 1
+        source = source.replace(old, new)
+    result = _graded(kit.in_one_process(), step, source, tmp_path)
+    right = {item.name: item.passed for item in result.hidden if item.kind == "function"}
+    assert right == {"mirror": False, "diffuse": False, "specular": True, "shade": True}
+
+
+def test_a_test_that_needs_what_is_not_written_says_nothing_of_the_others(kit: BuiltKit) -> None:
+    step = next(step for step in kit.steps if step.number == "07")
+    tests = {"a": ["tone_map"], "b": ["to_byte"], "both": ["tone_map", "to_byte"]}
+    assert weights_of(step, tests, []) == {"a": 0.25, "b": 0.25, "both": 0.5}
+    assert weights_of(step, tests, ["to_byte"]) == {"a": 0.5, "b": 0.25, "both": 0.25}
+    only_both = {"both": ["tone_map", "to_byte"], "b": ["to_byte"]}
+    assert weights_of(step, only_both, ["to_byte"]) == {"both": 0.75, "b": 0.25}, "it has no test of its own"
 
 
 def test_such_a_box_holds_no_reference(kit: BuiltKit, tmp_path: Path) -> None:

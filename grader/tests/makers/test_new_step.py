@@ -121,12 +121,12 @@ def test_a_step_that_is_taken_away_leaves_nothing(copy: Project, capsys: pytest.
 
 def test_points_and_weights_are_the_manifests(copy: Project) -> None:
     _change(copy, "04-shadows", "points = 10", "points = 25")
-    _change(copy, "04-shadows", "tests = 0.45", "tests = 0.55")
+    _change(copy, "04-shadows", "tests = 0.5", "tests = 0.6")
     with pytest.raises(GraderFault, match="the weights must sum to 1"):
         read_steps(copy)
     _change(copy, "04-shadows", "hidden = 0.35", "hidden = 0.25")
     step = read_steps(copy)[3]
-    assert (step.points, step.weight_tests, step.weight_hidden) == (25, 0.55, 0.25)
+    assert (step.points, step.weight_tests, step.weight_hidden) == (25, 0.6, 0.25)
 
 
 def test_a_step_that_is_left_out_is_built_and_not_part_of_the_course(copy: Project) -> None:

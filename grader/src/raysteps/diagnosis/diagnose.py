@@ -29,12 +29,20 @@ class Diagnostician:
     ask: Ask | None
     say: ProgressCallback = lambda text: None
 
-    def diagnose(self, result: StepResult, mine: Mapping[str, Pixels], unfinished: Collection[str]) -> list[Diagnosis]:
-        """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs."""
+    def diagnose(
+        self,
+        result: StepResult,
+        mine: Mapping[str, Pixels],
+        unfinished: Collection[str],
+        spoilt_functions: Collection[str] = (),
+    ) -> list[Diagnosis]:
+        """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs;
+        `spoilt_functions`: those that are better than they look, since they call one that is wrong."""
         pictures = self._pictures(mine) if not unfinished else {}
-        questions = self._questions(result, unfinished)
+        questions = self._questions(result, unfinished, spoilt_functions)
         answers = listen(questions, self.ask, _MAX_SECONDS) if self.ask is not None else {}
-        named, spoilt = self._mistakes(Evidence(questions, answers, pictures))
+        right = {item.name for item in result.hidden if item.kind == "function" and item.passed} - set(spoilt_functions)
+        named, spoilt = self._mistakes(Evidence(questions, answers, pictures, right))
         open_ = {
             name: picture
             for name, picture in pictures.items()
@@ -70,14 +78,17 @@ class Diagnostician:
                 found[case.name] = Picture(case, mine[case.name], reference)
         return found
 
-    def _questions(self, result: StepResult, unfinished: Collection[str]) -> dict[str, Questions]:
+    def _questions(
+        self, result: StepResult, unfinished: Collection[str], spoilt: Collection[str]
+    ) -> dict[str, Questions]:
         """To the functions that the judge found wrong; to all where it found none. A function may call those before it:
         what comes after one that is a stub says nothing about itself."""
         if self.plan is None:
             return {}
         judged = [item for item in result.hidden if item.kind == "function"]
         hung = {item.name for item in judged if item.outcome == "timeout"}
-        wrong = {item.name for item in judged if not item.passed} or {item.name for item in judged}
+        wrong = {item.name for item in judged if not item.passed or item.name in spoilt}
+        wrong = wrong or {item.name for item in judged}
         names = self.step.functions
         first_stub = min((names.index(name) for name in unfinished), default=len(names))
         return questions_of(self.kit, self.step, self.plan, (wrong - hung) & set(names[:first_stub]))

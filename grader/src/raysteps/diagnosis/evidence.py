@@ -141,11 +141,13 @@ class Picture:
 
 @dataclass(frozen=True)
 class Evidence:
-    """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out."""
+    """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out. `right`: the
+    functions that the judge found right."""
 
     questions: Mapping[str, Questions]
     answers: Answers
     pictures: Mapping[str, Picture]
+    right: Collection[str] = ()
 
     @property
     def is_wrong(self) -> bool:

@@ -9,30 +9,37 @@ from raysteps.diagnosis.evidence import Evidence, ObservedAnswers, Picture, Ques
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint
 from raysteps.images.compare import Pixels
 from raysteps.judge.bvhs import BVH
+from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.octrees import TREE
 from raysteps.results.model import Diagnosis
 
 GOOD = 0.7  # of the wrong cases of a function: from there on a mistake explains it
 _GOOD_PICTURE = 0.8  # of the wrong pixels
 _GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictures that are wrong
-GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture is explained
+GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture without a tree is explained
+_NEVER = 2.0  # where, besides, the mistake would draw other pictures
 _GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
-_ANOTHER = 0.2  # of the cases of its own function: below, that is wrong in another way; the same words alone give 0.25
+_ANOTHER = 0.2  # of the cases of its own function, or of a picture: below, that is wrong in another way; the same words
+# alone give 0.25
 _NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures name
 _FEWEST_CASES = 2.0
 _FEWEST_WEAK = 4.0  # where wrong answers hardly differ
 _FEWEST_PIXELS = 12
+_MOSTLY_EMPTY = 0.5  # of the cases
+_FEWEST_DENYING = 4  # cases of its own function that a mistake makes wrong: who has them right has not made it
 
 
 @dataclass(frozen=True)
 class Agreement:
     """Of a mistake and the student in one function: the cases in which either is wrong, and how alike they are where
-    both are. `weak`: wrong answers hardly differ, so that they prove less."""
+    both are. `weak`: wrong answers hardly differ, so that they prove less. `empty`: of the cases where both are wrong,
+    the share in which nothing was found where there is something: so it looks whatever lost it."""
 
     mine: frozenset[int]
     mistake: frozenset[int]
     alike: Mapping[int, float]
     weak: bool = False
+    empty: float = 0.0
 
     @property
     def score(self) -> float:
@@ -47,7 +54,8 @@ class Match:
     """What a mistake has to do with what is wrong, by the name of a function or picture.
 
     `telling`: the pictures that are not of one colour, which may have any cause. `spoilt`: wrong pictures in which the
-    mistake shows. `against`: what the mistake spoils and is right.
+    mistake shows. `against`: what the mistake spoils and is right. `denied`: its own function is among that.
+    `in_trees`: pictures that hang on how a tree is built.
     """
 
     mutant: Mutant
@@ -56,6 +64,9 @@ class Match:
     telling: set[str] = field(default_factory=set)
     spoilt: set[str] = field(default_factory=set)
     against: list[str] = field(default_factory=list)
+    denied: bool = False
+    spoils_right: bool = False
+    in_trees: set[str] = field(default_factory=set)
 
     def explains(self, told: Collection[str] = ()) -> dict[str, float]:
         """With a score from 0 to 1. `told`: pictures that other mistakes spoil: they do not speak against it."""
@@ -70,15 +81,28 @@ class Match:
         drawn = self._drawn()
         telling = drawn.keys() & self.telling
         if one.weak:
-            return GOOD if telling else GOOD_WEAK
+            plain = [score for name, score in self.pictures.items() if name in self.telling - self.in_trees - set(told)]
+            if plain and max(plain) < _ANOTHER:
+                return _NEVER
+            return GOOD if telling - self.in_trees else GOOD_WEAK
         if self.telling - set(told) and not telling:
             return _GOOD_AGAINST_PICTURES
         return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD
 
     def is_another(self) -> bool:
-        """Whether the function in which the mistake sits is wrong in another way."""
+        """Whether the function in which the mistake sits is wrong in another way. Or it is right, and those that the
+        mistake explains only find nothing."""
         own = self.functions.get(self.mutant.function)
-        return own is not None and own.score < _ANOTHER
+        if own is not None and own.score < _ANOTHER:
+            return True
+        explained = self.explains().keys() & self.functions.keys()
+        return self.denied and all(self.functions[name].empty > _MOSTLY_EMPTY for name in explained)
+
+    def is_seen(self) -> bool:
+        """Whether the pictures may look as the mistake makes them look: not where it explains none of those that are
+        wrong and say something, or spoils one that is right."""
+        explains_none = bool(self.telling) and not self.telling & self._drawn().keys()
+        return not (explains_none or self.spoils_right)
 
     def named_by_pictures(self) -> bool:
         """Whether it explains all pictures that say something, and its own function does not speak against it."""
@@ -101,7 +125,8 @@ def agreement(
     }
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
     weak = questions.function.yes_or_no or questions.function.answer in (TREE, BVH)
-    return Agreement(wrong, other, alike, weak)
+    empty = sum(mine[number].problem == NOTHING_FOUND for number in both) / len(both) if both else 0.0
+    return Agreement(wrong, other, alike, weak, empty)
 
 
 def picture_score(mistake: Pixels | None, picture: Picture) -> float:
@@ -124,6 +149,9 @@ def spoils(mistake: Pixels | None, picture: Picture) -> bool:
 def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) -> Match:
     """One mistake against everything that was seen."""
     found = Match(mutant)
+    own = mutant.function
+    is_right = own in evidence.right or (own in evidence.answers and not evidence.answers[own])
+    found.denied = is_right and len(fingerprint.answers.get(own, {})) >= _FEWEST_DENYING
     for name, mine in evidence.answers.items():
         mistake = fingerprint.answers.get(name, {})
         if mine:
@@ -135,9 +163,11 @@ def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) ->
         if picture.is_wrong:
             found.pictures[name] = picture_score(drawn, picture)
             found.telling |= {name} if picture.says_something else set()
+            found.in_trees |= {name} if picture.case.has_tree else set()
             found.spoilt |= {name} if spoils(drawn, picture) else set()
         elif spoils(drawn, picture):
             found.against.append(name)
+            found.spoils_right = True
     return found
 
 
@@ -186,17 +216,19 @@ _NOT_ITS_OWN = 0.3  # the function in which the mistake sits is right here
 
 @dataclass(frozen=True)
 class NamedMistake:
-    """A mistake with what it explains, and those that explain it as well."""
+    """A mistake with what it explains, and those that explain it as well. Not `seen`: the pictures look otherwise."""
 
     mutant: Mutant
     explains: tuple[str, ...]
     alike: tuple[Mutant, ...]
+    seen: bool = True
 
     def diagnosis(self) -> Diagnosis:
         mutant = self.mutant
         alike = list(dict.fromkeys(other.name for other in self.alike if other.name != mutant.name))
         seen = list(self.explains)
-        return Diagnosis("mistake", mutant.id, mutant.name, mutant.sees, mutant.cause, mutant.hint, seen, alike)
+        sees = mutant.sees if self.seen else ""
+        return Diagnosis("mistake", mutant.id, mutant.name, sees, mutant.cause, mutant.hint, seen, alike)
 
 
 @dataclass
@@ -235,7 +267,7 @@ def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
             for match, worth in worths
             if match is not best and most - worth <= _HAIR and open_.explained_by(match).keys() == explained.keys()
         ]
-        named.append(NamedMistake(best.mutant, tuple(explained), tuple(alike)))
+        named.append(NamedMistake(best.mutant, tuple(explained), tuple(alike), best.is_seen()))
         open_.names -= explained.keys()
         open_.told |= best.spoilt
     return named + _pairs(matches, open_.names)[: _MAX - len(named)]

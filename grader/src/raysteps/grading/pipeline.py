@@ -13,7 +13,7 @@ from pathlib import Path
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import GraderFault, RaystepsError, reason, reason_and_place
 from raysteps.common.files import write_bytes
-from raysteps.common.text import in_seconds, printable, shorten
+from raysteps.common.text import in_seconds, join_and, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.diagnosis.mutant_fingerprints import are_learned
@@ -34,7 +34,7 @@ from raysteps.images.render import reference_picture
 from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import run_hidden_tests, take_back, unspared, why_unspared
-from raysteps.judge.plan import read_plan
+from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.settings import Settings
@@ -59,6 +59,7 @@ class HiddenStepGrader(StepGrader):
         self._settings = settings
         self._ran = False
         self._unexplained = False
+        self._spoilt: list[str] = []  # functions that are better where the reference's stand for those before them
         self._ask: Ask | None = None
         self.fault = ""  # of the grader, in this step
         if self._plan is not None:
@@ -105,6 +106,8 @@ class HiddenStepGrader(StepGrader):
                 result.hidden = run_hidden_tests(
                     step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, seconds, examples
                 )
+                if binary is not None:
+                    self._ask_apart(binary, plan, seconds, examples)
                 not_spared = unspared(result.images, result.hidden)
                 take_back(result.images, result.hidden)
                 spares = not why_unspared(result.hidden)
@@ -184,6 +187,49 @@ class HiddenStepGrader(StepGrader):
         written = [name for name in self.step.functions if name not in self._unfinished]
         return ask_some(ask, ask_student(gallery.sandbox, completed["worker"], gallery.limits), written)
 
+    # A function that is wrong costs its own hidden points only: those after it, which may call it, are asked again with
+    # the reference's in its place.
+
+    def _ask_apart(self, binary: Path, plan: Plan, seconds: float, examples: Examples | None) -> None:
+        """Whoever is better so is judged so. Who hung is not asked again."""
+        result, kit, missing = self._result, self._work.kit, set(self._unfinished)
+        wrong = [item for item in result.hidden if not item.passed and item.name not in missing]
+        if len(missing) > 1:
+            return
+        better: dict[str, HiddenResult] = {}
+        for before, item in enumerate(wrong[1:], start=1):
+            worker = None
+            if item.outcome != "timeout":
+                worker = self._worker_with(binary, missing | {other.name for other in wrong[:before]})
+            if worker is None:
+                continue
+            again = run_hidden_tests(
+                self.step,
+                replace(plan, functions=tuple(one for one in plan.functions if one.name == item.name)),
+                ask := ask_student(self._gallery.sandbox, worker, self._gallery.limits),
+                lambda cases, _: reference_answers(kit, cases),
+                self._settings.seed,
+                seconds,
+                None if examples is None else replace(examples, student=ask),
+            )[0]
+            if again.share > item.share:
+                better[item.name] = again
+                if item.case and not again.case:
+                    (self._gallery.out / item.case).unlink(missing_ok=True)
+        self._spoilt = list(better)
+        if better:
+            result.hidden = [better.get(item.name, item) for item in result.hidden]
+            result.messages.append(
+                f"The hidden cases of {join_and(list(better))} are asked with the reference's functions in place of "
+                "those before them that are wrong."
+            )
+
+    def _worker_with(self, binary: Path, replaced: Collection[str]) -> Program | None:
+        """With the reference's functions in place of these. None where steps are no libraries."""
+        step, names = self.step, self._work.kit.linker_names(self.step, replaced)
+        binaries = {step.number: binary}
+        return self._build.program("worker", step, binaries, self._limits, replaced=names)[0] if names else None
+
     @property
     def has_to_learn(self) -> bool:
         """Whether it takes a while to say why the step is wrong: the known mistakes must be learned before."""
@@ -195,7 +241,8 @@ class HiddenStepGrader(StepGrader):
             return
         doctor = Diagnostician(self._work.kit, self.step, self._plan, self._ask, self._work.say)
         try:
-            self._result.diagnoses = doctor.diagnose(self._result, self._gallery.made, self._unfinished)
+            found = doctor.diagnose(self._result, self._gallery.made, self._unfinished, self._spoilt)
+            self._result.diagnoses = found
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
 

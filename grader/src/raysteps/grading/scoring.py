@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from raysteps.common.text import count, join_and
@@ -20,9 +20,15 @@ def max_points(step: Step, *, judged: bool) -> float:
     return round(step.points * share, 1)
 
 
-def test_weights(step: Step, tests: Mapping[str, Sequence[str]]) -> dict[str, float]:
+def test_weights(step: Step, all_tests: Mapping[str, Sequence[str]], missing: Collection[str]) -> dict[str, float]:
     """By name of the test: those of one function share what the function is worth. One that names no function counts
-    like the average of the others."""
+    like the average of the others. `missing`: functions that are not written; a test that needs one says nothing of
+    the others that it names, where these have tests of their own."""
+    alone = {name for names in all_tests.values() if not set(names) & set(missing) for name in names}
+    tests = {
+        test: [name for name in names if name not in alone or not set(names) & set(missing)]
+        for test, names in all_tests.items()
+    }
     amounts = Counter(function for functions in tests.values() for function in functions)
     weights = {
         name: sum(step.share_of(function) / amounts[function] for function in functions)

@@ -209,7 +209,7 @@ class StepGrader:
     def _run_tests(self, program: Program) -> None:
         tests = self._work.kit.tests[self.step.id]
         self._result.tests = run_tests(self._work.sandbox, program, list(tests), self._limits)
-        weights = test_weights(self.step, tests)
+        weights = test_weights(self.step, tests, self._unfinished)
         for test in self._result.tests:
             test.weight = weights[test.name]
         self._gallery.hung_in(self._result.tests)

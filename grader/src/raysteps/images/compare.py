@@ -144,7 +144,7 @@ class Comparison:
     message: str
 
 
-MOST_OF_A_PICTURE = 0.9  # of its points are for one that does not pass
+MOST_OF_A_PICTURE = 0.6  # of its points are for one that does not pass
 _WHOLLY_WRONG = 64  # of 255: a pixel that is farther off is no nearer to right than any other
 
 

@@ -103,7 +103,8 @@ def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case
 
 _ORDINARY = 0.5  # of a function's points are for the first kind of cases, which are ordinary
 _SOME = 0.25  # of the ordinary cases: below, the other kinds count less and less
-_NEARLY = 0.9  # a function with a kind that is wrong earns no more
+_MOSTLY = 0.5  # of a function with a kind that is wrong: what is right beyond it counts less
+_BEYOND = 1 / 3
 _SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
 _NEAR = 0.5  # of the share of wrong answers that come near the right ones
 _MAY_MISS = 0.01  # of the cases of a kind, by rounding
@@ -174,6 +175,11 @@ def share_of(plan: FunctionPlan, groups: Sequence[CaseGroup], judged: Sequence[J
         return usual
     rest = sum(group.share * plan.kind_weights[group.name] for group in others) / weight
     return _ORDINARY * usual + (1 - _ORDINARY) * rest * min(1.0, usual / _SOME)
+
+
+def _with_a_mistake(share: float) -> float:
+    """A feature that is missing is seldom most of the cases, and costs more than these."""
+    return min(share, _MOSTLY + _BEYOND * (share - _MOSTLY))
 
 
 # Points for few tests of objects. A picture counts the tests that are asked for, and a search may do the arithmetic of
@@ -279,7 +285,7 @@ def _result(
 ) -> HiddenResult:
     groups = _groups(plan, judged)
     wrong = [group for group in groups if not _is_right(group)]
-    share = min(share_of(plan, groups, judged), _NEARLY) if wrong else 1.0
+    share = _with_a_mistake(share_of(plan, groups, judged)) if wrong else 1.0
     result = HiddenResult(plan.name, "function", round(share, _DIGITS), plan.weight, groups=groups)
     result.spares_nothing = spares_nothing(functions_of(step.number)[plan.name], judged)
     if result.spares_nothing:

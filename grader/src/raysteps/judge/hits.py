@@ -48,10 +48,13 @@ def hit_words(answer: MaybeHit) -> str:
     return "a miss" if answer.hit is None else f"a hit: {answer.hit.words()}"
 
 
+NOTHING_FOUND = "there is a hit, and none is reported"
+
+
 def hit_or_miss(expected: MaybeHit, actual: MaybeHit) -> str:
     if expected.hit is None:
         return "there is no hit, and one is reported" if actual.hit else ""
-    return "" if actual.hit else "there is a hit, and none is reported"
+    return "" if actual.hit else NOTHING_FOUND
 
 
 def _fill(expected: Fill, actual: Fill) -> str:

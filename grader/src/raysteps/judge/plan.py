@@ -116,7 +116,7 @@ def _check_names(plan: Plan, step: Step) -> None:
 
 
 _ASKED_AGAIN = 24  # cases, of every function
-_FUNCTIONS = 4.0  # what all functions are worth beside all scenes
+_FUNCTIONS = 5.0  # what all functions are worth beside all scenes
 
 
 def _function_plan(step: Step, name: str, table: _FunctionTable) -> FunctionPlan:

@@ -58,10 +58,16 @@ def _trace_problems(inputs: Inputs, expected: TracedCall, actual: TracedCall) ->
 
 
 def _trace_credit(inputs: Inputs, expected: TracedCall, actual: TracedCall) -> float:
-    """The right rays with a wrong colour, or the other way round, are half of it; none at all are nothing."""
+    """The right rays and lights with a wrong colour, or the other way round, are half of it. A quarter are the right
+    rays alone, where one is mirrored, or rays and lights that are right as far as they go."""
     counts, astray, color, shaded = _trace_problems(inputs, expected, actual)
-    asked = len(expected.cast) > 1 and not (counts or astray or shaded)
-    return 0.5 if asked or not color else 0.0
+    cast = len(expected.cast) > 1 and not (counts or astray)
+    if (cast and not shaded) or not color:
+        return 0.5
+    lit = bool(actual.shaded) and set(actual.shaded) <= set(expected.shaded)
+    begun = lit and 0 < len(actual.cast) <= len(expected.cast)
+    right_so_far = begun and not _is_astray(inputs, expected.cast[: len(actual.cast)], actual.cast)
+    return 0.25 if cast or right_so_far else 0.0
 
 
 def _scripted(draw: RandomSource, count: int, low: float, high: float) -> tuple[ScriptedHit, ...]:
