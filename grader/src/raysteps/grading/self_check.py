@@ -97,13 +97,14 @@ class SelfCheckGrader(StepGrader):
 
 
 def _draw_large(graders: Sequence[SelfCheckGrader], say: ProgressCallback) -> None:
-    """What is wrong first, as long as there is time and nobody interrupts: the points are told already."""
+    """What is wrong first, then from the last step back, as long as there is time and nobody interrupts: the points are
+    told already."""
     graders = [grader for grader in graders if grader.has_picture]
     if graders:
         say("drawing larger pictures for the report")
     end = time.monotonic() + _LARGE_SECONDS
     with suppress(KeyboardInterrupt):
-        for grader in sorted(graders, key=lambda grader: grader.step_is_right):
+        for grader in sorted(graders, key=lambda grader: (grader.step_is_right, -grader.step.index)):
             left = end - time.monotonic()
             if left > 0:
                 grader.draw_large(left)
