@@ -100,9 +100,9 @@ def test_one_number_is_said_to_begin_with_the_first_step(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(release, "written_files", built)
-    for text, words in (("3", "steps 1-3: a kit begins with step 01\n"), ("1-3", ""), ("1", ""), (None, "")):
+    for names, words in ((["3"], "steps 1-3: a kit begins with step 01\n"), (["1-3"], ""), (["1"], ""), ([], "")):
         console = Console(width=200, record=True, file=StringIO())
-        arguments = argparse.Namespace(check=None, out=tmp_path / "new", steps=text, course="Course")
+        arguments = argparse.Namespace(check=None, out=tmp_path / "new", steps=names, course="Course")
         with pytest.raises(KeyboardInterrupt):
             release.run(project, arguments, console)
         assert console.export_text() == words

@@ -29,7 +29,8 @@ def _picture(steps: list[Step]) -> str:
 
 def _follow(later: Sequence[tuple[Step, date]]) -> str:
     """`Step 3 follows on 2026-11-02, and steps 4-5 on 2026-11-23.`"""
-    days = {day: [step for step, other in later if other == day] for day in sorted({day for _, day in later})}
+    later = sorted(later, key=lambda one: (one[1], one[0].index))
+    days = {day: [step for step, other in later if other == day] for _, day in later}
     said: list[str] = []
     for day, steps in days.items():
         verb = "" if said else " follows" if len(steps) == 1 else " follow"
