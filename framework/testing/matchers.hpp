@@ -28,7 +28,7 @@ public:
     }
 
     [[nodiscard]] std::string describe() const override {
-        return "is expected to be " + text(expected_) + " within " + number_text(static_cast<double>(tolerance_), 2);
+        return "is expected to be " + text(expected_) + " within " + text(tolerance_, 2);
     }
 
 private:

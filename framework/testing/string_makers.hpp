@@ -1,17 +1,31 @@
 #pragma once
 // How failures print the kit's types. Include it before the first assertion that compares them.
+#include <cstdlib>
+#include <limits>
+#include <sstream>
 #include <string>
 
 #include "core/box.hpp"
 #include "core/hit_record.hpp"
 #include "core/image.hpp"
-#include "io/numbers.hpp"
 #include "testing/catch.hpp"
 
 namespace raysteps::testing {
 
-/// As few digits as tell it from every other float: 0.1, and not 0.100000001.
-inline std::string text(float value) { return number_text(value); }
+/// As few digits as tell it from every other float, and at most so many: 0.1, and not 0.100000001.
+inline std::string text(float value, int most = std::numeric_limits<float>::max_digits10) {
+    std::string shown;
+    for (int digits = 1; digits <= most; ++digits) {
+        std::ostringstream out;
+        out.precision(digits);
+        out << value;
+        shown = out.str();
+        if (std::strtof(shown.c_str(), nullptr) == value) {
+            break;
+        }
+    }
+    return shown;
+}
 
 inline std::string text(const glm::vec3& v) { return '(' + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ')'; }
 
