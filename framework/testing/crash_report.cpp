@@ -19,7 +19,7 @@ extern "C" const char* __asan_default_options() {
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1:allow_addr2line=1"; }
 
 /// In place of the runtime's own, which it goes on to: Catch2 catches what is thrown, and the stack is gone by then.
-extern "C" [[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*destroy)(void*)) {
+extern "C" void __cxa_throw(void* thrown, std::type_info* type, void (*destroy)(void*)) {
     char* const name = abi::__cxa_demangle(type->name(), nullptr, nullptr, nullptr);
     std::fprintf(stderr, "thrown: %s\n", name != nullptr ? name : type->name());
     std::free(name);

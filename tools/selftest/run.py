@@ -40,7 +40,7 @@ from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
 
-_PYTEST_SECONDS = 3600
+_PYTEST_SECONDS = 4800
 _NO_TESTS = 5  # the exit code of pytest when no test in the files has the marks
 _PAIRS = 40
 

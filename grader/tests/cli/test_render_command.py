@@ -144,6 +144,7 @@ def test_a_source_that_is_not_there_is_told_with_what_brings_it_back(
         ("-o b a", "a"),
         ("--quiet a -o b", "a"),
         ("--step 3 --spd a", "a"),
+        ("--size=320x240 a", "a"),
         ("-o b", None),
         ("--help a", None),
         ("", None),

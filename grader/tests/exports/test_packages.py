@@ -3,11 +3,16 @@
 import io
 import json
 import os
+import re
 import shutil
 import stat
 import subprocess
+import sys
 import tarfile
 import zipfile
+from collections.abc import Iterable
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, packages_distributions, requires
 from pathlib import Path
 
 import pytest
@@ -42,7 +47,9 @@ def _small_kit(root: Path) -> Project:
     for name in ("src/raysteps/cli.py", "tests/test_a.py", "src/raysteps.egg-info/x", "src/raysteps/__pycache__/a.pyc"):
         (root / "grader" / name).parent.mkdir(parents=True, exist_ok=True)
         (root / "grader" / name).write_text(name)
-    (root / "grader" / "pyproject.toml").write_text('[project]\ndependencies = ["numpy==2.4.6"]\n')
+    (root / "grader" / "pyproject.toml").write_text(
+        '[project]\ndependencies = ["numpy==2.4.6"]\noptional-dependencies.instructor = ["jsonschema==4.26.0"]\n'
+    )
     for name in ("docs/index.md", "build/release/x.o", ".venv/bin/python", "grades/ann/results.json", ".ci/run.sh"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(name)
@@ -171,8 +178,33 @@ def test_the_image_for_prairielearn_holds_no_file_of_the_kit(tmp_path: Path, ste
     image = {name: member.data.decode() for name, member in _course(_small_kit(tmp_path / "kit"), steps).items()}
     copied = [line for line in image["image/Dockerfile"].splitlines() if line.startswith(("COPY", "ADD"))]
     assert copied == ["COPY requirements.txt /opt/raysteps/"]
-    assert image["image/requirements.txt"] == "numpy==2.4.6\n"
+    assert image["image/requirements.txt"] == "numpy==2.4.6\njsonschema==4.26.0\n"
     assert " g++ " in image["image/Dockerfile"]
+
+
+def _with_what_they_need(names: Iterable[str]) -> set[str]:
+    found: set[str] = set()
+    left = list(names)
+    while left:
+        name = re.split(r"[^\w.-]", left.pop())[0].lower()
+        if name not in found:
+            found.add(name)
+            with suppress(PackageNotFoundError):  # for another system
+                left += [word for word in requires(name) or [] if "extra ==" not in word]
+    return found
+
+
+def test_the_image_for_prairielearn_has_the_packages_that_grading_imports(project: Project, steps: list[Step]) -> None:
+    words = "import sys, raysteps.cli.export, raysteps.cli.grade; print(*sys.modules)"
+    sources = project.root / "grader" / "src"
+    done = subprocess.run([sys.executable, "-c", words], cwd=sources, capture_output=True, text=True, check=True)
+    packages = packages_distributions()
+    own = {"raysteps", "_distutils_hack"}  # the latter comes with an install that can be edited
+    imported = {name.partition(".")[0] for name in done.stdout.split()} - own
+    needed = {name.lower() for module in imported for name in packages.get(module, [])}
+    assert {"numpy", "jsonschema"} <= needed
+    listed = _course(project, steps)["image/requirements.txt"].data.decode().splitlines()
+    assert needed <= _with_what_they_need(listed)
 
 
 def test_scripts_are_shell(project: Project, steps: list[Step]) -> None:

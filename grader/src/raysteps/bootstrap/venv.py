@@ -12,7 +12,7 @@ def say(text: str) -> None:
     print(f"raysteps: {text}", file=sys.stderr, flush=True)
 
 
-_TAKES = ("about half a minute", "some minutes, 500 MB")  # without the makers' set, and with it
+_TAKES = ("about half a minute", "some minutes, 600 MB")  # without the makers' set, and with it
 
 
 _EVERY = 20  # seconds

@@ -139,6 +139,8 @@ def _notes(project: Project, reach: Reach, impl: str) -> dict[str, str]:
 
 def _check_resolution(scene: str) -> None:
     """Of a scene that is drawn as large as it says. What is wrong with the file else raytrace tells, with the place."""
+    if not Path(scene).is_file():
+        return  # a pipe can be read only once
     text = re.sub("#.*", "", Path(scene).read_text(encoding="utf-8", errors="replace"))
     found = re.search(r"(?<!\S)resolution\s+([0-9]{1,6})\s+([0-9]{1,6})(?!\S)", text)
     if found is not None and not all(_SIDE[0] <= int(side) <= _SIDE[1] for side in found.groups()):

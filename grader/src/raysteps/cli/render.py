@@ -169,7 +169,7 @@ def scene_in(args: Sequence[str]) -> str | None:
     if not _NOTHING_TO_DRAW.isdisjoint(args):
         return None
     pairs = zip(("", *args), args, strict=False)
-    free = (word for before, word in pairs if not before.startswith("-") or before in _FLAGS)
+    free = (word for before, word in pairs if not before.startswith("-") or before in _FLAGS or "=" in before)
     return next((word for word in free if not word.startswith("-")), None)
 
 

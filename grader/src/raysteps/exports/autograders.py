@@ -169,11 +169,11 @@ def _image(project: Project) -> list[Member]:
     """What the image for PrairieLearn is made from: nothing of the kit but the names of what it needs."""
     needs = (COMPILER, CMAKE, NINJA, VENV, *LIBRARIES, HIGHWAY, SANDBOX)
     packages = " ".join(sorted({"xz-utils", *(need.packages["apt-get"] for need in needs)}))
-    package = tomllib.loads((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8"))
-    lines = "".join(f"{line}\n" for line in package["project"]["dependencies"])
+    package = tomllib.loads((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    lines = [f"{line}\n" for line in (*package["dependencies"], *package["optional-dependencies"]["instructor"])]
     return [
         Member("image/Dockerfile", _template("Dockerfile").replace("@PACKAGES@", packages).encode()),
-        Member("image/requirements.txt", lines.encode()),
+        Member("image/requirements.txt", "".join(lines).encode()),
     ]
 
 
