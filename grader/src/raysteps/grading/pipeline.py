@@ -191,7 +191,8 @@ class HiddenStepGrader(StepGrader):
     # the reference's in its place.
 
     def _ask_apart(self, binary: Path, plan: Plan, seconds: float, examples: Examples | None) -> None:
-        """Whoever is better so is judged so. Who hung is not asked again."""
+        """Whoever is better so is judged so. Who hung is not asked again. A tree that spares nothing stays: a search
+        through it spares nothing either."""
         result, kit, missing = self._result, self._work.kit, set(self._unfinished)
         wrong = [item for item in result.hidden if not item.passed and item.name not in missing]
         if len(missing) > 1:
@@ -200,7 +201,8 @@ class HiddenStepGrader(StepGrader):
         for before, item in enumerate(wrong[1:], start=1):
             worker = None
             if item.outcome != "timeout":
-                worker = self._worker_with(binary, missing | {other.name for other in wrong[:before]})
+                replaced = {other.name for other in wrong[:before] if not other.spares_nothing}
+                worker = self._worker_with(binary, missing | replaced)
             if worker is None:
                 continue
             again = run_hidden_tests(
