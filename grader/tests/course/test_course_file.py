@@ -14,7 +14,7 @@ from rich.console import Console
 from raysteps.cli import export as exports
 from raysteps.cli.grade_class import add_arguments, read_options
 from raysteps.common.errors import UsageError
-from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_steps
+from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_step, read_steps
 from raysteps.course.project import Project, here
 from raysteps.course.settings import PLACE, Course, read_course
 from raysteps.release.build_release import due_steps
@@ -149,6 +149,16 @@ def test_what_is_given_out_has_the_points_of_the_course(place: Path) -> None:
     assert made == {"steps/02-intersection/step.toml": before.replace("\npoints = 20\n", "\npoints = 25\n")}
     files = kit_contents(here(), course_steps(here()), read_steps(here())[4:])
     assert files["steps/02-intersection/step.toml"].decode() == made["steps/02-intersection/step.toml"]
+
+
+@pytest.mark.parametrize("points", ["1234.567", "0.1234567", "9999.99999", "0.00001", "25.0", "10_000"])
+def test_points_go_out_as_they_stand_in_the_course(tmp_path: Path, place: Path, points: str) -> None:
+    place.write_text(f"[points]\n02 = {points}\n")
+    (made,) = course_manifests(here()).values()
+    there = tmp_path / "02-intersection" / "step.toml"
+    there.parent.mkdir()
+    there.write_bytes(made)
+    assert read_step(there).points == float(points)
 
 
 @pytest.mark.usefixtures("fake_grader")

@@ -274,8 +274,7 @@ def course_manifests(project: Project) -> dict[str, bytes]:
     for step in read_all_steps(project) if course is not None and course.points else []:
         path = project.steps / step.id / "step.toml"
         if read_step(path).points != step.points:
-            text = re.sub(
-                r"^points\s*=.*$", f"points = {step.points:g}", path.read_text("utf-8"), count=1, flags=re.MULTILINE
-            )
+            line = f"points = {step.points!r}".removesuffix(".0")  # reads back as the same number
+            text = re.sub(r"^points\s*=.*$", line, path.read_text("utf-8"), count=1, flags=re.MULTILINE)
             made[path.relative_to(project.root).as_posix()] = text.encode()
     return made
