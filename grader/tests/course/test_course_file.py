@@ -105,6 +105,9 @@ def test_steps_that_are_not_there_are_refused(place: Path, text: str, words: str
     place.write_text(text)
     with pytest.raises(UsageError, match=re.escape(f"{place}{words}")):
         course_steps(here())
+    if "[steps]" in text:
+        with pytest.raises(UsageError, match=re.escape(f"{place}{words}")):
+            dated_steps(here())
 
 
 def test_points_of_a_step_that_is_not_there_are_refused(place: Path) -> None:

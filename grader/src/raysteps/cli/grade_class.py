@@ -127,7 +127,7 @@ def line_to_go_on(options: ClassOptions) -> str:
         words += ["--scheduler", options.scheduler]
     else:
         words += ["--jobs", str(options.jobs)]
-    if options.seed != 1:
+    if options.seed != options.course.seed_or(None):  # else it is taken anyway
         words += ["--seed", str(options.seed)]
     if options.feedback != "full":
         words += ["--feedback", options.feedback]

@@ -264,8 +264,9 @@ def chosen_steps(project: Project, names: Sequence[str]) -> list[Step]:
 def dated_steps(project: Project) -> list[tuple[Step, date]]:
     """The days on which steps are given out, as far as course.toml tells."""
     steps, course = read_steps(project), _course(project)
-    dates = course.dates if course is not None else {}
-    return [(step, day) for names, day in dates.items() for step in choose(steps, [names])]
+    if course is None:
+        return []
+    return [(step, day) for names, day in course.dates.items() for step in _by_course(steps, course, "steps", names)]
 
 
 def course_manifests(project: Project) -> dict[str, bytes]:
