@@ -427,6 +427,21 @@ def test_known_mistakes_are_learned_before_anybody_waits_for_them(
     assert lines[:2] == ["learn 01-camera-rays 02-intersection", "begin ann"]
 
 
+def test_nothing_is_learned_where_nothing_is_to_be_graded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    learned: list[Sequence[str]] = []
+    monkeypatch.setattr(FakeGrader, "learn", lambda _grader, steps, _say: learned.append(steps))
+    words = (tmp_path / "in", "--out", tmp_path / "out", "--only", "1", "--resume")
+    for name in ("ann", "bob", "cy"):
+        write_entry(tmp_path / "in", name, "// points 9")
+    assert grade_class(*words) == 0
+    assert learned == [["01-camera-rays"]]  # once for all of them
+    assert grade_class(*words) == 0
+    assert len(learned) == 1
+    write_entry(tmp_path / "in", "dot", "// points 9")
+    assert grade_class(*words) == 0
+    assert len(learned) == 2
+
+
 def test_no_page_and_nothing_that_is_given_back_tells_the_seed(tmp_path: Path) -> None:
     out, seed = tmp_path / "out", "48213977"
     write_entry(tmp_path / "in", "ann", "// points 9")

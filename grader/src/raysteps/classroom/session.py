@@ -4,7 +4,7 @@ import hashlib
 import json
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from types import FrameType
@@ -95,12 +95,14 @@ class Session:
     meter: ProgressMeter
     run: int
     names: dict[str, str]
+    learn: Callable[[], None] = lambda: None  # called when the first job is due
     reused: list[str] = field(default_factory=list)
     recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
     def _jobs(self) -> Iterator[Job]:
         """Read only when it is their turn: a whole class need not fit into memory."""
+        has_learned = False
         for entry in self.plan.mine():
             name = self.names[entry.label]
             try:
@@ -113,6 +115,9 @@ class Session:
                 self.reused.append(name)
                 self.meter.skip()
                 continue
+            if not has_learned:
+                self.learn()
+                has_learned = True
             self._pending[name] = _Pending(key, taken.unreadable)
             options = self.plan.options
             yield Job(
