@@ -156,9 +156,9 @@ def test_each_submission_is_written_once(tmp_path: Path, handed_in: Path, monkey
     written: list[str] = []
     known = raysteps.classroom.class_files.write_submission
 
-    def write(database: Any, out: Path, name: str) -> None:
-        written.append(name)
-        known(database, out, name)
+    def write(database: Any, out: Path, one: Any, *rest: Any) -> None:
+        written.append(one.name)
+        known(database, out, one, *rest)
 
     for place in (raysteps.classroom.session, raysteps.classroom.class_files):
         monkeypatch.setattr(place, "write_submission", write)
