@@ -19,6 +19,9 @@ from class_fakes import FIRST, grade_class, write_entry
 from fake_grader import FakeGrader, log
 from rich.console import Console
 
+import raysteps.classroom.class_document
+from raysteps.classroom.entry_names import folded
+from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.common.errors import UsageError
 from raysteps.course.settings import PLACE
 from raysteps.results.store import validate
@@ -425,6 +428,53 @@ def test_known_mistakes_are_learned_before_anybody_waits_for_them(
     assert grade_class(tmp_path / "in", "--out", tmp_path / "out", "--only", "1-2") == 0
     lines = (tmp_path / "log.txt").read_text().splitlines()
     assert lines[:2] == ["learn 01-camera-rays 02-intersection", "begin ann"]
+
+
+def test_nothing_is_learned_where_nothing_is_to_be_graded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    learned: list[Sequence[str]] = []
+    monkeypatch.setattr(FakeGrader, "learn", lambda _grader, steps, _say: learned.append(steps))
+    words = (tmp_path / "in", "--out", tmp_path / "out", "--only", "1", "--resume")
+    for name in ("ann", "bob", "cy"):
+        write_entry(tmp_path / "in", name, "// points 9")
+    assert grade_class(*words) == 0
+    assert learned == [["01-camera-rays"]]  # once for all of them
+    assert grade_class(*words) == 0
+    assert len(learned) == 1
+    write_entry(tmp_path / "in", "dot", "// points 9")
+    assert grade_class(*words) == 0
+    assert len(learned) == 2
+
+
+def _work_for(folder: Path, amount: int, monkeypatch: pytest.MonkeyPatch) -> tuple[int, int]:
+    """How often a late policy was read, and how many names of the roster were folded, to write a class."""
+    policies, names = [0], [0]
+
+    def parse(*words: Any) -> Any:
+        policies[0] += 1
+        return parse_late_policy(*words)
+
+    def fold(word: str) -> str:
+        names[0] += 1
+        return folded(word)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(raysteps.classroom.class_document, "parse_late_policy", parse)
+        patch.setattr(raysteps.classroom.class_document, "folded", fold)
+        for number in range(amount):
+            write_entry(folder / "in", f"s{number}", "// points 9")
+        lines = [f"s{number},s{number}@example.edu" for number in range(amount)]
+        (folder / "roster.csv").write_text("\n".join(["id,email", *lines, ""]))
+        (folder / "late.toml").write_text("deadline = 2026-11-20T23:59:00Z\npercent_per_day = 10\n")
+        words = ("--roster", folder / "roster.csv", "--late-policy", folder / "late.toml", "--jobs", 1)
+        assert grade_class(folder / "in", "--out", folder / "out", *words) == 0
+    return policies[0], names[0]
+
+
+def test_what_a_submission_costs_does_not_grow_with_the_class(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = [_work_for(tmp_path / str(amount), amount, monkeypatch) for amount in (2, 4, 8)]
+    assert len({policies for policies, _ in found}) == 1
+    few, some, many = (names for _, names in found)
+    assert many - some == 2 * (some - few) > 0
 
 
 def test_no_page_and_nothing_that_is_given_back_tells_the_seed(tmp_path: Path) -> None:

@@ -1,10 +1,13 @@
 """The late policy: reading it, and what it takes."""
 
+from collections.abc import Sequence
 from datetime import timedelta
 
 import pytest
 
+import raysteps.classroom.late_policy
 from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
+from raysteps.common.documents import place_in_toml
 from raysteps.common.errors import UsageError
 
 pytestmark = pytest.mark.portable
@@ -76,6 +79,22 @@ def test_arithmetic(submitted: str, days: int, points: float, words: str) -> Non
     late = apply_policy(_policy(), ["s1"], submitted, 85.0)
     assert (late.days, late.points) == (days, points)
     assert words in late.words
+
+
+def test_no_place_is_looked_for_where_nothing_is_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each takes a look through the whole text: one for each extension would make it quadratic."""
+    looked: list[Sequence[str]] = []
+
+    def place(text: str, path: Sequence[str]) -> str:
+        looked.append(path)
+        return place_in_toml(text, path)
+
+    monkeypatch.setattr(raysteps.classroom.late_policy, "place_in_toml", place)
+    text = _POLICY + "".join(f"more{number} = 3\n" for number in range(20))
+    assert len(parse_late_policy(text, "late.toml").extensions) > 20
+    assert looked == []
+    with pytest.raises(UsageError, match=r"^late\.toml:29:1: `extensions.more19` ends before"):
+        parse_late_policy(text.replace("more19 = 3", "more19 = 2020-01-01T00:00:00Z"), "late.toml")
 
 
 def test_extensions_move_the_deadline() -> None:

@@ -14,6 +14,7 @@ from class_fakes import grade_class, write_entry
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.classroom.entries import Shard
 from raysteps.common.errors import UsageError
+from raysteps.course.settings import PLACE
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -141,6 +142,19 @@ def test_no_option_is_ignored_without_a_word(tmp_path: Path, words: list[str]) -
     with pytest.raises(UsageError, match=f"{words[0]} is for the shards"):
         grade_class("--out", tmp_path / "merged", *words, "--merge", tmp_path / "a")
     assert not (tmp_path / "merged").exists()
+
+
+def test_shards_of_other_courses_are_told(
+    tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shards = []
+    monkeypatch.setenv(PLACE, str(tmp_path / "course.toml"))
+    for index, title in ((1, "Optics"), (2, "Graphics")):
+        (tmp_path / "course.toml").write_text(f'title = "{title}"')
+        shards.append(_grade(tmp_path, index))
+    assert grade_class("--merge", *shards, "--out", tmp_path / "both") == 0
+    assert f"{shards[0]}: had other courses than {shards[1]}" in capsys.readouterr().out
+    assert _document(tmp_path / "both")["course"] == "Graphics"
 
 
 def test_shards_are_read_as_they_were_at_one_moment(tmp_path: Path, handed_in: Path) -> None:

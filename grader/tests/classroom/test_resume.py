@@ -19,6 +19,7 @@ from raysteps.classroom.database import transaction
 from raysteps.classroom.jobs import Answer, Job
 from raysteps.classroom.local_pool import LocalPool
 from raysteps.cli.grade_class import add_arguments, line_to_go_on, read_options
+from raysteps.course.settings import Course
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -155,9 +156,9 @@ def test_each_submission_is_written_once(tmp_path: Path, handed_in: Path, monkey
     written: list[str] = []
     known = raysteps.classroom.class_files.write_submission
 
-    def write(database: Any, out: Path, name: str) -> None:
-        written.append(name)
-        known(database, out, name)
+    def write(database: Any, out: Path, one: Any, *rest: Any) -> None:
+        written.append(one.name)
+        known(database, out, one, *rest)
 
     for place in (raysteps.classroom.session, raysteps.classroom.class_files):
         monkeypatch.setattr(place, "write_submission", write)
@@ -175,6 +176,19 @@ def test_the_line_to_go_on_has_the_same_limits(tmp_path: Path) -> None:
     line = line_to_go_on(options)
     assert "--limit seconds=0.00001234567 --limit memory_mb=512" in line
     assert read_options(parser.parse_args(shlex.split(line)[2:]), "").limits == options.limits
+
+
+@pytest.mark.parametrize(("typed", "words"), [(1, "--seed 1"), (7, "--seed 7"), (77, None), (None, None)])
+def test_the_line_to_go_on_has_the_seed_that_would_not_be_taken_anyway(typed: int | None, words: str | None) -> None:
+    import argparse
+
+    parser, course = argparse.ArgumentParser(), Course(Path("course.toml"), 77)
+    add_arguments(parser)
+    seed = [] if typed is None else ["--seed", str(typed)]
+    options = read_options(parser.parse_args(["in", "--out", "out", *seed]), "", course)
+    line = line_to_go_on(options)
+    assert (words in line) if words else ("--seed" not in line)
+    assert read_options(parser.parse_args(shlex.split(line)[2:]), "", course).seed == options.seed
 
 
 def test_a_commit_that_fails_leaves_no_transaction_open() -> None:

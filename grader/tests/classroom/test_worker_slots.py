@@ -4,9 +4,12 @@ import threading
 import time
 
 import pytest
+from fake_grader import FAKE
 
 from raysteps.classroom import cluster as cluster_task
 from raysteps.classroom.jobs import Answer, Job, to_line
+from raysteps.classroom.worker import JobRunner
+from raysteps.course.settings import PLACE
 from raysteps.results.settings import Settings
 from raysteps.submission.load import Submission
 
@@ -60,6 +63,16 @@ def test_a_slot_that_was_stopped_is_not_used_again() -> None:
     assert slot.closed
     assert cluster_task._free == []
     assert cluster_task._busy == {}
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_what_may_make_two_kits_differ_is_named() -> None:
+    """Points of course.toml count as part of the kit, and a worker in a clone of its own may have another file."""
+    job = Job(Submission("a", {}, {}, {}), Settings(), FAKE, "another-kit")
+    fault = JobRunner(lambda _: None).grade(job).fault
+    assert "is fake-kit, but the class is graded with another-kit; install the same version of the kit" in fault
+    assert "give all the same course.toml" in fault
+    assert PLACE in fault
 
 
 def test_a_slot_is_kept_for_the_next_job(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 import io
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from page_results import document_of, wrong_step
@@ -11,7 +12,27 @@ from rich.console import Console
 from raysteps.cli import grade as command
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.course.settings import PLACE
+from raysteps.results.model import Results
 from raysteps.results.settings import Feedback, Settings
+
+
+def _grades_to(monkeypatch: pytest.MonkeyPatch, found: Results, steps: list[Step]) -> dict[str, Any]:
+    """Gives what the pipeline is told by name."""
+    told: dict[str, Any] = {}
+
+    def grade(*_: Any, **options: Any) -> Results:
+        told.update(options)
+        return found
+
+    for name, value in {
+        "find_sandbox": None,
+        "load_submission": None,
+        "build_kit": SimpleNamespace(steps=steps),
+    }.items():
+        monkeypatch.setattr(command, name, lambda *_, value=value, **__: value)
+    monkeypatch.setattr(command, "grade_submission", grade)
+    return told
 
 
 @pytest.mark.parametrize(
@@ -32,16 +53,23 @@ def test_the_terminal_tells_no_more_than_the_results(
     unseen: list[str],
 ) -> None:
     found = document_of([wrong_step(steps[2], tmp_path)])
-    for name, value in {
-        "find_sandbox": None,
-        "load_submission": None,
-        "build_kit": SimpleNamespace(steps=steps),
-        "grade_submission": found,
-    }.items():
-        monkeypatch.setattr(command, name, lambda *_, value=value, **__: value)
+    _grades_to(monkeypatch, found, steps)
     console = Console(file=io.StringIO(), width=200)
     options = command.GradeOptions(tmp_path / "ann", tmp_path / "out", Settings(feedback))
     assert command.grade(project, options, console) == found
     printed = console.file.getvalue()  # type: ignore[attr-defined]
     assert [words for words in seen if words not in printed] == []
     assert [words for words in unseen if words in printed] == []
+
+
+def test_the_course_is_told_to_what_writes_the_results(
+    monkeypatch: pytest.MonkeyPatch, project: Project, steps: list[Step], tmp_path: Path
+) -> None:
+    """It writes them also where the grader then fails."""
+    (tmp_path / "course.toml").write_text('title = "Optics"\nterm = "2026"\n')
+    monkeypatch.setenv(PLACE, str(tmp_path / "course.toml"))
+    told = _grades_to(monkeypatch, document_of([wrong_step(steps[2], tmp_path)]), steps)
+    out = tmp_path / "out"
+    command.grade(project, command.GradeOptions(tmp_path / "ann", out, Settings()), Console(file=io.StringIO()))
+    assert told["course"] == "Optics, 2026"
+    assert not (out / "results.json").exists()  # written once, and not here

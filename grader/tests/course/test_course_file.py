@@ -3,7 +3,10 @@
 import argparse
 import json
 import re
+import sqlite3
 import zipfile
+from collections.abc import Iterator
+from contextlib import closing
 from datetime import date
 from pathlib import Path
 
@@ -11,10 +14,14 @@ import pytest
 from class_fakes import grade_class, write_entry
 from rich.console import Console
 
+import raysteps.cli.grade_class
+from raysteps.classroom.class_files import remake_class_page
+from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.local_pool import LocalPool
 from raysteps.cli import export as exports
 from raysteps.cli.grade_class import add_arguments, read_options
 from raysteps.common.errors import UsageError
-from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_steps
+from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_step, read_steps
 from raysteps.course.project import Project, here
 from raysteps.course.settings import PLACE, Course, read_course
 from raysteps.release.build_release import due_steps
@@ -105,6 +112,9 @@ def test_steps_that_are_not_there_are_refused(place: Path, text: str, words: str
     place.write_text(text)
     with pytest.raises(UsageError, match=re.escape(f"{place}{words}")):
         course_steps(here())
+    if "[steps]" in text:
+        with pytest.raises(UsageError, match=re.escape(f"{place}{words}")):
+            dated_steps(here())
 
 
 def test_points_of_a_step_that_is_not_there_are_refused(place: Path) -> None:
@@ -151,6 +161,16 @@ def test_what_is_given_out_has_the_points_of_the_course(place: Path) -> None:
     assert files["steps/02-intersection/step.toml"].decode() == made["steps/02-intersection/step.toml"]
 
 
+@pytest.mark.parametrize("points", ["1234.567", "0.1234567", "9999.99999", "0.00001", "25.0", "10_000"])
+def test_points_go_out_as_they_stand_in_the_course(tmp_path: Path, place: Path, points: str) -> None:
+    place.write_text(f"[points]\n02 = {points}\n")
+    (made,) = course_manifests(here()).values()
+    there = tmp_path / "02-intersection" / "step.toml"
+    there.parent.mkdir()
+    there.write_bytes(made)
+    assert read_step(there).points == float(points)
+
+
 @pytest.mark.usefixtures("fake_grader")
 def test_a_class_is_graded_by_the_whole_file(tmp_path: Path, place: Path) -> None:
     place.write_text(_WHOLE)
@@ -164,6 +184,59 @@ def test_a_class_is_graded_by_the_whole_file(tmp_path: Path, place: Path) -> Non
     assert document["run"]["settings"]["seed"] == 48213
     assert {one["late"]["deadline"][:10] for one in document["submissions"]} == {"2026-11-20", "2026-11-22"}
     assert document["late_policy"].endswith('[extensions]\n"4713" = 2\n')
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_a_class_is_that_of_its_own_course(tmp_path: Path, place: Path) -> None:
+    """Next term's file says nothing of it."""
+    place.write_text(_WHOLE)
+    write_entry(tmp_path / "in", "anna", "// points 10")
+    out = tmp_path / "out"
+    assert grade_class(tmp_path / "in", "--out", out, "--steps", "2") == 0
+    assert grade_class("--merge", out, "--out", tmp_path / "before") == 0
+    for text in ('title = "Optics"\n[points]\n02 = 99\n', 'title = "half of a', ""):
+        place.write_text(text)
+        remade = tmp_path / f"remade-{len(text)}"
+        (out / "class.html").unlink()
+        assert "Graphics 101, Autumn 2026" in remake_class_page(out / "class.sqlite").read_text()
+        assert grade_class("--merge", out, "--out", remade) == 0
+        for name in ("submissions/anna/results.json", "submissions/anna/report.html"):
+            assert (remade / name).read_bytes() == (tmp_path / "before" / name).read_bytes()
+        assert json.loads((remade / "class.json").read_text())["course"] == "Graphics 101, Autumn 2026"
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_a_course_file_that_is_being_edited_loses_no_result(
+    tmp_path: Path, place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Edited(LocalPool):
+        def answers(self, jobs: Iterator[Job]) -> Iterator[Answer]:
+            found = list(super().answers(jobs))
+            place.write_text('title = "half of a')
+            yield from found
+
+    monkeypatch.setattr(raysteps.cli.grade_class, "LocalPool", Edited)
+    place.write_text(_WHOLE)
+    write_entry(tmp_path / "in", "anna", "// points 10")
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out") == 0
+    told = json.loads((tmp_path / "out" / "submissions" / "anna" / "results.json").read_text())
+    assert told["course"] == "Graphics 101, Autumn 2026"
+
+
+@pytest.mark.usefixtures("fake_grader")
+def test_a_class_of_an_earlier_kit_still_opens(tmp_path: Path, place: Path) -> None:
+    """It kept no course."""
+    place.write_text(_WHOLE)
+    write_entry(tmp_path / "in", "anna", "// points 10")
+    out = tmp_path / "out"
+    assert grade_class(tmp_path / "in", "--out", out) == 0
+    with closing(sqlite3.connect(out / "class.sqlite")) as connection:
+        connection.execute("ALTER TABLE runs DROP COLUMN course")
+    assert "Graphics 101" not in remake_class_page(out / "class.sqlite").read_text()
+    assert grade_class("--merge", out, "--out", tmp_path / "merged") == 0
+    assert json.loads((tmp_path / "merged" / "class.json").read_text())["course"] == ""
+    assert grade_class(tmp_path / "in", "--out", out, "--resume") == 0
+    assert json.loads((out / "class.json").read_text())["course"] == "Graphics 101, Autumn 2026"
 
 
 @pytest.mark.usefixtures("fake_grader")

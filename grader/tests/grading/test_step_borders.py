@@ -145,8 +145,10 @@ def test_a_surprise_in_one_step_is_told_and_leaves_the_others_alone(
     other = "07-tone-mapping"
     submission = load_submission(make_submission("jo", {STEP: solved[STEP], other: solved[other]}), kit.steps)
     with pytest.raises(GraderFault, match=f"^not graded: {STEP}: ZeroDivisionError: nobody thought of it; "):
-        grade_submission(kit, submission, Settings(only=(STEP, other)), LimitsOnly(), tmp_path)
-    lost, kept = read_results(tmp_path / "results.json").steps
+        grade_submission(kit, submission, Settings(only=(STEP, other)), LimitsOnly(), tmp_path, course="Optics")
+    told = read_results(tmp_path / "results.json")
+    assert told.course == "Optics"
+    lost, kept = told.steps
     assert (lost.status, lost.points, lost.tests) == ("failed", 0, [])
     assert "not graded, by a fault of the grader" in lost.messages[0]
     assert (kept.status, kept.points) == ("passed", kept.max)

@@ -3,18 +3,16 @@
 import json
 import sqlite3
 import statistics
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.entry_names import folded, stem
-from raysteps.classroom.late_policy import LatePolicy, apply_policy, parse_late_policy, with_zone
+from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
 from raysteps.common.documents import Malformed, checked, convert, parse
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.course.project import here
-from raysteps.course.settings import read_course
 from raysteps.results.class_model import (
     ClassResults,
     ClassRun,
@@ -45,24 +43,31 @@ OTHER_FORM = "graded by a kit of another form; grade it again"
 
 
 class Standings:
-    """Of the submissions of a class, after these last runs: one, or one for each shard."""
+    """Of the submissions of a class, after its last runs: one, or one for each shard. What is the same for all of
+    them, such as roster and late policy, is read once."""
 
-    def __init__(self, database: ClassDatabase, policy: LatePolicy | None, runs: Sequence[sqlite3.Row]) -> None:
+    def __init__(self, database: ClassDatabase) -> None:
         self._database = database
         self._query = database.connection.execute
-        self._policy = policy
-        self._runs = {row["number"]: row for row in runs}
+        self.all_runs = self._query("SELECT * FROM runs ORDER BY number").fetchall()
+        if not self.all_runs:
+            raise GraderFault(f"{database.path}: holds no run")
+        self.last = self.all_runs[-1]
+        # A database that is only read may be one of an earlier kit, which did not keep the course.
+        self.course = self.last["course"] if "course" in self.last.keys() else ""  # noqa: SIM118
+        self.steps = convert(json.loads(self.last["steps"]), list[GradedStep])
+        text = self.last["late_policy"]
+        self.policy = parse_late_policy(text, "the late policy of the run") if text else None
+        self._runs = {row["number"]: row for row in _last_runs(self.all_runs)}
         people = self._query("SELECT id, email FROM students").fetchall()
         self._mistakes: Counter[tuple[str, str]] = Counter()
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
-
-    def _students(self, submission: int) -> list[Student]:
-        rows = self._query(
-            "SELECT id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
-            "WHERE submission = ? ORDER BY id, name, email",
-            (submission,),
-        )
-        return [Student(**row) for row in rows]
+        self._students: dict[int, list[Student]] = defaultdict(list)  # by submission
+        for row in self._query(
+            "SELECT submission, id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
+            "ORDER BY id, name, email"
+        ):
+            self._students[row["submission"]].append(Student(row["id"], row["name"], row["email"]))
 
     def _before(self, submission: int, run: int | None) -> EarlierResult | None:
         """The result that counted until the last run gave another one."""
@@ -95,6 +100,9 @@ class Standings:
         found = sorted(self._mistakes.items(), key=lambda item: (-item[1], item[0]))
         return [MistakeCount(step, title, amount) for (step, title), amount in found]
 
+    def named(self, name: str) -> GradedSubmission:
+        return self.of(self._query("SELECT * FROM submissions WHERE name = ?", (name,)).fetchone())
+
     def of(self, row: sqlite3.Row) -> GradedSubmission:
         current = self._database.current(row["name"])
         results = stored_results(current["document"]) if current is not None else None
@@ -102,13 +110,13 @@ class Standings:
         steps = results.steps if results is not None else []
         mistakes = {step.id: titles for step in steps if (titles := _mistakes(step))}
         self._mistakes.update((step, title) for step, titles in mistakes.items() for title in titles)
-        students = self._students(row["id"])
+        students = self._students.get(row["id"], [])
         ids = self.extended(row, students)
         run, points = (current["run"], current["points"]) if current is not None else (None, None)
         late = None
-        if self._policy is not None and points is not None:
+        if self.policy is not None and points is not None:
             by_file = row["submitted_from"] == "files"
-            late = apply_policy(self._policy, ids, row["submitted_at"], points, by_file=by_file)
+            late = apply_policy(self.policy, ids, row["submitted_at"], points, by_file=by_file)
         return GradedSubmission(
             name=row["name"],
             entry=row["entry"],
@@ -122,7 +130,7 @@ class Standings:
             seconds=round(current["seconds"], 2) if current is not None else None,
             final=late.points if late is not None else points,
             late=late,
-            submitted_at=with_zone(self._policy, ids, row["submitted_at"]),
+            submitted_at=with_zone(self.policy, ids, row["submitted_at"]),
             submitted_from=row["submitted_from"],
             outdated=self._is_outdated(row, run),
             before=self._before(row["id"], run),
@@ -141,14 +149,9 @@ def _last_runs(runs: Sequence[sqlite3.Row]) -> list[sqlite3.Row]:
 
 class _Report:
     def __init__(self, database: ClassDatabase) -> None:
-        self._database = database
         self._query = database.connection.execute
-        self._runs = self._query("SELECT * FROM runs ORDER BY number").fetchall()
-        if not self._runs:
-            raise GraderFault(f"{database.path}: holds no run")
-        self._last = self._runs[-1]
-        text = self._last["late_policy"]
-        self._policy = parse_late_policy(text, "the late policy of the run") if text else None
+        self._standings = Standings(database)
+        self._last = self._standings.last
 
     def _run(self, row: sqlite3.Row) -> ClassRun:
         query = "SELECT status, count(*) AS amount FROM results WHERE run = ? GROUP BY status"
@@ -161,22 +164,17 @@ class _Report:
         known = {folded(name) for one in submissions for name in (one.name, one.entry, stem(one.entry))}
         for row in self._query("SELECT id, email FROM students"):
             known |= {folded(row["id"]), folded(row["email"])}
-        extensions = self._policy.extensions if self._policy is not None else {}
+        policy = self._standings.policy
+        extensions = policy.extensions if policy is not None else {}
         return sorted(student for student in extensions if student not in known)
 
     def _names(self, scope: str) -> list[str]:
         rows = self._query("SELECT name FROM submissions WHERE scope = ? ORDER BY entry", (scope,))
         return [row["name"] for row in rows]
 
-    def _standings(self) -> Standings:
-        return Standings(self._database, self._policy, _last_runs(self._runs))
-
-    def standing(self, name: str) -> GradedSubmission:
-        return self._standings().of(self._query("SELECT * FROM submissions WHERE name = ?", (name,)).fetchone())
-
     def document(self) -> ClassResults:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
-        standings = self._standings()
+        standings = self._standings
         submissions = [standings.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
@@ -190,10 +188,10 @@ class _Report:
         finals = [one.final for one in submissions if one.status == "graded" and one.final is not None]
         return ClassResults(
             schema="raysteps/class/v1",
-            course=read_course(here()).name,
+            course=standings.course,
             run=self._run(self._last),
-            runs=[self._run(row) for row in self._runs],
-            steps=convert(json.loads(self._last["steps"]), list[GradedStep]),
+            runs=[self._run(row) for row in standings.all_runs],
+            steps=standings.steps,
             late_policy=self._last["late_policy"] or None,
             submissions=submissions,
             students_without_submission=[NotedStudent(**row) for row in absent],
@@ -220,9 +218,8 @@ class _Report:
         )
 
 
-def hand_in(database: ClassDatabase, name: str) -> HandIn:
+def hand_in(one: GradedSubmission) -> HandIn:
     """What a report says of a submission beside its steps, by the roster and the late policy of the last run."""
-    one = _Report(database).standing(name)
     names = [student.name or student.id or student.email for student in one.students]
     return HandIn(names, one.submitted_at, one.submitted_from == "files", one.late)
 

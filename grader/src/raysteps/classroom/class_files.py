@@ -8,7 +8,6 @@ import sqlite3
 import sys
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 from raysteps.classroom.class_document import class_document, hand_in, read_class_document
@@ -19,14 +18,13 @@ from raysteps.common.documents import as_text, plain
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.common.text import number
-from raysteps.course.manifest import Step, read_steps
+from raysteps.course.manifest import Step, read_manifests
 from raysteps.course.project import here
-from raysteps.course.settings import read_course
 from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
-from raysteps.results.class_model import ClassResults, GradedSubmission, Student
+from raysteps.results.class_model import ClassResults, GradedStep, GradedSubmission, Student
 from raysteps.results.model import Results
 from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import stored_results
@@ -81,13 +79,17 @@ def _warn(words: str) -> None:
     print(f"raysteps: {words}", file=sys.stderr)
 
 
-@cache
-def _steps() -> list[Step]:
-    return read_steps(here())
+def steps_of(graded: Sequence[GradedStep]) -> list[Step]:
+    """The kit's steps as a run graded them: what course.toml says today does not count."""
+    told = {step.id: vars(step) for step in graded}
+    return [replace(step, **told.get(step.id, {})) for step in read_manifests(here()) if not step.left_out]
 
 
-def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
-    """The result that counts. Of a fault there is only fault.txt."""
+def write_submission(
+    database: ClassDatabase, out: Path, one: GradedSubmission, course: str, steps: Sequence[Step]
+) -> None:
+    """The result that counts. Of a fault there is only fault.txt. `course` and `steps` are the run's."""
+    name = one.name
     row = database.current(name)
     folder = out / SUBMISSIONS / name
     if row is None:
@@ -102,7 +104,7 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     results = None
     if stored is not None:
         told = withhold(stored, database.feedback())
-        results = replace(told, course=read_course(here()).name, handed_in=hand_in(database, name))
+        results = replace(told, course=course, handed_in=hand_in(one))
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(results, files)
     _forget_files(folder, shown)
@@ -111,7 +113,7 @@ def write_submission(database: ClassDatabase, out: Path, name: str) -> None:
     if results is not None:
         changed.append(write_if_changed(folder / "results.json", as_text(results).encode()))
         if any(changed) or not (folder / REPORT).is_file():
-            try_student_page(folder, _steps(), lambda words: _warn(f"{name}: {words}"))
+            try_student_page(folder, steps, lambda words: _warn(f"{name}: {words}"))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
@@ -158,9 +160,10 @@ def withdraw_tables(out: Path) -> None:
 
 def write_class(database: ClassDatabase, out: Path, document: ClassResults, done: Container[str] = ()) -> None:
     """Everything but what is done: also what a run that was killed had no time for."""
+    steps = steps_of(document.steps)
     for one in document.submissions:
         if one.name not in done:
-            write_submission(database, out, one.name)
+            write_submission(database, out, one, document.course, steps)
     forget_unfinished(out)
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.jobs import Answer, Job, ProgressCallback, from_line, make_grader, to_line
+from raysteps.classroom.jobs import SAME_KIT, Answer, Job, ProgressCallback, from_line, make_grader, to_line
 from raysteps.classroom.local_pool import Slot
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import count
@@ -89,7 +89,7 @@ def check_kits(client: Any, kit: str, grader: str, *, require_sandbox: bool) -> 
         lines = "\n  ".join(problems)
         raise GraderFault(
             f"these workers do not have the kit of this machine ({kit}):\n  {lines}\n"
-            "Install the same version of the kit, and the same compiler, on every machine."
+            f"{SAME_KIT[0].upper()}{SAME_KIT[1:]}."
         )
 
 

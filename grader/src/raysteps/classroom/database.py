@@ -59,7 +59,8 @@ CREATE TABLE runs (
     steps TEXT NOT NULL,                  -- JSON: the steps that were graded
     late_policy TEXT NOT NULL DEFAULT '', -- the text of the file
     ignored TEXT NOT NULL DEFAULT '[]',   -- JSON: names in the folder that are no submissions
-    reused INTEGER NOT NULL DEFAULT 0
+    reused INTEGER NOT NULL DEFAULT 0,
+    course TEXT NOT NULL DEFAULT ''       -- its title and term
 );
 CREATE TABLE results (
     submission INTEGER NOT NULL REFERENCES submissions (id),
@@ -104,6 +105,7 @@ CREATE TABLE IF NOT EXISTS given (        -- what a run was given beside the sub
     files TEXT NOT NULL                   -- JSON: where roster and late policy lay
 )
 """
+_COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
 
 
 @contextmanager
@@ -192,6 +194,8 @@ def open_database(path: Path) -> sqlite3.Connection:
                     connection.execute(f"PRAGMA user_version = {VERSION}")
                 connection.execute(_REUSED)
                 connection.execute(_GIVEN)
+                if all(column["name"] != "course" for column in connection.execute("PRAGMA table_info(runs)")):
+                    connection.execute(_COURSE)
             if was_there:
                 _refuse_emptied(connection, path)
         except BaseException:
@@ -257,6 +261,7 @@ class RunFacts:
     ignored: list[str]
     roster: str = "[]"  # JSON: its lines as they were read
     files: list[str] = field(default_factory=list)  # where roster and late policy lay
+    course: str = ""  # its title and term
 
 
 FILE = "class.sqlite"
@@ -295,6 +300,7 @@ class ClassDatabase:
                 "steps": json.dumps(facts.steps),
                 "late_policy": facts.late_policy,
                 "ignored": json.dumps(facts.ignored),
+                "course": facts.course,
             }
             insert(self.connection, "runs", row)
             given = {"uid": facts.uid, "roster": facts.roster, "files": json.dumps(facts.files)}

@@ -95,6 +95,12 @@ class Grader(Protocol):
         """Writes out/results.json and the pictures that it names."""
 
 
+SAME_KIT = (  # what to do where two machines differ
+    "install the same version of the kit, and the same compiler, on every machine, and give all the same course.toml: "
+    "its points count as part of the kit (RAYSTEPS_COURSE names a file that all can read)"
+)
+
+
 def make_grader(name: str, *, require_sandbox: bool, say: ProgressCallback) -> Grader:
     """From `module:function`. A name, because it must reach other processes and machines."""
     found = re.fullmatch(r"([A-Za-z_][\w.]*):([A-Za-z_]\w*)", name)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, date, datetime, time, timedelta
 from decimal import ROUND_CEILING, Decimal
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 from msgspec import Meta
 
@@ -109,15 +109,25 @@ def _read(text: str, name: str, within: Sequence[str]) -> tuple[_File, dict[str,
 def parse_late_policy(text: str, name: str, within: Sequence[str] = ()) -> LatePolicy:
     """Reads the text of a late policy, or of a file that has one as its table `within`; `name` stands in messages."""
     file, ends = _read(text, name, within)
-    deadline = _moment(file.deadline, _place(text, name, within, ["deadline"]))
+
+    def refuse(words: str, *path: str) -> NoReturn:  # to work out the place, the whole text is looked through
+        raise UsageError(f"{_place(text, name, within, path)}: {words}")
+
+    def moment(value: str, *path: str) -> datetime:
+        try:
+            return datetime.fromisoformat(value)
+        except ValueError as error:
+            refuse(f"{value} is no date and time: {error}", *path)
+
+    deadline = moment(file.deadline, "deadline")
     extensions: dict[str, datetime] = {}
     for student, value in ends.items():
-        where = _place(text, name, within, ["extensions", student])
-        extended = _moment(value, where) if isinstance(value, str) else deadline + timedelta(days=value)
+        own = ("extensions", student)
+        extended = moment(value, *own) if isinstance(value, str) else deadline + timedelta(days=value)
         if extended < deadline:
-            raise UsageError(f"{where}: `extensions.{student}` ends before the deadline")
+            refuse(f"`extensions.{student}` ends before the deadline", *own)
         if extensions.setdefault(folded(student), extended) is not extended:
-            raise UsageError(f"{where}: `extensions.{student}` stands there twice, in upper and lower case")
+            refuse(f"`extensions.{student}` stands there twice, in upper and lower case", *own)
     grace = timedelta(minutes=file.grace_minutes)
     return LatePolicy(deadline, file.percent_per_day, grace, file.max_days, extensions)
 
@@ -133,13 +143,6 @@ def late_policy_text(table: Mapping[str, object]) -> str:
         if isinstance(inner, dict):
             lines += ["", f"[{key}]", *(f"{json.dumps(name)} = {_as_toml(value)}" for name, value in inner.items())]
     return "\n".join(lines) + "\n"
-
-
-def _moment(text: str, where: str) -> datetime:
-    try:
-        return datetime.fromisoformat(text)
-    except ValueError as error:
-        raise UsageError(f"{where}: {text} is no date and time: {error}") from error
 
 
 # How late a submission is, and what that leaves of its points: in numbers, and in words that show the sum.

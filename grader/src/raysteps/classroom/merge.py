@@ -48,6 +48,7 @@ class Part:
             "late policies": last["late_policy"],
             "settings": last["settings"],
             "kits": last["kit"],
+            "courses": last.get("course", ""),
             "rosters": json.dumps(people),
             "submissions": json.dumps(sorted(row["entry"] for row in self.submissions if row["scope"] != "gone")),
         }

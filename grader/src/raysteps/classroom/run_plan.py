@@ -196,6 +196,7 @@ class Plan:
             *(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored),
             roster=roster_text(self.students),
             files=[file.encode("utf-8", "backslashreplace").decode() for file in files],
+            course=self.options.course.name,
         )
 
     def registered(self, known: dict[str, str]) -> list[Registered]:

@@ -4,19 +4,22 @@ import hashlib
 import json
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from types import FrameType
 from typing import Protocol
 
-from raysteps.classroom.class_files import withdraw_tables, write_submission
+from raysteps.classroom.class_document import Standings
+from raysteps.classroom.class_files import steps_of, withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import load_entry
 from raysteps.classroom.jobs import GAVE_UP, Answer, Job
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
+from raysteps.course.manifest import Step
 from raysteps.report.wording import total_words
 from raysteps.results.settings import Settings
 from raysteps.results.store import stored_results
@@ -95,12 +98,23 @@ class Session:
     meter: ProgressMeter
     run: int
     names: dict[str, str]
+    learn: Callable[[], None] = lambda: None  # called when the first job is due
     reused: list[str] = field(default_factory=list)
     recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
+    @cached_property
+    def _standings(self) -> Standings:
+        """By the roster and the late policy of this run."""
+        return Standings(self.database)
+
+    @cached_property
+    def _steps(self) -> list[Step]:
+        return steps_of(self._standings.steps)
+
     def _jobs(self) -> Iterator[Job]:
         """Read only when it is their turn: a whole class need not fit into memory."""
+        has_learned = False
         for entry in self.plan.mine():
             name = self.names[entry.label]
             try:
@@ -113,6 +127,9 @@ class Session:
                 self.reused.append(name)
                 self.meter.skip()
                 continue
+            if not has_learned:
+                self.learn()
+                has_learned = True
             self._pending[name] = _Pending(key, taken.unreadable)
             options = self.plan.options
             yield Job(
@@ -133,7 +150,8 @@ class Session:
             if not self.recorded:
                 withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)
-            write_submission(self.database, self.plan.options.out, answer.name)
+            one = self._standings.named(answer.name)
+            write_submission(self.database, self.plan.options.out, one, self._standings.course, self._steps)
             total = answer.results.total if answer.results is not None else None
             points = total_words(total) if total else f"FAULT: {first_line(answer.fault)}"
             self.meter.count(answer.name, points)

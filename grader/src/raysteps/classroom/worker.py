@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NoReturn
 
-from raysteps.classroom.jobs import Answer, Grader, Job, ProgressCallback, from_line, make_grader, to_line
+from raysteps.classroom.jobs import SAME_KIT, Answer, Grader, Job, ProgressCallback, from_line, make_grader, to_line
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.results.model import Results
 from raysteps.results.store import read_results
@@ -62,7 +62,7 @@ class JobRunner:
         if self._grader.fingerprint != job.kit:
             raise GraderFault(
                 f"the kit on {platform.node()} is {self._grader.fingerprint}, but the class is graded with {job.kit}; "
-                "install the same version of the kit, and the same compiler, on every machine"
+                f"{SAME_KIT}"
             )
         return self._grader
 

@@ -25,7 +25,6 @@ from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results
 from raysteps.results.settings import Settings
-from raysteps.results.store import write_results
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
@@ -111,6 +110,7 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         words = ["replay", short_path(out / case), "--submission", str(options.submission)]
         return f"{own_command()} {quote_command(words)}"
 
+    course = read_course(project).name
     sandbox = find_sandbox(require=options.require_sandbox)
     out = (options.out or project.build / "grade" / submission_name(options.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
@@ -120,11 +120,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         kit = build_kit(project, say)
         clear(out, kit.steps, kit.steps)
         jobs = options.jobs or os.cpu_count() or 1
-        results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs)
-        results.course = read_course(project).name
-        feedback = options.settings.feedback
-        told = results if feedback == "full" else withhold(results, feedback)  # the terminal may be the student's, too
-        write_results(told, out)
+        results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
+        told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too
         page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
     if options.details:

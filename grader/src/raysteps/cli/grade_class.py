@@ -127,7 +127,7 @@ def line_to_go_on(options: ClassOptions) -> str:
         words += ["--scheduler", options.scheduler]
     else:
         words += ["--jobs", str(options.jobs)]
-    if options.seed != 1:
+    if options.seed != options.course.seed_or(None):  # else it is taken anyway
         words += ["--seed", str(options.seed)]
     if options.feedback != "full":
         words += ["--feedback", options.feedback]
@@ -175,7 +175,6 @@ def _prepare(plan: Plan, meter: ProgressMeter) -> Grader:
     grader = make_grader(options.grader, require_sandbox=sandbox, say=meter.say)
     if not options.scheduler:
         meter.say(grader.isolation.description)
-        grader.learn([step.id for step in plan.chosen], meter.say)
     return grader
 
 
@@ -196,7 +195,12 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
         registered = plan.registered(database.names())
         run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
         names = {row.entry: row.name for row in registered}
-        session = Session(plan, grader.fingerprint, database, meter, run, names)
+
+        def learn() -> None:
+            if not options.scheduler:  # else the workers do
+                grader.learn([step.id for step in plan.chosen], meter.say)
+
+        session = Session(plan, grader.fingerprint, database, meter, run, names, learn)
         try:
             with meter:
                 complete = session.grade(runner)

@@ -145,8 +145,8 @@ def read_step(path: Path) -> Step:
     return step
 
 
-def read_all_steps(project: Project) -> list[Step]:
-    """All steps that are built, in order."""
+def read_manifests(project: Project) -> list[Step]:
+    """All steps that are built, in order, as their own manifests say, whatever course.toml does."""
     paths = sorted(project.steps.glob("[0-9][0-9]-*/step.toml"))
     if not paths:
         raise GraderFault(f"{project.steps} holds no step.toml")
@@ -155,7 +155,12 @@ def read_all_steps(project: Project) -> list[Step]:
     twice = next((step for step in steps if numbers.count(step.number) > 1), None)
     if twice is not None:
         raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
-    return _with_points(project, steps)
+    return steps
+
+
+def read_all_steps(project: Project) -> list[Step]:
+    """All steps that are built, in order."""
+    return _with_points(project, read_manifests(project))
 
 
 def read_steps(project: Project) -> list[Step]:
@@ -264,8 +269,9 @@ def chosen_steps(project: Project, names: Sequence[str]) -> list[Step]:
 def dated_steps(project: Project) -> list[tuple[Step, date]]:
     """The days on which steps are given out, as far as course.toml tells."""
     steps, course = read_steps(project), _course(project)
-    dates = course.dates if course is not None else {}
-    return [(step, day) for names, day in dates.items() for step in choose(steps, [names])]
+    if course is None:
+        return []
+    return [(step, day) for names, day in course.dates.items() for step in _by_course(steps, course, "steps", names)]
 
 
 def course_manifests(project: Project) -> dict[str, bytes]:
@@ -274,8 +280,7 @@ def course_manifests(project: Project) -> dict[str, bytes]:
     for step in read_all_steps(project) if course is not None and course.points else []:
         path = project.steps / step.id / "step.toml"
         if read_step(path).points != step.points:
-            text = re.sub(
-                r"^points\s*=.*$", f"points = {step.points:g}", path.read_text("utf-8"), count=1, flags=re.MULTILINE
-            )
+            line = f"points = {step.points!r}".removesuffix(".0")  # reads back as the same number
+            text = re.sub(r"^points\s*=.*$", line, path.read_text("utf-8"), count=1, flags=re.MULTILINE)
             made[path.relative_to(project.root).as_posix()] = text.encode()
     return made

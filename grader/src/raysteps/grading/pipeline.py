@@ -309,13 +309,15 @@ def grade_submission(
     say: Callable[[str], None] = lambda text: None,
     *,
     jobs: int = 1,
+    course: str = "",
     tell: Callable[[Results], None] = lambda results: None,
     name_crash: Callable[[Sequence[StepResult]], None] = lambda found: None,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. What goes wrong in a step costs that step only; where it was the
-    grader that failed in one, GraderFault says so when all is written. So many `jobs` are done at a time; that changes
-    a grade only where a step is near its time limit. `name_crash` may add to messages where a test crashed. `tell` gets
-    the results before known mistakes have to be learned: nobody waits for names."""
+    """Writes out/results.json, without what `settings.feedback` withholds, and out/pictures/; returns everything. What
+    goes wrong in a step costs that step only; where it was the grader that failed in one, GraderFault says so when all
+    is written. So many `jobs` are done at a time; that changes a grade only where a step is near its time limit.
+    `course` is the name that results.json tells. `name_crash` may add to messages where a test crashed. `tell` gets the
+    results before known mistakes have to be learned: nobody waits for names."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
     counted = AccountingSandbox(sandbox, together)
@@ -341,9 +343,9 @@ def grade_submission(
             if any(grader.has_to_learn for grader in graders):
                 tell(results)
             list(pool.map(HiddenStepGrader.explain, graders))
+    results.course = course
     try:
-        shown = results if settings.feedback == "full" else withhold(results, settings.feedback)
-        write_results(shown, out)
+        write_results(withhold(results, settings.feedback), out)
     except OSError as error:
         raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
     faults = [grader.fault for grader in graders if grader.fault]
