@@ -16,7 +16,11 @@ from raysteps.toolchain.catch2 import THREW, TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
-_MAX_HANGS = 6  # tests that are waited for; a clock would say something else each time
+_MAX_STOPS = 6  # tests that are waited for; a clock would say something else each time
+_TOO_MUCH_MEMORY = (
+    "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
+)
+_NOT_RUN = f"This test was not run: {_MAX_STOPS} tests before it ran out of time or memory."
 FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
@@ -69,7 +73,7 @@ def _result_alone(ran: TaskResult, name: str) -> TestResult:
 def _why_cut_short(ran: TaskResult) -> str:
     """What ended the program in the middle of a test, and how to find it."""
     if ran.stopped == "memory":
-        return "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
+        return _TOO_MUCH_MEMORY
     words = ran.outcome.signal_words
     if words is not None:
         return f"The program crashed in the middle of the test ({words}). {FIND_THE_LINE}"
@@ -80,18 +84,27 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
     """All test cases in one process; when that ends badly, each in a process of its own."""
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, names)
-    limits = limits.after_a_timeout() if ran.hung else limits
+    limits = limits.after_a_stop() if ran.was_stopped else limits
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]
     results: list[TestResult] = []
     for name in names:
-        if sum(result.outcome == "timeout" for result in results) >= _MAX_HANGS:
-            results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
+        if sum(map(was_stopped, results)) >= _MAX_STOPS:
+            results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
         else:
             results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
-            limits = limits.after_a_timeout() if results[-1].outcome == "timeout" else limits
+            limits = limits.after_a_stop() if was_stopped(results[-1]) else limits
     return results
+
+
+def was_stopped(test: TestResult) -> bool:
+    """Whether a limit ended it, on time or on memory."""
+    return test.outcome == "timeout" or _is_out_of_memory(test)
+
+
+def _is_out_of_memory(test: TestResult) -> bool:
+    return test.outcome == "crashed" and test.message == _TOO_MUCH_MEMORY
 
 
 # The line at which a step crashes, by a program of the step that was compiled with sanitizers.
@@ -210,7 +223,8 @@ def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
 ) -> bool:
     """Runs a test that crashed once more, and says beside its message where that was, if anybody can tell."""
-    patient = replace(limits, seconds=_SLOWER * limits.seconds, memory_mb=_ALL_MEMORY_MB)
+    slower = 1 if _is_out_of_memory(test) else _SLOWER  # what has no end comes to none with more time
+    patient = replace(limits, seconds=slower * limits.seconds, memory_mb=_ALL_MEMORY_MB)
     ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)
     found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:
