@@ -109,13 +109,16 @@ def _is_out_of_memory(test: TestResult) -> bool:
 
 # The line at which a step crashes, by a program of the step that was compiled with sanitizers.
 
-_LONGEST_LINE = 2000  # of a stack that is read; a program may say anything
+# A program may say anything, so each line is read in a time that grows with its length and no faster.
+_LONGEST_LINE = 2000  # of those that are searched for words
+_LONGEST_CAUSE = 4000  # characters of a report beside its stacks
 _MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
 _ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
 _HEAD = re.compile(
     r"==\d+== *ERROR: AddressSanitizer:? (?P<error>.*)|.*: runtime error: (?P<undefined>.*)|thrown: (?P<thrown>.*)"
 )
+_FRAME = re.compile(r"\s*#\d+ 0x[0-9a-f]+ in ")
 _RULE = re.compile(r"Assertion '(.*)' failed")
 _ACCESS = re.compile(r"\b(READ|WRITE) (?:of size|memory access)")
 _BROKEN_RULES = {
@@ -158,7 +161,7 @@ class _Report:
 
 def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
     names = "|".join(map(re.escape, files))
-    at = re.compile(rf"\s*#\d+ 0x[0-9a-f]+ in (?P<function>.*?) (?:\S.*[/\\])?(?P<file>{names}):(?P<line>\d+)[\d:]*\s*")
+    place = re.compile(rf"[ /\\](?P<file>{names}):(?P<line>\d+)(?::\d*)*\s*\Z")
     report, in_stack = None, False
     for line in said.splitlines():
         head = _HEAD.match(line)
@@ -168,11 +171,11 @@ def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
             kind = head.lastgroup or ""
             report, in_stack = _Report(kind, head[kind]), True
         elif report is not None:
-            room = len(report.frames) < _MAX_FRAMES and len(line) < _LONGEST_LINE
-            frame = at.fullmatch(line) if in_stack and room else None
-            if frame is not None:
-                function = _function_name(frame["function"])
-                report.frames.append((function, f"{frame['file']}, line {frame['line']}, in {function}"))
+            start = _FRAME.match(line) if in_stack and len(report.frames) < _MAX_FRAMES else None
+            at = place.search(line, start.end()) if start is not None else None
+            if start is not None and at is not None:
+                function = _function_name(line[start.end() : at.start("file")].partition(" ")[0])
+                report.frames.append((function, f"{at['file']}, line {at['line']}, in {function}"))
             in_stack = in_stack and not (report.said and "#" in report.said[-1] and "#" not in line)
             report.said.append(line)
     if report is not None:
@@ -189,13 +192,14 @@ def _function_name(text: str) -> str:
 def _cause(report: _Report, said: str, thrown: str) -> str:
     if report.kind != "error":
         return report.text if report.kind == "undefined" else f"throws {report.text}"
-    rule = _RULE.search(said)
+    lines = (line for line in said.splitlines() if len(line) < _LONGEST_LINE)
+    rule = next(filter(None, map(_RULE.search, lines)), None)
     if report.text.startswith("ABRT"):
         if rule is not None:
             known = next((words for part, words in _BROKEN_RULES.items() if part in rule[1]), "")
             return known or f"breaks a rule of the standard library: {rule[1]}"
         return f"throws {thrown}, and nobody catches it" if thrown else "ends the program with abort()"
-    text = " ".join([report.text, *report.said])
+    text = " ".join([report.text, *(line for line in report.said if "#" not in line)])[:_LONGEST_CAUSE]
     access = _ACCESS.search(text)
     uses = {"READ": "reads", "WRITE": "writes"}[access[1]] if access else "uses"
     words = next((words for pattern, words in _CAUSES.items() if re.search(pattern, text)), report.text.split(" ")[0])
