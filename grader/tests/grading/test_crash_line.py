@@ -8,9 +8,10 @@ import pytest
 from conftest import Sources
 
 from raysteps.course.manifest import Step
+from raysteps.grading import unit_tests
 from raysteps.grading.quick_look import QuickLook
 from raysteps.grading.self_check import name_crash
-from raysteps.grading.unit_tests import crash_line
+from raysteps.grading.unit_tests import FIND_THE_LINE, crash_line, has_crashed
 from raysteps.results.model import StepResult, TestResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
@@ -64,8 +65,24 @@ def test_the_line_is_named(kit: BuiltKit, step: Step, solved: Sources, tmp_path:
     assert len(messages) == 1, [test.message for test in result.tests if not test.passed]
     assert f"intersection.cpp, line {line}, in closest_hit: " in messages[0]
     assert cause in messages[0]
-    assert not any("debugger" in test.message for test in result.tests)
+    hints = [FIND_THE_LINE in test.message for test in result.tests if has_crashed(test)]
+    ended = [test.outcome == "crashed" for test in result.tests if has_crashed(test)]
+    assert hints == [False, *ended[1:]], "a debugger finds the lines of the others"
     assert said == [f"{_ID} crashed: looking for the line"]
+
+
+def test_only_what_is_named_needs_no_debugger(
+    kit: BuiltKit, step: Step, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(unit_tests, "crash_line", lambda said, files, *, threw: "hit.cpp, line 7.")
+    names = list(kit.tests[_ID])[:3]
+    words = [f"It crashed ({name}). {FIND_THE_LINE}" for name in names]
+    tests = [TestResult(name, False, said, outcome="crashed") for name, said in zip(names, words, strict=True)]
+    found = StepResult(_ID, "crashed", 0, 1, False, tests=tests, messages=["3 of 3 tests failed.", words[0]])
+    source = (kit.project.solutions / step.path).read_bytes()
+    name_crash(kit.in_one_process(), Submission("a", {_ID: source}, {}), LimitsOnly(), lambda _: None, [found])
+    assert [test.message for test in tests] == [f"It crashed ({names[0]}).\nhit.cpp, line 7.", *words[1:]]
+    assert found.messages == ["3 of 3 tests failed.", f"It crashed ({names[0]})."]
 
 
 def test_who_does_not_crash_waits_for_nothing(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
@@ -117,9 +134,21 @@ def test_what_a_program_says_itself_cannot_grow_the_message() -> None:
 
 @pytest.mark.parametrize("length", [1_900, 1_000_000])
 def test_no_line_of_any_shape_is_waited_for(length: int) -> None:
-    """A pattern that tries all ways of splitting it would take hours."""
+    """A pattern that tries all ways of splitting it would take hours; so would many lines of a usual length."""
+    few = 5_000_000 // length
+    said = few * f"    #0 0x1 in {length // 5 * ' in a'}\n"
+    said = "thrown: int\n" + said + _STACK.format(line=2)
+    assert crash_line(said, ["intersection.cpp"], threw=True).startswith("intersection.cpp, line 2, in hit: ")
     said = "thrown: int\n" + "    #0 0x1" + length // 5 * " in a" + "\n" + _STACK.format(line=2)
     assert crash_line(said, ["intersection.cpp"], threw=True).startswith("intersection.cpp, line 2, in hit: ")
+
+
+@pytest.mark.parametrize("head", ["ABRT ", "other "])
+def test_no_words_of_a_report_are_waited_for(head: str) -> None:
+    said = (
+        f"==7==ERROR: AddressSanitizer: {head}\n{100_000 * 'overflow'}\n{100_000 * chr(39).join(['Assertion ', ''])}\n"
+    )
+    assert crash_line(said + _STACK.format(line=2), ["intersection.cpp"], threw=False)
 
 
 def test_an_unknown_error_is_told_as_it_is() -> None:

@@ -3,6 +3,7 @@ are, in the hidden part, those after a function that is wrong."""
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from conftest import Sources
@@ -10,11 +11,16 @@ from machine_code import reference_code
 
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import make_stub
-from raysteps.grading.pipeline import grade_submission
+from raysteps.grading import pipeline
+from raysteps.grading.pipeline import HiddenStepGrader, grade_submission
 from raysteps.grading.scoring import test_weights as weights_of
+from raysteps.grading.step import AccountingSandbox
+from raysteps.judge.counterexamples import Examples, read_case
+from raysteps.judge.worker import JudgedCase
 from raysteps.results.model import StepResult
 from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -37,9 +43,11 @@ def _without(kit: BuiltKit, step: Step, function: str, old: str = "", new: str =
     return source.replace(old, new)
 
 
-def _graded(kit: BuiltKit, step: Step, source: str, folder: Path) -> StepResult:
+def _graded(
+    kit: BuiltKit, step: Step, source: str, folder: Path, feedback: Literal["full", "diagnosis"] = "diagnosis"
+) -> StepResult:
     submission = Submission("half", {step.id: source.encode()}, {})
-    settings = Settings(seed=_SEED, only=(step.id,), feedback="diagnosis")
+    settings = Settings(seed=_SEED, only=(step.id,), feedback=feedback)
     return grade_submission(kit, submission, settings, LimitsOnly(), folder).steps[0]
 
 
@@ -105,16 +113,72 @@ def test_one_that_is_wrong_costs_its_own_hidden_points_only(kit: BuiltKit, solve
     assert "closest_hit_in_octree" in failed, "the visible tests try the step as it is"
 
 
-def test_two_that_are_wrong_both_cost_theirs(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
+def _two_wrong(kit: BuiltKit, solved: Sources) -> tuple[Step, str]:
+    """Each by itself."""
     step = next(step for step in kit.steps if step.number == "03")
     source = solved[step.id]
     mirrored, weighed = "return direction - 2.0F", "return fill.kd * cosine"
     for old, new in ((mirrored, "return -direction + 2.0F"), (weighed, "return cosine")):
         assert source.count(old) == 1
         source = source.replace(old, new)
+    return step, source
+
+
+def test_two_that_are_wrong_both_cost_theirs(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
+    step, source = _two_wrong(kit, solved)
     result = _graded(kit.in_one_process(), step, source, tmp_path)
     right = {item.name: item.passed for item in result.hidden if item.kind == "function"}
     assert right == {"mirror": False, "diffuse": False, "specular": True, "shade": True}
+
+
+def test_the_case_to_replay_is_the_one_that_is_shown(
+    kit: BuiltKit, solved: Sources, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the time for examples is over after the first asking, too."""
+    step, source = _two_wrong(kit, solved)
+    made: list[str] = []
+    smallest = Examples.smallest
+
+    def spend(examples: Examples, of: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
+        made.append(found.case.function)
+        if len(made) > 2:
+            examples.budget.left = 0.0
+        return smallest(examples, of, found, place, seed)
+
+    monkeypatch.setattr(Examples, "smallest", spend)
+    result = _graded(kit.in_one_process(), step, source, tmp_path, "full")
+    shown = [item for item in result.hidden if item.case]
+    assert {"mirror", "diffuse"} <= {item.name for item in shown}
+    for item in shown:
+        case = read_case(tmp_path / item.case)
+        assert (case.given, case.expected, case.actual) == (item.given, item.expected, item.actual), item.name
+    assert made.count("diffuse") == 1, "no better, so the first stays"
+
+
+def test_to_be_asked_again_costs_no_time_of_the_submission(
+    kit: BuiltKit, solved: Sources, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    step, source = _two_wrong(kit, solved)
+    accounts: list[list[Task]] = []
+
+    class Account(AccountingSandbox):
+        def __init__(self, sandbox: Sandbox, seconds: float) -> None:
+            super().__init__(sandbox, seconds)
+            self.tasks: list[Task] = []
+            accounts.append(self.tasks)
+
+        def run(self, task: Task) -> TaskResult:
+            self.tasks.append(task)
+            return super().run(task)
+
+    monkeypatch.setattr(pipeline, "AccountingSandbox", Account)
+    _graded(kit.in_one_process(), step, source, tmp_path / "again")
+    monkeypatch.setattr(HiddenStepGrader, "_ask_apart", lambda *_: None)
+    _graded(kit.in_one_process(), step, source, tmp_path / "once")
+    again, apart, once, nothing = map(len, accounts)
+    assert again == once
+    assert apart > 0
+    assert nothing == 0
 
 
 def test_a_test_that_needs_what_is_not_written_says_nothing_of_the_others(kit: BuiltKit) -> None:

@@ -1,13 +1,19 @@
 """What all programs of a submission may take together."""
 
 from dataclasses import replace
+from pathlib import Path
+from typing import cast
 
 import pytest
 
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
+from raysteps.grading.images import ImageGrader
 from raysteps.grading.step import AccountingSandbox
+from raysteps.grading.unit_tests import run_tests
 from raysteps.sandbox.task import Isolation, LimitHit, Limits, Task, TaskResult
+from raysteps.toolchain.compile import Program
+from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import give_up_after, limits_of, parse_limits, submission_seconds
 
 pytestmark = pytest.mark.portable
@@ -38,6 +44,38 @@ def test_sleepers_below_every_limit_have_no_more_time_than_the_sum() -> None:
     assert sandbox.is_spent
     assert sandbox.cpu_seconds == 1.5
     assert not AccountingSandbox(inner).is_spent
+
+
+@pytest.mark.parametrize("why", ["cpu", "memory"])
+def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Path, why: LimitHit) -> None:
+    """Whichever limit it is."""
+
+    class Eating:
+        isolation = Isolation()
+
+        def __init__(self) -> None:
+            self.seconds: list[float] = []
+
+        def run(self, task: Task) -> TaskResult:
+            self.seconds.append(task.limits.cpu_seconds)
+            return TaskResult(Outcome(-9, False, "", "", 7.0), {}, 7.0, why)
+
+    kit = cast(BuiltKit, None)  # nobody asks for the reference's pictures
+    sandbox, limits, program = Eating(), limits_of(steps[0], {"seconds": 8.0}), Program(("tests",))
+    results = run_tests(sandbox, program, [f"test {number}" for number in range(20)], limits)
+    assert sandbox.seconds == [8, 8, 2, 2, 2, 2, 2]
+    assert len(results) == 20
+    assert {result.outcome for result in results[:6]} == {"crashed" if why == "memory" else "timeout"}
+    assert all("was not run" in result.message for result in results[6:])
+    assert not any("was not run" in result.message for result in results[:6])
+
+    gallery = ImageGrader(kit, sandbox, limits, tmp_path)
+    gallery.stopped_in(results[:1])
+    assert gallery.limits.seconds == 2
+    gallery, before = ImageGrader(kit, sandbox, limits, tmp_path), len(sandbox.seconds)
+    for _ in range(4):
+        gallery.render(program, tmp_path / "scene.nff", ())
+    assert sandbox.seconds[before:] == [8, 8, 2, 2]
 
 
 @pytest.mark.parametrize("why", ["wall", "cpu"])

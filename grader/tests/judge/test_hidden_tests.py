@@ -7,15 +7,16 @@ import pytest
 from judge_fakes import Ended, FakeWorker, ran, words
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.process import Outcome
 from raysteps.common.text import number
 from raysteps.common.vectors import Vector
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.answers import Verdict
-from raysteps.judge.hidden_tests import nearness, run_hidden_tests
+from raysteps.judge.hidden_tests import make_cases, nearness, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32
-from raysteps.judge.worker import Ask, TimeBudget
+from raysteps.judge.worker import Ask, TimeBudget, ask_worker
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.task import TaskResult
 
@@ -214,12 +215,23 @@ def test_time_for_every_function(seconds: float, functions: int) -> None:
         while given and runs < 4:
             assert given <= seconds
             used.append(given)
-            budget.spend(given, hung=True)
+            budget.spend(given, stopped=True)
             given = budget.next_run()
             runs += 1
     assert used[:2] == [seconds, seconds]
     assert all(given <= max(1, seconds / 4) for given in used[2:])
     assert sum(used) <= max(4 * seconds, functions)
+
+
+def test_who_takes_too_much_memory_twice_gets_less_time(step: Step, plan: Plan) -> None:
+    given: list[float] = []
+
+    def eat(cases: bytes, seconds: float) -> TaskResult:
+        given.append(seconds)
+        return TaskResult(Outcome(-9, False, "start 0\n", "", 0.1), {}, 0.1, "memory")
+
+    ask_worker(eat, make_cases(step, plan.functions[0], 1), TimeBudget(8.0, 1))
+    assert given == [8, 8, 2]
 
 
 def test_a_kind_that_crashes_three_times_is_left(step: Step, plan: Plan) -> None:

@@ -44,7 +44,7 @@ def test_a_step_that_hung_twice_gets_less_time_but_never_more(steps: list[Step])
         limits, found = limits_of(steps[0], {"seconds": limit}), []
         for _ in range(4):
             found.append(limits.seconds)
-            limits = limits.after_a_timeout()
+            limits = limits.after_a_stop()
         return found
 
     assert seconds(8.0) == [8, 8, 2, 2]

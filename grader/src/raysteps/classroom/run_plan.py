@@ -60,7 +60,8 @@ def _inside(path: Path, folder: Path) -> bool:
 def check_places(folder: Path, out: Path, *, resume: bool) -> None:
     """Results must not come to lie among the submissions."""
     if not folder.is_dir():
-        raise UsageError(f"{folder}: expected a folder with one entry per submission")
+        found = "is no folder" if folder.exists() else "is not there"
+        raise UsageError(f"{folder}: {found}; expected a folder with one entry per submission")
     if _inside(out, folder):
         raise UsageError(f"--out {out}: lies in the folder of the submissions; name another folder")
     if _inside(folder, out / "submissions"):

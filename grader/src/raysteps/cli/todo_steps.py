@@ -121,5 +121,5 @@ def advice(project: Project, upto: int) -> str:
         return f"your steps are not started; see {_elsewhere(project)}"
     return (
         f"this picture of step {upto:02} is not complete, as your steps reach {first - 1:02}; --step {first - 1} shows "
-        f"what you have, and what it should be is {_elsewhere(project)}"
+        f"what you have, and {_elsewhere(project)} what it should be"
     )

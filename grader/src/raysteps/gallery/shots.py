@@ -194,8 +194,8 @@ class MySteps:
 
     def _render(self, program: Program, step: Step, scene: GalleryScene, args: tuple[str, ...]) -> Rendered:
         rendered = render(self._sandbox, program, scene.path, args, self._limits[step.id].of_program())
-        if rendered.ran.stopped in ("wall", "cpu"):
-            self._limits[step.id] = self._limits[step.id].after_a_timeout()
+        if rendered.ran.was_stopped:
+            self._limits[step.id] = self._limits[step.id].after_a_stop()
         return rendered
 
     def _remarks(self, step: Step) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
+from raysteps.grading.unit_tests import was_stopped
 from raysteps.images.compare import (
     MOST_OF_A_PICTURE,
     Comparison,
@@ -36,7 +37,8 @@ _TREE, _NO_TREE = "--accel", "none"
 
 @dataclass
 class ImageGrader:
-    """What pictures are made and judged with, and where they go. Patience ends with the second program that hangs."""
+    """What pictures are made and judged with, and where they go. Patience ends with the second program that
+    a limit stops."""
 
     kit: BuiltKit
     sandbox: Sandbox
@@ -44,14 +46,14 @@ class ImageGrader:
     out: Path
     made: dict[str, Pixels] = field(default_factory=dict)  # the step's own pictures, by name
 
-    def hung(self) -> None:
-        self.limits = self.limits.after_a_timeout()
+    def stopped(self) -> None:
+        self.limits = self.limits.after_a_stop()
 
-    def hung_in(self, tests: Sequence[TestResult]) -> None:
+    def stopped_in(self, tests: Sequence[TestResult]) -> None:
         """All together, and then each by itself."""
-        if any(test.outcome == "timeout" for test in tests):
-            self.hung()
-            self.hung()
+        if any(map(was_stopped, tests)):
+            self.stopped()
+            self.stopped()
 
     def args_of(self, case: ImageCase) -> tuple[str, ...]:
         """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""
@@ -59,8 +61,8 @@ class ImageGrader:
 
     def render(self, program: Program, scene: Path, args: tuple[str, ...]) -> Rendered:
         rendered = render(self.sandbox, program, scene, args, self.limits.of_program())
-        if rendered.ran.stopped in ("wall", "cpu"):
-            self.hung()
+        if rendered.ran.was_stopped:
+            self.stopped()
         return rendered
 
 

@@ -41,10 +41,12 @@ from raysteps.results.settings import Settings
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program
+from raysteps.toolchain.compile import Compiled, Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import StepLimits, submission_seconds
 
+# Of the time of a submission, and beside it: to ask a wrong function again may better it, and must cost nobody a step.
+_APART = 0.25
 _NOT_GRADED = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
 
 
@@ -52,11 +54,18 @@ class HiddenStepGrader(StepGrader):
     """One step between steps of the reference."""
 
     def __init__(
-        self, work: GradingContext, step: Step, limits: StepLimits, compiled: dict[str, Compiled], settings: Settings
+        self,
+        work: GradingContext,
+        step: Step,
+        limits: StepLimits,
+        compiled: dict[str, Compiled],
+        settings: Settings,
+        apart: Sandbox,
     ) -> None:
         self._plan = read_plan(work.kit.project, step)
         super().__init__(work, step, limits, compiled, judged=self._plan is not None)
         self._settings = settings
+        self._apart = apart  # runs what is asked a second time
         self._ran = False
         self._unexplained = False
         self._spoilt: list[str] = []  # functions that are better where the reference's stand for those before them
@@ -191,8 +200,9 @@ class HiddenStepGrader(StepGrader):
     # the reference's in its place.
 
     def _ask_apart(self, binary: Path, plan: Plan, seconds: float, examples: Examples | None) -> None:
-        """Whoever is better so is judged so. Who hung is not asked again. A tree that spares nothing stays: a search
-        through it spares nothing either."""
+        """Whoever is better so is judged so. Who hung is not asked again, nor anybody where several functions are not
+        written: as in `_completed`, what is left would be taken for most of the work. A tree that spares nothing stays:
+        a search through it spares nothing either."""
         result, kit, missing = self._result, self._work.kit, set(self._unfinished)
         wrong = [item for item in result.hidden if not item.passed and item.name not in missing]
         if len(missing) > 1:
@@ -208,11 +218,11 @@ class HiddenStepGrader(StepGrader):
             again = run_hidden_tests(
                 self.step,
                 replace(plan, functions=tuple(one for one in plan.functions if one.name == item.name)),
-                ask := ask_student(self._gallery.sandbox, worker, self._gallery.limits),
+                ask := ask_student(self._apart, worker, self._gallery.limits),
                 lambda cases, _: reference_answers(kit, cases),
                 self._settings.seed,
                 seconds,
-                None if examples is None else replace(examples, student=ask),
+                None if examples is None else replace(examples, student=ask, above=item.share),
             )[0]
             if again.share > item.share:
                 better[item.name] = again
@@ -230,7 +240,8 @@ class HiddenStepGrader(StepGrader):
         """With the reference's functions in place of these. None where steps are no libraries."""
         step, names = self.step, self._work.kit.linker_names(self.step, replaced)
         binaries = {step.number: binary}
-        return self._build.program("worker", step, binaries, self._limits, replaced=names)[0] if names else None
+        build = StudentBuild(self._work.kit, self._apart, self._work.folder)
+        return build.program("worker", step, binaries, self._limits, replaced=names)[0] if names else None
 
     @property
     def has_to_learn(self) -> bool:
@@ -320,7 +331,7 @@ def grade_submission(
     results before known mistakes have to be learned: nobody waits for names."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
-    counted = AccountingSandbox(sandbox, together)
+    counted, apart = AccountingSandbox(sandbox, together), AccountingSandbox(sandbox, _APART * together)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say)
         chosen = _chosen(kit, settings)
@@ -329,7 +340,7 @@ def grade_submission(
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
             graders = [
-                HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings)
+                HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings, apart)
                 for step in chosen
             ]
             alone = list(pool.map(HiddenStepGrader.grade, graders))
@@ -338,7 +349,7 @@ def grade_submission(
             if counted.is_spent:
                 _tell_of_the_limit(steps, together)
             name_crash(steps)
-            timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+            timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + apart.cpu_seconds, 2))
             results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
             if any(grader.has_to_learn for grader in graders):
                 tell(results)

@@ -89,7 +89,7 @@ class QuickLook:
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
-        gallery.hung_in(result.tests)
+        gallery.stopped_in(result.tests)
         set_aside(result, self.step, self.kit.tests[self.step.id], source)
         self.tell(result)
         for case in self.step.images:

@@ -133,15 +133,12 @@ def name_crash(
             program, _ = build.program("test", step, binaries, limits, together=not alone)
             if program is not None:
                 files = [Path(other.path).name for other in sources]
-                if tell_crash_line(sandbox, program, tests[step.id][0], limits, files):
-                    _without_debugger(next(result for result in found if result.id == step.id))
-
-
-def _without_debugger(result: StepResult) -> None:
-    """Nobody needs one to find a line that is named."""
-    result.messages = [message.removesuffix(FIND_THE_LINE).strip() for message in result.messages]
-    for test in result.tests:
-        test.message = test.message.removesuffix(FIND_THE_LINE).strip()
+                test, result = tests[step.id][0], next(result for result in found if result.id == step.id)
+                said = test.message
+                if tell_crash_line(sandbox, program, test, limits, files):
+                    # Nobody needs a debugger to find a line that is named; the others that crashed keep the hint.
+                    short = said.removesuffix(FIND_THE_LINE).strip()
+                    result.messages = [short if message == said else message for message in result.messages]
 
 
 _TROUBLE = {

@@ -212,7 +212,7 @@ class StepGrader:
         weights = test_weights(self.step, tests, self._unfinished)
         for test in self._result.tests:
             test.weight = weights[test.name]
-        self._gallery.hung_in(self._result.tests)
+        self._gallery.stopped_in(self._result.tests)
 
 
 # Compiles the steps of a submission, several at a time.

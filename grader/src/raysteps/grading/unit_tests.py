@@ -16,7 +16,11 @@ from raysteps.toolchain.catch2 import THREW, TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
-_MAX_HANGS = 6  # tests that are waited for; a clock would say something else each time
+_MAX_STOPS = 6  # tests that are waited for; a clock would say something else each time
+_TOO_MUCH_MEMORY = (
+    "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
+)
+_NOT_RUN = f"This test was not run: {_MAX_STOPS} tests before it ran out of time or memory."
 FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
@@ -69,7 +73,7 @@ def _result_alone(ran: TaskResult, name: str) -> TestResult:
 def _why_cut_short(ran: TaskResult) -> str:
     """What ended the program in the middle of a test, and how to find it."""
     if ran.stopped == "memory":
-        return "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
+        return _TOO_MUCH_MEMORY
     words = ran.outcome.signal_words
     if words is not None:
         return f"The program crashed in the middle of the test ({words}). {FIND_THE_LINE}"
@@ -80,29 +84,41 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
     """All test cases in one process; when that ends badly, each in a process of its own."""
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, names)
-    limits = limits.after_a_timeout() if ran.hung else limits
+    limits = limits.after_a_stop() if ran.was_stopped else limits
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in names]
     results: list[TestResult] = []
     for name in names:
-        if sum(result.outcome == "timeout" for result in results) >= _MAX_HANGS:
-            results.append(TestResult(name, False, "There was no time left for this test.", outcome="timeout"))
+        if sum(map(was_stopped, results)) >= _MAX_STOPS:
+            results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
         else:
             results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
-            limits = limits.after_a_timeout() if results[-1].outcome == "timeout" else limits
+            limits = limits.after_a_stop() if was_stopped(results[-1]) else limits
     return results
+
+
+def was_stopped(test: TestResult) -> bool:
+    """Whether a limit ended it, on time or on memory."""
+    return test.outcome == "timeout" or _is_out_of_memory(test)
+
+
+def _is_out_of_memory(test: TestResult) -> bool:
+    return test.outcome == "crashed" and test.message == _TOO_MUCH_MEMORY
 
 
 # The line at which a step crashes, by a program of the step that was compiled with sanitizers.
 
-_LONGEST_LINE = 2000  # of a stack that is read; a program may say anything
+# A program may say anything, so each line is read in a time that grows with its length and no faster.
+_LONGEST_LINE = 2000  # of those that are searched for words
+_LONGEST_CAUSE = 4000  # characters of a report beside its stacks
 _MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
 _ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
 _HEAD = re.compile(
     r"==\d+== *ERROR: AddressSanitizer:? (?P<error>.*)|.*: runtime error: (?P<undefined>.*)|thrown: (?P<thrown>.*)"
 )
+_FRAME = re.compile(r"\s*#\d+ 0x[0-9a-f]+ in ")
 _RULE = re.compile(r"Assertion '(.*)' failed")
 _ACCESS = re.compile(r"\b(READ|WRITE) (?:of size|memory access)")
 _BROKEN_RULES = {
@@ -145,7 +161,7 @@ class _Report:
 
 def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
     names = "|".join(map(re.escape, files))
-    at = re.compile(rf"\s*#\d+ 0x[0-9a-f]+ in (?P<function>.*?) (?:\S.*[/\\])?(?P<file>{names}):(?P<line>\d+)[\d:]*\s*")
+    place = re.compile(rf"[ /\\](?P<file>{names}):(?P<line>\d+)(?::\d*)*\s*\Z")
     report, in_stack = None, False
     for line in said.splitlines():
         head = _HEAD.match(line)
@@ -155,11 +171,11 @@ def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
             kind = head.lastgroup or ""
             report, in_stack = _Report(kind, head[kind]), True
         elif report is not None:
-            room = len(report.frames) < _MAX_FRAMES and len(line) < _LONGEST_LINE
-            frame = at.fullmatch(line) if in_stack and room else None
-            if frame is not None:
-                function = _function_name(frame["function"])
-                report.frames.append((function, f"{frame['file']}, line {frame['line']}, in {function}"))
+            start = _FRAME.match(line) if in_stack and len(report.frames) < _MAX_FRAMES else None
+            at = place.search(line, start.end()) if start is not None else None
+            if start is not None and at is not None:
+                function = _function_name(line[start.end() : at.start("file")].partition(" ")[0])
+                report.frames.append((function, f"{at['file']}, line {at['line']}, in {function}"))
             in_stack = in_stack and not (report.said and "#" in report.said[-1] and "#" not in line)
             report.said.append(line)
     if report is not None:
@@ -176,13 +192,14 @@ def _function_name(text: str) -> str:
 def _cause(report: _Report, said: str, thrown: str) -> str:
     if report.kind != "error":
         return report.text if report.kind == "undefined" else f"throws {report.text}"
-    rule = _RULE.search(said)
+    lines = (line for line in said.splitlines() if len(line) < _LONGEST_LINE)
+    rule = next(filter(None, map(_RULE.search, lines)), None)
     if report.text.startswith("ABRT"):
         if rule is not None:
             known = next((words for part, words in _BROKEN_RULES.items() if part in rule[1]), "")
             return known or f"breaks a rule of the standard library: {rule[1]}"
         return f"throws {thrown}, and nobody catches it" if thrown else "ends the program with abort()"
-    text = " ".join([report.text, *report.said])
+    text = " ".join([report.text, *(line for line in report.said if "#" not in line)])[:_LONGEST_CAUSE]
     access = _ACCESS.search(text)
     uses = {"READ": "reads", "WRITE": "writes"}[access[1]] if access else "uses"
     words = next((words for pattern, words in _CAUSES.items() if re.search(pattern, text)), report.text.split(" ")[0])
@@ -210,7 +227,8 @@ def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
 ) -> bool:
     """Runs a test that crashed once more, and says beside its message where that was, if anybody can tell."""
-    patient = replace(limits, seconds=_SLOWER * limits.seconds, memory_mb=_ALL_MEMORY_MB)
+    slower = 1 if _is_out_of_memory(test) else _SLOWER  # what has no end comes to none with more time
+    patient = replace(limits, seconds=slower * limits.seconds, memory_mb=_ALL_MEMORY_MB)
     ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)
     found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:

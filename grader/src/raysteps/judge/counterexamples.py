@@ -94,6 +94,7 @@ class Examples:
     folder: Path
     say: Callable[[str], None] = lambda text: None
     budget: CpuBudget = field(default_factory=CpuBudget)
+    above: float = -1.0  # what a function must earn more than to get one: else an earlier one is shown, and stays
 
     def smallest(self, step: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         """The simplest case that is wrong in the same way, and its file, by its place in the folder of the results.

@@ -293,7 +293,8 @@ def _result(
     found = _first_wrong(judged, wrong)
     if found is not None:
         result.message = shorten(_message(plan.name, groups, wrong, found, _keeps_something(judged)), LONGEST)
-        if examples is not None and found.case.group != AGAIN:  # asked alone, it may be right
+        alone = found.case.group != AGAIN  # else it may be right when it is asked alone
+        if examples is not None and alone and result.share > examples.above:
             place = [one.case for one in judged if one.case.group == found.case.group].index(found.case)
             found, result.case = examples.smallest(step, found, place, seed)
         result.given = shorten(found.case.given(), LONGEST)

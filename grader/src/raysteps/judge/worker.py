@@ -17,7 +17,7 @@ from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Sandbox, Task, TaskResult
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from raysteps.toolchain.limits import LEAST_SECONDS, PATIENT_HANGS, StepLimits
+from raysteps.toolchain.limits import LEAST_SECONDS, PATIENT_STOPS, StepLimits
 
 # How long the functions of a step may run.
 
@@ -27,14 +27,15 @@ _AFTER_HANGS = 0.25  # of the limit
 
 class TimeBudget:
     """Each function is asked once at least, whatever those before it took: a function that hangs silences nobody.
-    Who hung twice may hang in all that follows, and gets less time from then on."""
+    Who ran into a limit twice, on time or on memory, may do so in all that follows, and gets less time from then
+    on."""
 
     def __init__(self, seconds: float, functions: int) -> None:
         self._limit = seconds
         self._short = min(seconds, max(LEAST_SECONDS, _AFTER_HANGS * seconds))
         self._left = _STEP_FACTOR * seconds
         self._to_come = functions
-        self._hangs = 0
+        self._stops = 0
 
     def next_function(self) -> float:
         """Seconds of its first run."""
@@ -44,12 +45,12 @@ class TimeBudget:
     def next_run(self) -> float:
         """Seconds of one more run of the same function; 0 when there is no time left for it."""
         free = self._left - self._to_come * self._short
-        most = min(free, self._short if self._hangs >= PATIENT_HANGS else self._limit)
+        most = min(free, self._short if self._stops >= PATIENT_STOPS else self._limit)
         return most if most >= self._short else 0.0
 
-    def spend(self, seconds: float, *, hung: bool) -> None:
+    def spend(self, seconds: float, *, stopped: bool) -> None:
         self._left -= seconds
-        self._hangs += hung
+        self._stops += stopped
 
 
 Ask: TypeAlias = Callable[[bytes, float], TaskResult]  # the worker's stdin, and how many seconds it may take
@@ -138,7 +139,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         ran = ask(_stdin(cases, len(replies)), seconds)
         answers, trouble = _what_came(ran, cases, len(replies))
         used += ran.outcome.seconds
-        budget.spend(seconds if ran.hung else ran.cpu_seconds, hung=ran.hung)
+        budget.spend(seconds if ran.hung else ran.cpu_seconds, stopped=ran.was_stopped)
         seconds = budget.next_run()
         replies += answers
         if len(replies) == len(cases):

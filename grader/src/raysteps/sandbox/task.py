@@ -114,6 +114,11 @@ class TaskResult:
         """Whether its time was over."""
         return self.outcome.timed_out or self.stopped in ("wall", "cpu")
 
+    @property
+    def was_stopped(self) -> bool:
+        """Whether a limit ended it, on time or on memory."""
+        return self.hung or self.stopped == "memory"
+
 
 class Sandbox(Protocol):
     """Something that runs tasks, from several threads at once."""

@@ -18,7 +18,7 @@ _OF_ALL = "submission_seconds"
 _ON_THE_COMMAND_LINE = (*NAMES, _OF_ALL)
 SUBMISSION_SECONDS = 1800.0  # an honest submission takes some minutes, on a slow machine too
 _GIVE_UP_FACTOR = 2
-PATIENT_HANGS = 2
+PATIENT_STOPS = 2
 LEAST_SECONDS = 1.0  # that say something
 _PATIENCE = 4  # seconds on the clock for one of a processor: others may use the machine, too
 
@@ -34,12 +34,13 @@ class StepLimits:
     compile_memory_mb: int = COMPILE_MEMORY_MB
     processes: int = PROCESSES
     file_mb: int = FILE_MB
-    hangs: int = 0
+    stops: int = 0  # of programs of the step so far, at a limit on time or memory
 
-    def after_a_timeout(self) -> "StepLimits":
-        """Two programs may hang for their whole time; those after them must do with a quarter, as others wait."""
+    def after_a_stop(self) -> "StepLimits":
+        """Two programs may run into a limit, on time or on memory; those after them must do with a quarter of the
+        time, as others wait."""
         less = min(self.seconds, max(LEAST_SECONDS, self.seconds / 4))
-        return replace(self, hangs=self.hangs + 1, seconds=less if self.hangs + 1 == PATIENT_HANGS else self.seconds)
+        return replace(self, stops=self.stops + 1, seconds=less if self.stops + 1 == PATIENT_STOPS else self.seconds)
 
     def of_tools(self) -> Limits:
         """For the compiler, the assembler and the linker."""
