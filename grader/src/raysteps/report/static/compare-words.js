@@ -80,7 +80,10 @@ function countWords({ wrong: seen, width, height }, counted) {
   const all = width * height;
   const percent = 100 * (counted ?? seen / all);
   const wrong = Math.round((percent / 100) * all);
-  const coarse = wrong === seen ? "" : " A picture that is mostly wrong is kept with fewer pixels and colours; your own check shows all of it.";
+  const coarse =
+    wrong === seen
+      ? ""
+      : " A picture that is mostly wrong is kept with fewer pixels and colours; your own check shows all of it.";
   return wrong
     ? `${wrong} of ${all} pixels differ (${percent < 0.01 ? "under 0.01" : percent.toFixed(2)} %) by more than ${compareTolerance} of 255.${coarse}`
     : `No difference: no pixel is more than ${compareTolerance} of 255 away.`;
