@@ -464,5 +464,5 @@ def test_a_picture_that_a_grader_made_coarse_says_so(open_page: OpenPage, tmp_pa
     page = open_page(_page(tmp_path, _element(tmp_path, "balls", _reference(), _mine(), share=0.25)))
     said = _ready(page).locator(".compare-count").inner_text()
     assert said.startswith("192 of 768 pixels differ (25.00 %)")
-    assert "coarser than it was" in said
+    assert "kept with fewer pixels" in said
     assert said.count("%") == 1
