@@ -83,7 +83,7 @@ def test_it_is_made_and_checked_in_an_empty_folder(
     told = _release(project, "--out", str(out), "--steps", "1-4", "--course", "Graphics 101")
     assert told.code == 0, told.stdout + told.stderr
     assert "4 steps, no solution in any file" in told.stdout
-    assert "of 55 points: ./raysteps grade-class submissions --out grades --only 1 2 3 4\n" in told.stdout
+    assert "of 55 points: ./raysteps grade-class submissions --out grades --only 1-4\n" in told.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["graphics-101"]
 
     table = tomllib.loads((out / "grader" / "pyproject.toml").read_text(encoding="utf-8"))
