@@ -2,7 +2,6 @@
 // Only the grader builds it, after a crash (grader/src/raysteps/grading/self_check.py).
 #include <cxxabi.h>
 #include <dlfcn.h>
-#include <sanitizer/common_interface_defs.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +16,8 @@ extern "C" const char* __asan_default_options() {
 }
 
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1:allow_addr2line=1"; }
+
+extern "C" void __sanitizer_print_stack_trace();  // its header is among a compiler's own, which not every tool finds
 
 /// In place of the runtime's own, which it goes on to: Catch2 catches what is thrown, and the stack is gone by then.
 extern "C" void __cxa_throw(void* thrown, std::type_info* type, void (*destroy)(void*)) {
