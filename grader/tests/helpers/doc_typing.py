@@ -127,12 +127,13 @@ class Typist:
         return root if root.is_dir() else copy_of(self.built, root).root
 
     def _students_kit(self, *, newer: bool) -> Path:
-        """The release that was made before, and beside it a newer one, unpacked and as a zip."""
+        """A release, and beside it a newer one, unpacked and as a zip."""
         folder = self.workshop.folder
         if not (folder / "course-2").is_dir():
+            for name, steps in (("graphics-101", "1-4"), ("course-2", "1-5")):  # whatever was typed last
+                words = ["release", "--out", f"../{name}", "--steps", steps, "--course", "Graphics 101"]
+                self._raysteps(words, self.workshop.kit.root)
             shutil.copytree(folder / "graphics-101", folder / "my-repository")
-            words = ["release", "--out", "../course-2", "--steps", "1-5", "--course", "Graphics 101"]
-            self._raysteps(words, self.workshop.kit.root)
             shutil.make_archive(str(folder / "course-2"), "zip", folder, "course-2")
         return folder / ("course-2" if newer else "graphics-101")
 
