@@ -1,4 +1,4 @@
-"""The line at which a student's own code crashed, found with sanitizers."""
+"""The line at which a student's own code crashed or hung, found with sanitizers."""
 
 import re
 from dataclasses import replace
@@ -11,7 +11,7 @@ from raysteps.course.manifest import Step
 from raysteps.grading import unit_tests
 from raysteps.grading.quick_look import QuickLook
 from raysteps.grading.self_check import name_crash
-from raysteps.grading.unit_tests import FIND_THE_LINE, crash_line, has_crashed
+from raysteps.grading.unit_tests import FIND_THE_LINE, crash_line, hang_line, has_crashed
 from raysteps.results.model import StepResult, TestResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
@@ -100,6 +100,37 @@ def test_a_crash_that_sanitizers_do_not_meet(kit: BuiltKit, step: Step, solved: 
     submission = Submission("somebody", {_ID: solved[_ID].encode()}, {})
     name_crash(kit.in_one_process(), submission, LimitsOnly(), lambda _: None, [found])
     assert found.tests == [test]
+
+
+def test_the_function_that_does_not_end_is_named(kit: BuiltKit, step: Step, solved: Sources) -> None:
+    """And not what it calls again and again."""
+    code = "for (std::size_t i = 0; i < surfaces.size() || i > 0;) { if (surfaces[i]->hit(ray)) { i = 0; } }"
+    source = solved[_ID].replace(_FIRST, f"{_FIRST}    {code}\n", 1)
+    line = source[: source.index(code)].count("\n") + 1
+    tests = [test for test, functions in kit.tests[_ID].items() if "closest_hit" in functions]
+    test = TestResult(tests[0], False, "It was stopped.", outcome="timeout")
+    found = StepResult(_ID, "failed", 0, 1, False, tests=[test])
+    said: list[str] = []
+    name_crash(kit.in_one_process(), Submission("a", {_ID: source.encode()}, {}), LimitsOnly(), said.append, [found])
+    expected = f"intersection.cpp, line {line}, in closest_hit: still at work when it was stopped."
+    assert test.message == f"It was stopped.\n{expected}"
+    assert said == [f"{_ID} did not end: looking for the line"]
+
+
+def test_what_did_not_return_has_no_end() -> None:
+    def stack(head: str, *frames: tuple[str, int]) -> str:
+        lines = [f"    #1 0x1 in raysteps::{name}(int) /k/shadows.cpp:{line}:3\n" for name, line in frames]
+        return f"{head}:\n    #0 0x1 in print_sample(int) /k/testing/crash_report.cpp:9:5\n{''.join(lines)}"
+
+    said = stack("still at work", ("hit", 4), ("is_lit", 8), ("light", 20))
+    said += stack("still at work", ("is_lit", 9), ("light", 20))
+    said += stack("not returned", ("is_lit", 5), ("light", 15))
+    expected = "shadows.cpp, lines 8 to 9, in is_lit: still at work when it was stopped."
+    assert hang_line(said, ["shadows.cpp"]) == expected
+    assert hang_line(said, ["shading.cpp"]) == ""
+    seen_elsewhere = stack("still at work", ("hit", 4)) + stack("not returned", ("is_lit", 5))
+    assert "shadows.cpp, line 5, in is_lit: " in hang_line(seen_elsewhere, ["shadows.cpp"])
+    assert hang_line(stack("still at work", ("hit", 4)), ["shadows.cpp"]) == ""
 
 
 _STACK = """\

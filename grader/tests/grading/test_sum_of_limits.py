@@ -62,7 +62,12 @@ def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Pat
 
     kit = cast(BuiltKit, None)  # nobody asks for the reference's pictures
     sandbox, limits, program = Eating(), limits_of(steps[0], {"seconds": 8.0}), Program(("tests",))
-    results = run_tests(sandbox, program, [f"test {number}" for number in range(20)], limits)
+    said: list[str] = []
+    results = run_tests(sandbox, program, [f"test {number}" for number in range(20)], limits, said.append)
+    assert said == [
+        "the tests were stopped; each runs by itself now",
+        *(f"stopped: test {number}" for number in range(6)),
+    ], "nobody waits in silence"
     assert sandbox.seconds == [8, 8, 2, 2, 2, 2, 2]
     assert len(results) == 20
     assert {result.outcome for result in results[:6]} == {"crashed" if why == "memory" else "timeout"}

@@ -16,7 +16,7 @@ from raysteps.course.manifest import Step
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
-from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, set_aside, tell_crash_line
+from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, has_hung, set_aside, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import Integration, Results, StepResult, Timing
@@ -113,13 +113,14 @@ def _draw_large(graders: Sequence[SelfCheckGrader], say: ProgressCallback) -> No
 def name_crash(
     kit: BuiltKit, submission: Submission, sandbox: Sandbox, say: ProgressCallback, found: Sequence[StepResult]
 ) -> None:
-    """The first test in which the student's own code crashed is run once more with sanitizers, and its message names
-    the line where they can. What they cost, only who crashes pays; what goes wrong here changes nothing."""
-    tests = {result.id: [test for test in result.tests if has_crashed(test)] for result in found}
+    """The first test in which the student's own code crashed, or else hung, is run once more with sanitizers, and its
+    message names the line where they can. What they cost, only who crashes pays; what goes wrong here changes nothing.
+    """
+    tests = {result.id: [*filter(has_crashed, result.tests), *filter(has_hung, result.tests)] for result in found}
     step = next((step for step in kit.steps if tests.get(step.id)), None)
     if step is None or sys.platform == "win32":
         return
-    say(f"{step.id} crashed: looking for the line")
+    say(f"{step.id} {'crashed' if has_crashed(tests[step.id][0]) else 'did not end'}: looking for the line")
     alone, limits = kit.has_reference, kit.limits_of(step)
     with suppress(RaystepsError, OSError), tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         work = GradingContext(kit.sanitized(), submission, sandbox, Path(folder), Path(folder))

@@ -208,7 +208,11 @@ class StepGrader:
 
     def _run_tests(self, program: Program) -> None:
         tests = self._work.kit.tests[self.step.id]
-        self._result.tests = run_tests(self._work.sandbox, program, list(tests), self._limits)
+
+        def say(text: str) -> None:
+            self._work.say(f"{self.step.id}: {text}")
+
+        self._result.tests = run_tests(self._work.sandbox, program, list(tests), self._limits, say)
         weights = test_weights(self.step, tests, self._unfinished)
         for test in self._result.tests:
             test.weight = weights[test.name]

@@ -3,8 +3,9 @@ are not written yet stand aside.
 """
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 
 from raysteps.common.text import in_seconds, join_and, printable, shorten
 from raysteps.course.manifest import Step
@@ -80,10 +81,18 @@ def _why_cut_short(ran: TaskResult) -> str:
     return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {FIND_THE_LINE}"
 
 
-def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: StepLimits) -> list[TestResult]:
-    """All test cases in one process; when that ends badly, each in a process of its own."""
+def run_tests(
+    sandbox: Sandbox,
+    program: Program,
+    names: Sequence[str],
+    limits: StepLimits,
+    say: Callable[[str], None] = lambda text: None,
+) -> list[TestResult]:
+    """All test cases in one process; when that ends badly, each in a process of its own. `say` hears of waits."""
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, names)
+    if ran.was_stopped:
+        say("the tests were stopped; each runs by itself now")
     limits = limits.after_a_stop() if ran.was_stopped else limits
     if together is not None:
         found = {case.name: _result(case) for case in together}
@@ -94,7 +103,9 @@ def run_tests(sandbox: Sandbox, program: Program, names: Sequence[str], limits: 
             results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
         else:
             results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
-            limits = limits.after_a_stop() if was_stopped(results[-1]) else limits
+            if was_stopped(results[-1]):
+                limits = limits.after_a_stop()
+                say(f"stopped: {name}")
     return results
 
 
@@ -107,16 +118,18 @@ def _is_out_of_memory(test: TestResult) -> bool:
     return test.outcome == "crashed" and test.message == _TOO_MUCH_MEMORY
 
 
-# The line at which a step crashes, by a program of the step that was compiled with sanitizers.
+# The line at which a step crashes or hangs, by a program of the step that was compiled with sanitizers.
 
 # A program may say anything, so each line is read in a time that grows with its length and no faster.
 _LONGEST_LINE = 2000  # of those that are searched for words
 _LONGEST_CAUSE = 4000  # characters of a report beside its stacks
 _MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
+_SECONDS_OF_A_HANG = 6.0  # of work, in which its stack is printed several times
 _ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
 _HEAD = re.compile(
     r"==\d+== *ERROR: AddressSanitizer:? (?P<error>.*)|.*: runtime error: (?P<undefined>.*)|thrown: (?P<thrown>.*)"
+    r"|(?P<running>still at work:)|(?P<stuck>not returned:)"
 )
 _FRAME = re.compile(r"\s*#\d+ 0x[0-9a-f]+ in ")
 _RULE = re.compile(r"Assertion '(.*)' failed")
@@ -145,18 +158,29 @@ _CAUSES = {
 class _Report:
     """What a sanitizer says, and the place in the student's files that is nearest to it."""
 
-    kind: str  # "error", "undefined" or "thrown"
+    kind: str  # "error", "undefined", "thrown", "running" or "stuck"
     text: str
     said: list[str] = field(default_factory=list)
-    frames: list[tuple[str, str]] = field(default_factory=list)  # functions in the student's files, and their places
+    frames: list["_Frame"] = field(default_factory=list)  # in the student's files, the innermost first
 
     @property
     def place(self) -> str:
         """The innermost; where a recursion has no end, the innermost that calls itself, and not what it called last."""
-        functions = [function for function, _ in self.frames]
+        functions = [frame.function for frame in self.frames]
         endless = "stack-overflow" in self.text
-        again = (place for function, place in self.frames if endless and functions.count(function) > 1)
-        return next(again, self.frames[0][1] if self.frames else "")
+        again = (frame.place for frame in self.frames if endless and functions.count(frame.function) > 1)
+        return next(again, self.frames[0].place if self.frames else "")
+
+
+@dataclass(frozen=True)
+class _Frame:
+    function: str
+    file: str
+    line: int
+
+    @property
+    def place(self) -> str:
+        return f"{self.file}, line {self.line}, in {self.function}"
 
 
 def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
@@ -175,7 +199,7 @@ def _reports(said: str, files: Collection[str]) -> Iterator[_Report]:
             at = place.search(line, start.end()) if start is not None else None
             if start is not None and at is not None:
                 function = _function_name(line[start.end() : at.start("file")].partition(" ")[0])
-                report.frames.append((function, f"{at['file']}, line {at['line']}, in {function}"))
+                report.frames.append(_Frame(function, at["file"], int(at["line"])))
             in_stack = in_stack and not (report.said and "#" in report.said[-1] and "#" not in line)
             report.said.append(line)
     if report is not None:
@@ -211,6 +235,11 @@ def has_crashed(test: TestResult) -> bool:
     return not test.waits_for and (test.outcome == "crashed" or test.expanded.startswith(THREW))
 
 
+def has_hung(test: TestResult) -> bool:
+    """Whether it was stopped in the middle."""
+    return not test.waits_for and test.outcome == "timeout" and test.message != _NOT_RUN
+
+
 def crash_line(said: str, files: Collection[str], *, threw: bool) -> str:
     """Where in these files a program crashed (`threw`: threw), and why, by what its sanitizers said; nothing where
     they do not say it."""
@@ -223,14 +252,31 @@ def crash_line(said: str, files: Collection[str], *, threw: bool) -> str:
     return ""
 
 
+def hang_line(said: str, files: Collection[str]) -> str:
+    """The innermost function of these files that did not return between the samples, and its lines in them."""
+    reports = list(_reports(said, files))
+    stuck = next((report.frames[0] for report in reports if report.kind == "stuck" and report.frames), None)
+    if stuck is None:
+        return ""
+    samples = [report.frames for report in reports if report.kind == "running"]
+    own = ([frame.line for frame in frames if frame.function == stuck.function][:1] for frames in samples)
+    lines = sorted(set(chain.from_iterable(own))) or [stuck.line]
+    words = f"line {lines[0]}" if len(lines) == 1 else f"lines {lines[0]} to {lines[-1]}"
+    return f"{stuck.file}, {words}, in {stuck.function}: still at work when it was stopped."
+
+
 def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
 ) -> bool:
-    """Runs a test that crashed once more, and says beside its message where that was, if anybody can tell."""
+    """Runs a test that crashed or hung once more, and says beside its message where that was, if anybody can tell."""
     slower = 1 if _is_out_of_memory(test) else _SLOWER  # what has no end comes to none with more time
-    patient = replace(limits, seconds=slower * limits.seconds, memory_mb=_ALL_MEMORY_MB)
+    seconds = _SECONDS_OF_A_HANG if test.outcome == "timeout" else slower * limits.seconds
+    patient = replace(limits, seconds=seconds, memory_mb=_ALL_MEMORY_MB)
     ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)
-    found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
+    if test.outcome == "timeout":
+        found = hang_line(ran.outcome.stderr, files)
+    else:
+        found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:
         test.message = f"{test.message.removesuffix(FIND_THE_LINE).strip()}\n{found}".strip()
     return bool(found)

@@ -45,8 +45,9 @@ Tests = Mapping[str, Mapping[str, Sequence[str]]]  # by step: its visible tests,
 
 _SANITIZERS = "-fsanitize=address,undefined"
 # Without vptr, which asks for names that a step may not ask for, and null, in which g++ 12 gives false alarms; a true
-# null access still stops at the address sanitizer.
-_SANITIZED = ("-O1", "-g", "-fno-omit-frame-pointer", "-D_GLIBCXX_ASSERTIONS", _SANITIZERS, "-fno-sanitize=vptr,null")
+# null access still stops at the address sanitizer. Each call is told of, to see which of them does not return.
+_CAREFUL = ("-O1", "-g", "-fno-omit-frame-pointer", "-D_GLIBCXX_ASSERTIONS", "-finstrument-functions")
+_SANITIZED = (*_CAREFUL, _SANITIZERS, "-fno-sanitize=vptr,null")
 
 Replaced: TypeAlias = frozenset[str]  # linker names of functions of one step
 NOTHING: Replaced = frozenset()
