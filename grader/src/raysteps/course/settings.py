@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from datetime import date, datetime
+from datetime import date, datetime, time
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated
@@ -12,11 +12,13 @@ from msgspec import Meta
 
 from raysteps.common.documents import Malformed, Text, convert, place_in_toml, read_toml
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.text import clean, did_you_mean
 from raysteps.course.project import Project
 
 FILE = "course.toml"
 PLACE = "RAYSTEPS_COURSE"  # names another file: a seed that is secret need not lie in a repository
 USUAL_SEED = 1
+_LONGEST = 80  # characters of what was found
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ _EXPECTED = {
     "term": "the name of the term, in one line",
     "steps": 'steps such as "1-4", a list of them, or a table with the day on which they are given out, such as '
     '"1-2" = 2026-10-12',
-    "points": 'a table of steps, each with its points, such as "02" = 25',
+    "points": 'a table of steps, each with its points (more than 0), such as "02" = 25',
     "seed": "a whole number from 0 to 999999999999999999",
     "late_policy": "the name of a file, or a table with its deadline and percent_per_day",
 }
@@ -91,20 +93,21 @@ def _path(project: Project) -> Path | None:
 def _refuse_wrong(key: str, value: object, name: str | None, text: str, path: Path) -> None:
     """`name`: of an entry in the table of that key."""
     try:
-        if key == "steps" and isinstance(value, datetime):
-            raise Malformed("a day has no time")
+        if key == "steps" and isinstance(value, datetime):  # a date, too, but a day has no time
+            raise Malformed("")
         convert({key: value if name is None else {name: value}}, _Table)
     except Malformed as error:
         where = place_in_toml(text, [key] if name is None else [key, name])
-        what = str(error).rpartition(": ")[2]
-        raise UsageError(f"{path}:{where}: {key}: expected {_EXPECTED[key]} ({what})") from error
+        found = clean(str(value) if isinstance(value, (date, time)) else repr(value), _LONGEST)
+        raise UsageError(f"{path}:{where}: {key}: expected {_EXPECTED[key]}; found {found}") from error
 
 
 def _refuse_wrong_keys(table: Mapping[str, object], text: str, path: Path) -> None:
     for key, value in table.items():
         if key not in _EXPECTED:
             where = place_in_toml(text, [key])
-            raise UsageError(f"{path}:{where}: unknown key '{key}'; known are {', '.join(_EXPECTED)}")
+            advice = did_you_mean(key, _EXPECTED) or f"; known are {', '.join(_EXPECTED)}"
+            raise UsageError(f"{path}:{where}: unknown key '{clean(key)}'{advice}")
         if key in ("steps", "points") and isinstance(value, dict):
             for name, inner in value.items():
                 _refuse_wrong(key, inner, name, text, path)
