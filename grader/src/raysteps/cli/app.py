@@ -64,6 +64,7 @@ COMMANDS = (
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),
+    Command("image", "a container image that grades, or one for students", "raysteps.cli.image"),
     Command("export", "for Gradescope, Classroom 50, Canvas and others", "raysteps.cli.export"),
     Command("demo", "one picture per step, and two sample submissions graded", "raysteps.cli.demo"),
     Command("gallery", "a page that walks through the steps in pictures", "raysteps.cli.gallery"),
