@@ -35,7 +35,7 @@ def checked_address(text: str, local: Path | None) -> str:
     this machine, the kit's with its solutions among them."""
     if _ADDRESS.fullmatch(text):
         return text
-    if local is not None and text and ":" not in text:
+    if local is not None and re.fullmatch(rf"{_WORD}(/{_PATH})?", text):
         place = (local / text).resolve()
         if place != local.resolve() and place.is_relative_to(local.resolve()) and place.is_dir():
             return str(place)
@@ -151,10 +151,9 @@ class Remotes:
         """The newest state, if it is another than the last one. It is there as a whole or not at all."""
         address = checked_address(text, self.local)
         mark, entry = self.folder / "commits" / name, self.entries / name
-        if entry.is_dir() and mark.is_file():
-            kept = mark.read_text(encoding="utf-8")
-            if kept == f"{address} {newest_commit(address, self.branch)}\n":
-                return
+        newest = f"{address} {newest_commit(address, self.branch)}\n"
+        if entry.is_dir() and mark.is_file() and mark.read_text(encoding="utf-8") == newest:
+            return
         with tempfile.TemporaryDirectory(prefix=_UNFINISHED, dir=self.folder) as place:
             store, new = Path(place) / "store", Path(place) / "entry"
             new.mkdir()
