@@ -122,11 +122,17 @@ def _copy(store: Path, commit: str, names: Collection[str], folder: Path) -> Non
         taken += 1
         if taken > _MAX_SOURCES:
             raise CannotFetch(f"it holds more than {_MAX_SOURCES} files that are called like steps")
-        pieces: list[bytes] = []
-        if int(size) <= MAX_SOURCE:
-            _git(["-C", store, "cat-file", "blob", found], cap=0, heard=pieces.append)
-        data = b"".join(pieces) if int(size) <= MAX_SOURCE else b" " * (MAX_SOURCE + 1)
+        data = _blob(store, found, int(size)) if int(size) <= MAX_SOURCE else b" " * (MAX_SOURCE + 1)
         write_bytes(folder.joinpath(*parts), data)
+
+
+def _blob(store: Path, found: str, size: int) -> bytes:
+    pieces: list[bytes] = []
+    _git(["-C", store, "cat-file", "blob", found], cap=0, heard=pieces.append)
+    data = b"".join(pieces)
+    if len(data) != size:
+        raise CannotFetch(f"{len(data)} bytes of a file came, and {size} were expected")
+    return data
 
 
 # One entry for each repository.
