@@ -26,6 +26,7 @@ from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
 from raysteps.results.class_model import ClassResults, GradedStep, GradedSubmission, Student
 from raysteps.results.model import Results
+from raysteps.results.settings import Feedback
 from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import stored_results
 
@@ -86,9 +87,15 @@ def steps_of(graded: Sequence[GradedStep]) -> list[Step]:
 
 
 def write_submission(
-    database: ClassDatabase, out: Path, one: GradedSubmission, course: str, steps: Sequence[Step]
+    database: ClassDatabase,
+    out: Path,
+    one: GradedSubmission,
+    course: str,
+    steps: Sequence[Step],
+    feedback: Feedback | None = None,
 ) -> None:
-    """The result that counts. Of a fault there is only fault.txt. `course` and `steps` are the run's."""
+    """The result that counts. Of a fault there is only fault.txt. `course` and `steps` are the run's, and so is how
+    much it tells, where nothing else is said."""
     name = one.name
     row = database.current(name)
     folder = out / SUBMISSIONS / name
@@ -103,7 +110,7 @@ def write_submission(
         return
     results = None
     if stored is not None:
-        told = withhold(stored, database.feedback())
+        told = withhold(stored, feedback or database.feedback())
         results = replace(told, course=course, handed_in=hand_in(one))
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(results, files)

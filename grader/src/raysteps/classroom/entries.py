@@ -29,6 +29,10 @@ class Entry:
     label: str
 
 
+class NoSubmission(UsageError):
+    """Nobody has handed anything in."""
+
+
 @dataclass(frozen=True)
 class Listing:
     """What a folder holds."""
@@ -86,7 +90,7 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
         else:
             entries.append(Entry(path, label))
     if not entries:
-        raise UsageError(f"{folder}: holds no submission; expected one folder, zip or tar per submission")
+        raise NoSubmission(f"{folder}: holds no submission; expected one folder, zip or tar per submission")
     return Listing(entries, ignored)
 
 

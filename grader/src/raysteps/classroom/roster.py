@@ -25,6 +25,7 @@ _HEADERS = {
     "last": ("lastname", "surname", "familyname", "last", "nachname"),
     "email": ("email", "emailaddress", "mail"),
     "submission": ("submission", "entry", "file", "filename", "folder", "archive"),
+    "repository": ("repository", "repositoryurl", "studentrepositoryurl", "repo", "repourl", "giturl"),
     "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
 _MAX_BYTES = 16 << 20
@@ -40,6 +41,7 @@ class Student:
     email: str
     submission: str = ""
     submitted_at: str = ""  # ISO 8601, with a time zone where the roster has one
+    repository: str = ""  # for `nightly`
 
     @property
     def shown(self) -> str:
@@ -122,6 +124,7 @@ def read_roster(path: Path) -> list[Student]:
             cells.get("email", ""),
             cells.get("submission", ""),
             _time(cells.get("submitted_at", ""), f"{path}:{line}"),
+            cells.get("repository", ""),
         )
         if not student.shown:
             raise UsageError(f"{path}:{line}: expected an id, a name or an email address")

@@ -249,12 +249,12 @@ class Plan:
         return [entry for entry in self.listing.entries if self.options.shard.holds(entry.label)]
 
 
-def make_plan(project: Project, options: ClassOptions) -> Plan:
-    """Everything that can be wrong with the inputs is found here."""
+def make_plan(project: Project, options: ClassOptions, given: RunInputs | None = None) -> Plan:
+    """Everything that can be wrong with the inputs is found here. `given`: what was read already."""
     check_places(options.folder, options.out, resume=options.resume)
     steps = read_steps(project)
     chosen = chosen_steps(project, options.only)
-    given = read_run_inputs(options)
+    given = read_run_inputs(options) if given is None else given
     listing = list_entries(options.folder, given.files)
     matches = match([entry.label for entry in listing.entries], given.students)
     return Plan(options, steps, chosen, listing, given, matches)

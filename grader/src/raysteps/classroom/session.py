@@ -3,8 +3,9 @@
 import hashlib
 import json
 import signal
+import sqlite3
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
@@ -14,7 +15,7 @@ from typing import Protocol
 from raysteps.classroom.class_document import Standings
 from raysteps.classroom.class_files import steps_of, withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.entries import load_entry
+from raysteps.classroom.entries import Entry, load_entry
 from raysteps.classroom.jobs import GAVE_UP, Answer, Job
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
@@ -34,6 +35,16 @@ def submission_key(submission: Submission, kit: str, settings: Settings) -> str:
     parts = [submission.name, sources, submission.notes, submission.remarks, kit, asdict(settings)]
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True)
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def holds(current: sqlite3.Row | None, key: str, *, require_sandbox: bool) -> bool:
+    """Whether the result that counts for a submission needs no other one."""
+    if current is None or current["key"] != key:
+        return False
+    if current["status"] == "fault":
+        return str(current["fault"]).startswith(GAVE_UP)
+    results = stored_results(current["document"])
+    return results is not None and (results.isolation.strong or not require_sandbox)
 
 
 # What Ctrl-C and SIGTERM do while a class is graded.
@@ -99,6 +110,9 @@ class Session:
     run: int
     names: dict[str, str]
     learn: Callable[[], None] = lambda: None  # called when the first job is due
+    entries: Sequence[Entry] | None = None  # those to grade, in this order; all of the plan when not said
+    is_whole: Callable[[Entry], bool] = lambda entry: True  # asked once an entry was read: it may be changing
+    told: Callable[[Answer], None] = lambda answer: None  # of each result that was kept
     reused: list[str] = field(default_factory=list)
     recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
@@ -115,15 +129,19 @@ class Session:
     def _jobs(self) -> Iterator[Job]:
         """Read only when it is their turn: a whole class need not fit into memory."""
         has_learned = False
-        for entry in self.plan.mine():
+        for entry in self.plan.mine() if self.entries is None else self.entries:
             name = self.names[entry.label]
             try:
                 taken = load_entry(name, entry.path, self.plan.steps)
             except GraderFault as fault:
                 self._record(Answer(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
                 continue
+            if not self.is_whole(entry):
+                self.meter.skip()
+                continue
             key = submission_key(taken.submission, self.kit, self.plan.grading)
-            if self.plan.options.resume and self._is_done(name, key):
+            require = self.plan.options.require_sandbox
+            if self.plan.options.resume and holds(self.database.current(name), key, require_sandbox=require):
                 self.reused.append(name)
                 self.meter.skip()
                 continue
@@ -136,15 +154,6 @@ class Session:
                 taken.submission, self.plan.grading, options.grader, self.kit, options.require_sandbox, self.plan.uid
             )
 
-    def _is_done(self, name: str, key: str) -> bool:
-        current = self.database.current(name)
-        if current is None or current["key"] != key:
-            return False
-        if current["status"] == "fault":
-            return str(current["fault"]).startswith(GAVE_UP)
-        results = stored_results(current["document"])
-        return results is not None and (results.isolation.strong or not self.plan.options.require_sandbox)
-
     def _record(self, answer: Answer, pending: _Pending) -> None:
         if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
             if not self.recorded:
@@ -155,6 +164,7 @@ class Session:
             total = answer.results.total if answer.results is not None else None
             points = total_words(total) if total else f"FAULT: {first_line(answer.fault)}"
             self.meter.count(answer.name, points)
+            self.told(answer)
 
     def grade(self, runner: Runner) -> bool:
         """Whether it came to its end; what was graded until then is kept either way."""

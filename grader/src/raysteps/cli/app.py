@@ -62,8 +62,10 @@ COMMANDS = (
     Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade", supervised=True),
     Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
+    Command("nightly", "grade as work comes in, a few times a day for each student", "raysteps.cli.nightly"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),
+    Command("image", "a container image that grades, or one for students", "raysteps.cli.image"),
     Command("export", "for Gradescope, Classroom 50, Canvas and others", "raysteps.cli.export"),
     Command("demo", "one picture per step, and two sample submissions graded", "raysteps.cli.demo"),
     Command("gallery", "a page that walks through the steps in pictures", "raysteps.cli.gallery"),
@@ -76,8 +78,8 @@ COMMANDS = (
 
 
 # What a students' kit has in their place; else what there is.
-_INSTEAD = {"grade": "check", "grade-class": "check", "learn": "check", "replay": "check", "test": "check",
-            "leaderboard": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
+_INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn": "check", "replay": "check",
+            "test": "check", "leaderboard": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
 
 
 def _no_such_command(project: Project, word: str) -> str:

@@ -4,6 +4,7 @@ import argparse
 import hashlib
 import os
 import re
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -103,6 +104,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     return exit_code(grade(project, options, console))
 
 
+def _room(project: Project) -> Path:
+    """For locks, and for results that nobody named a folder for: the kit's, or where it may only be read, as in an
+    image, one that goes away with the container."""
+    place = project.build if project.build.exists() else project.root
+    return project.build if os.access(place, os.W_OK) else Path(tempfile.gettempdir()) / "raysteps"
+
+
 def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
 
@@ -112,9 +120,10 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
 
     course = read_course(project).name
     sandbox = find_sandbox(require=options.require_sandbox)
-    out = (options.out or project.build / "grade" / submission_name(options.submission)).resolve()
+    room = _room(project)
+    out = (options.out or room / "grade" / submission_name(options.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
-    with console.status("starting") as status, one_at_a_time(project.build / "locks" / lock):
+    with console.status("starting") as status, one_at_a_time(room / "locks" / lock):
         say = progress(console, status)
         submission = load_submission(options.submission, read_steps(project))
         kit = build_kit(project, say)

@@ -28,6 +28,7 @@ from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
 from raysteps.results.class_model import ClassResults
+from raysteps.results.settings import Feedback
 from raysteps.toolchain.limits import LIMIT_HELP, parse_limits
 
 # The words after `grade-class`.
@@ -36,14 +37,11 @@ _NO_COURSE = Course()
 _NONE = "none"  # instead of a file: without one, also where the last run had one
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What may follow `grade-class`."""
+def add_grading_arguments(parser: argparse.ArgumentParser, feedback: Feedback) -> None:
+    """How each submission is graded, and whose it is: `nightly` takes these, too. `feedback` is the usual amount."""
     add = parser.add_argument
-    add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per submission")
-    add("--out", type=Path, required=True, metavar="OUT", help="where class.sqlite, results.csv and the rest go")
     add("--roster", metavar="CSV", help="the students: id, name, email, submission, submitted_at; or `none`")
     add("--jobs", type=int, metavar="N", help="submissions at a time (as many as there are processors)")
-    add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
     add("--only", "--steps", nargs="+", default=[], metavar="STEP", help=f"grade these steps only, {STEPS_HELP}")
     add(
         "--late-policy",
@@ -51,9 +49,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="deadline, grace, percent per day, extensions; or `none`",
     )
     add("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
-    add("--feedback", choices=["full", "diagnosis", "score"], default="full", help="how much results.json tells")
+    add(
+        "--feedback",
+        choices=["full", "diagnosis", "score"],
+        default=feedback,
+        help=f"how much results.json tells ({feedback})",
+    )
     add("--limit", action="append", default=[], metavar="NAME=VALUE", help=LIMIT_HELP)
     add("--require-sandbox", action="store_true", help="refuse to grade without a strong sandbox")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What may follow `grade-class`."""
+    add = parser.add_argument
+    add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per submission")
+    add("--out", type=Path, required=True, metavar="OUT", help="where class.sqlite, results.csv and the rest go")
+    add("--resume", action="store_true", help="grade only what is new or has changed, and what had a fault")
+    add_grading_arguments(parser, "full")
     add("--scheduler", default="", metavar="ADDRESS", help="grade on a Dask cluster, such as tcp://head:8786")
     add("--shard", default="1/1", metavar="i/n", help="grade only the i-th of n parts of the class")
     add(
@@ -140,7 +152,7 @@ def line_to_go_on(options: ClassOptions) -> str:
 
 
 @contextmanager
-def _only_one(out: Path) -> Iterator[None]:
+def only_one(out: Path) -> Iterator[None]:
     """Two runs into one folder would take each other's results for changes."""
     usable_folder(out)
     with (out / LOCK).open("a") as file:
@@ -215,7 +227,7 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
 
 
 def _merge(console: Console, folders: list[Path], out: Path) -> int:
-    with _only_one(out), telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
+    with only_one(out), telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
         missing, warnings = merge(folders, database)
         withdraw_tables(out)
         document = _finish(console, database, out)
@@ -234,7 +246,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
         refuse_beside_merge(arguments)
         return _merge(console, arguments.merge, arguments.out)
     plan = make_plan(project, read_options(arguments, grader, read_course(project)))
-    with _only_one(plan.options.out):
+    with only_one(plan.options.out):
         meter = ProgressMeter(console, len(plan.mine()))
         for words in plan.given.said:
             meter.say(words)

@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--course", metavar="NAME", help="for the README (that of course.toml, else Raysteps)")
 
 
-def _tell(console: Console, leaks: list[Leak]) -> bool:
+def tell(console: Console, leaks: list[Leak]) -> bool:
     for leak in leaks[:_MAX_SHOWN]:
         console.print(f"[red]leak[/red]  {escape(str(leak))}", highlight=False, soft_wrap=True)
     if len(leaks) > _MAX_SHOWN:
@@ -49,12 +49,12 @@ def refuse_inside(project: Project, out: Path) -> None:
         raise UsageError(f"{out}: lies in the kit's own folder; expected one elsewhere, such as ../{out.name}")
 
 
-def _check(secrets: Secrets, folder: Path, console: Console) -> int:
+def check(secrets: Secrets, folder: Path, console: Console) -> int:
     """0 only when all of the folder was searched, as all of it may be handed out."""
     if not folder.is_dir():
         raise UsageError(f"{folder}: expected the folder of a release")
     left_out = not_searched(folder)
-    leaks = _tell(console, find_leaks(secrets, folder, tried=True))
+    leaks = tell(console, find_leaks(secrets, folder, tried=True))
     if not leaks:
         console.print(f"No solution was found in {'what was searched' if left_out else 'it'}.")
     if left_out:
@@ -91,27 +91,23 @@ def line_to_grade(steps: list[Step], course: list[Step]) -> str:
     return f"{own_command()} {quote_command(['grade-class', 'submissions', '--out', 'grades', *only])}"
 
 
-def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
-    """0 when nothing leaks, else 1."""
-    if not project.has_reference:
-        raise UsageError("a students' kit cannot be released; expected the whole kit, with solutions/")
-    if arguments.check is not None:
-        return _check(gather(project), arguments.check, console)
-    named = (read_course(project).title or "Raysteps") if arguments.course is None else arguments.course
+def write(project: Project, names: list[str], course_name: str | None, target: Path, console: Console) -> list[Step]:
+    """The steps of the release that is now there; none where something leaks."""
+    named = (read_course(project).title or "Raysteps") if course_name is None else course_name
     course = named.strip()
     if "\n" in named or not course:
         raise UsageError("--course: expected a name of one line")
-    out = arguments.out.resolve()
+    out = target.resolve()
     refuse_inside(project, out)
     usable(out)
-    steps = _chosen(project, arguments.steps, console)
+    steps = _chosen(project, names, console)
     written_files(project, steps, course)  # what may not go out is told before anything is built
     secrets = gather(project)
     with console.status("starting") as status:
         say = progress(console, status)
 
         def leaks(folder: Path, history: Path) -> bool:
-            told = [_tell(console, find_leaks(secrets, folder)), _tell(console, leaks_in_history(secrets, history))]
+            told = [tell(console, find_leaks(secrets, folder)), tell(console, leaks_in_history(secrets, history))]
             if told[1]:
                 console.print(escape(f"{history}: its history tells this for good; name a new folder with --out"))
             return any(told)
@@ -119,8 +115,21 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         written = release(build_kit(project, say), steps, course, out, leaks, say)
     if not written:
         console.print("Nothing was written.")
+        return []
+    _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {target}")
+    return steps
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """0 when nothing leaks, else 1."""
+    if not project.has_reference:
+        raise UsageError("a students' kit cannot be released; expected the whole kit, with solutions/")
+    if arguments.check is not None:
+        return check(gather(project), arguments.check, console)
+    out = arguments.out.resolve()
+    steps = write(project, arguments.steps, arguments.course, arguments.out, console)
+    if not steps:
         return 1
-    _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {arguments.out}")
     worth = tenths(sum(step.points for step in steps if not step.bonus))
     bonus = tenths(sum(step.points for step in steps if step.bonus))
     more = f" and up to {bonus} more as a bonus" if any(step.bonus for step in steps) else ""

@@ -8,15 +8,20 @@ import tarfile
 import tomllib
 import zipfile
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, requires, version
 from importlib.resources import files
 from pathlib import Path, PurePosixPath
 
-from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV
+from raysteps import __version__
+from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV, Need
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder, write_bytes
 from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
+from raysteps.course.settings import FILE as COURSE
+from raysteps.course.settings import read_course
 from raysteps.course.tracked_files import places
 from raysteps.exports.autolab import no_scores
 from raysteps.exports.prairielearn import question_info, question_name, question_page
@@ -165,16 +170,99 @@ def autolab_tar(project: Project, options: Sequence[str], steps: Sequence[Step])
     )
 
 
+# Container images: one list of what is installed, and for those that hold a kit what comes on top of it.
+
+BASE = "docker.io/library/debian:bookworm-20250520-slim"  # a tag with a date is never moved
+_BUILDING = (COMPILER, CMAKE, NINJA, VENV, *LIBRARIES)
+_GRADING = (*_BUILDING, HIGHWAY, SANDBOX)
+_PACKERS = ("xz-utils",)  # what prepare.sh packs with
+
+
+def _name(line: str) -> str:
+    """Of the package in a line of requirements, as packages are compared."""
+    return re.sub(r"[-_.]+", "-", re.split(r"[^\w.-]", line)[0].lower())
+
+
+def _pins(project: Project, *extras: str) -> list[str]:
+    """What pyproject.toml pins, and of what that needs in turn the versions that are installed here."""
+    package = tomllib.loads((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    pinned = [*package["dependencies"], *(line for name in extras for line in package["optional-dependencies"][name])]
+    waiting = [_name(line) for line in pinned]
+    known: dict[str, str] = {}
+    while waiting:
+        name = waiting.pop()
+        if name not in known:
+            with suppress(PackageNotFoundError):  # for another system, or another Python
+                known[name] = f"{name}=={version(name)}"
+                waiting += [_name(line) for line in requires(name) or [] if "extra ==" not in line]
+    return pinned + sorted(known[name] for name in known.keys() - {_name(line) for line in pinned})
+
+
+def _installed(about: str, needs: Sequence[Need], more: Sequence[str], base: str, pins: Sequence[str]) -> list[Member]:
+    """Dockerfile and requirements.txt of an image without any file of the kit."""
+    packages = " ".join(sorted({*more, *(need.packages["apt-get"] for need in needs)}))
+    text = _template("Dockerfile").replace("@ABOUT@", about).replace("@BASE@", base).replace("@PACKAGES@", packages)
+    return [
+        Member("Dockerfile", text.encode()),
+        Member("requirements.txt", "".join(f"{line}\n" for line in pins).encode()),
+    ]
+
+
+_IGNORED = "# Nothing else is sent to the engine.\n*\n!kit\n!requirements.txt\n!setup.sh\n"
+
+
+def _with_kit(installed: Sequence[Member], title: str, folder: str, prepare: str) -> list[Member]:
+    """`folder` is where commands are typed; `prepare` are the lines that come after the kit was copied."""
+    dockerfile, *others = installed
+    text = _template("Dockerfile-kit").replace("@PREPARE@\n", prepare)
+    text = text.replace("@TITLE@", title).replace("@VERSION@", __version__).replace("@FOLDER@", folder)
+    whole = Member(dockerfile.name, dockerfile.data + text.encode())
+    return [whole, *others, Member(".dockerignore", _IGNORED.encode())]
+
+
+def _course(project: Project) -> list[Member]:
+    """course.toml and the late policy that it names, at the same places: a class is graded there as it is here."""
+    course = read_course(project)
+    if course.path is None:
+        return []
+    members = [Member(f"kit/{COURSE}", course.text.encode())]
+    if course.late_policy is not None:
+        try:
+            place = course.late_policy.resolve().relative_to(course.path.parent.resolve())
+            members.append(Member(f"kit/{place.as_posix()}", course.late_policy.read_bytes()))
+        except (OSError, ValueError) as error:
+            raise UsageError(
+                f"{course.place('late_policy')}: {course.late_policy} cannot go into an image; expected a file that "
+                "lies beside course.toml or below it"
+            ) from error
+    return members
+
+
+def grader_image(project: Project, base: str = BASE) -> list[Member]:
+    """What an image is built from that grades without a network. It holds the solutions, and course.toml."""
+    about = "Grades submissions of Raysteps. It holds the solutions: push it nowhere where students can pull it."
+    installed = _installed(about, _GRADING, (), base, _pins(project, "instructor"))
+    kit = [Member(f"kit/{file.place}", file.source.read_bytes(), file.executable) for file in kit_files(project)]
+    return [
+        *_with_kit(installed, "Raysteps, grader", "/work", _template("Dockerfile-grader")),
+        Member("setup.sh", _script("setup.sh"), executable=True),
+        *kit,
+        *_course(project),
+    ]
+
+
+def students_image(project: Project, base: str = BASE) -> list[Member]:
+    """The same for an image to work in. The students' kit is not among it: `release` writes it into the folder kit."""
+    about = "Builds and checks a student's own steps of Raysteps. It holds no solutions."
+    installed = _installed(about, _BUILDING, (), base, _pins(project))
+    return _with_kit(installed, "Raysteps, students' kit", "/opt/raysteps/kit", "")
+
+
 def _image(project: Project) -> list[Member]:
     """What the image for PrairieLearn is made from: nothing of the kit but the names of what it needs."""
-    needs = (COMPILER, CMAKE, NINJA, VENV, *LIBRARIES, HIGHWAY, SANDBOX)
-    packages = " ".join(sorted({"xz-utils", *(need.packages["apt-get"] for need in needs)}))
-    package = tomllib.loads((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    lines = [f"{line}\n" for line in (*package["dependencies"], *package["optional-dependencies"]["instructor"])]
-    return [
-        Member("image/Dockerfile", _template("Dockerfile").replace("@PACKAGES@", packages).encode()),
-        Member("image/requirements.txt", "".join(lines).encode()),
-    ]
+    about = "Grades on PrairieLearn: compilers and Python packages, and nothing of the kit, so it may be public."
+    made = _installed(about, _GRADING, _PACKERS, BASE, _pins(project, "instructor"))
+    return [Member(f"image/{member.name}", member.data) for member in made]
 
 
 def prairielearn_course(

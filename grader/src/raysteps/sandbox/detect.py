@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+import tempfile
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -76,9 +77,20 @@ def _asked_for() -> str:
     return choice
 
 
+def _refuse_noexec() -> None:
+    """What a student's compiler makes could not be run there, and no step would be to blame for that."""
+    folder = tempfile.gettempdir()
+    if sys.platform != "win32" and os.statvfs(folder).f_flag & getattr(os, "ST_NOEXEC", 0):
+        raise UsageError(
+            f"{folder}: is mounted so that no program there can be run (noexec). Expected a folder for temporary files "
+            "where programs run: set TMPDIR to one, or in a container give `--tmpfs /tmp:exec`"
+        )
+
+
 def find_sandbox(*, require: bool = False) -> Sandbox:
     """The strongest there is; with `require`, an error if it is not strong."""
     choice = _asked_for()
+    _refuse_noexec()
     _sweep_once()
     by_name = {"bubblewrap": [_bubblewrap], "fallback": [_fallback], "none": []}
     candidates = by_name.get(choice, [_bubblewrap, _fallback])

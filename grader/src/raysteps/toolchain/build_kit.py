@@ -7,6 +7,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
@@ -267,7 +268,8 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
         if not (folder / "kit.json").is_file():
             _build(project, steps, folder, say)
         if fingerprint(project) == mark:
-            os.utime(folder)
+            with suppress(OSError):  # of a kit that may only be read, as in an image
+                os.utime(folder)
             _forget_old(folder.parent)
             return _load(project, steps, folder)
     raise GraderFault("the kit's sources keep changing while it is built")

@@ -1,0 +1,317 @@
+"""Feedback while a course runs: what is graded now, how often a student gets feedback, and where it is put."""
+
+import hashlib
+import os
+import tempfile
+from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime, time, timedelta, tzinfo
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+from raysteps.classroom.class_document import Standings
+from raysteps.classroom.class_files import SUBMISSIONS, steps_of, write_submission
+from raysteps.classroom.database import ClassDatabase, insert, transaction
+from raysteps.classroom.entries import Entry, load_entry
+from raysteps.classroom.entry_names import folded
+from raysteps.classroom.jobs import Answer
+from raysteps.classroom.run_plan import Plan
+from raysteps.classroom.session import holds, submission_key
+from raysteps.common.errors import GraderFault
+from raysteps.common.files import write_if_changed
+from raysteps.report.student import REPORT
+from raysteps.results.settings import Feedback, Settings
+
+# How many feedbacks a day has, and when it begins.
+
+
+def shown(moment: datetime) -> str:
+    return moment.isoformat(sep=" ", timespec="minutes")
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """A day is that of the course, also where the clocks change in it."""
+
+    per_day: int
+    zone: tzinfo
+
+    def _midnight(self, now: datetime, days: int) -> datetime:
+        return datetime.combine(now.astimezone(self.zone).date() + timedelta(days), time(), self.zone)
+
+    def day_began(self, now: datetime) -> datetime:
+        return self._midnight(now, 0)
+
+    def next_day(self, now: datetime) -> datetime:
+        return self._midnight(now, 1)
+
+
+# What was given, in the database of the class.
+
+_TABLE = """
+CREATE TABLE IF NOT EXISTS feedback_given (
+    submission INTEGER NOT NULL REFERENCES submissions (id),
+    run INTEGER NOT NULL REFERENCES runs (number),
+    student TEXT NOT NULL,   -- the id, else the email address, else the name; without a roster the submission's name
+    work TEXT NOT NULL,      -- digest of what was handed in
+    counts INTEGER NOT NULL, -- whether it took one of the day's
+    given_at TEXT NOT NULL,  -- in UTC
+    PRIMARY KEY (submission, run, student)
+)
+"""
+_A_DAY = timedelta(days=1)
+
+
+def _stamp(moment: datetime) -> str:
+    return moment.astimezone(UTC).isoformat(timespec="microseconds")
+
+
+@dataclass(frozen=True)
+class Given:
+    """The last feedback on a submission."""
+
+    run: int
+    work: str
+    at: datetime
+
+
+class FeedbackLog:
+    """Who was given what."""
+
+    def __init__(self, database: ClassDatabase) -> None:
+        self._connection = database.connection
+        self._connection.execute(_TABLE)
+
+    def last(self, name: str) -> Given | None:
+        row = self._connection.execute(
+            "SELECT run, work, given_at FROM feedback_given JOIN submissions ON submissions.id = submission "
+            "WHERE name = ? ORDER BY run DESC LIMIT 1",
+            (name,),
+        ).fetchone()
+        return Given(row["run"], row["work"], datetime.fromisoformat(row["given_at"])) if row is not None else None
+
+    def used(self, students: Collection[str], since: datetime) -> Counter[str]:
+        """How many each has had. What a clock that was set back since has dated later counts as well."""
+        rows = self._connection.execute(
+            "SELECT student, sum(counts) AS amount FROM feedback_given WHERE given_at >= ? GROUP BY student",
+            (_stamp(since),),
+        )
+        return Counter({row["student"]: row["amount"] for row in rows if row["student"] in students})
+
+    def add(self, name: str, run: int, students: Collection[str], work: str, now: datetime, *, counts: bool) -> None:
+        with transaction(self._connection):
+            (submission,) = self._connection.execute("SELECT id FROM submissions WHERE name = ?", (name,)).fetchone()
+            row = {"submission": submission, "run": run, "work": work, "counts": counts, "given_at": _stamp(now)}
+            for student in students:
+                insert(self._connection, "feedback_given", {**row, "student": student}, "ON CONFLICT DO NOTHING")
+
+    def mend_clock(self, now: datetime) -> None:
+        """What is dated more than a day ahead, by a clock that was wrong, counts from now: else it would count for as
+        long as the clock was ahead."""
+        late = (_stamp(now), _stamp(now + _A_DAY))
+        self._connection.execute("UPDATE feedback_given SET given_at = ? WHERE given_at > ?", late)
+
+
+# Whether an entry is still being uploaded.
+
+_MAX_FILES = 20_000
+
+
+def signature(path: Path) -> str:
+    """Changes with everything that is written into an entry; nothing where it is gone."""
+    digest = hashlib.sha256()
+    seen = 0
+    try:
+        digest.update(repr(_facts(path)).encode())
+        for folder, folders, files in os.walk(path):
+            folders.sort()
+            for name in sorted(files) + folders:
+                digest.update(f"{os.fsencode(os.path.join(folder, name))!r} {_facts(Path(folder, name))}".encode())  # noqa: PTH118
+                seen += 1
+            if seen > _MAX_FILES:
+                break
+    except OSError:
+        return ""
+    return digest.hexdigest()
+
+
+def _facts(path: Path) -> tuple[int, ...]:
+    found = path.lstat()
+    return (found.st_mode, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
+
+
+def signatures(entries: Sequence[Entry]) -> dict[str, str]:
+    return {entry.label: signature(entry.path) for entry in entries}
+
+
+# What becomes of each entry in one round.
+
+State = Literal["grade", "give", "given", "waiting", "changing", "nobody", "failed"]
+_MAX_FAULTS = 3  # of the grader with one state of a submission, on one day
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is to be done with an entry. `counts`: whether that takes one of the day's feedbacks."""
+
+    entry: Entry
+    name: str
+    state: State
+    students: tuple[str, ...] = ()
+    work: str = ""
+    counts: bool = False
+    seconds: float = 0.0  # that it took the last time
+
+
+@dataclass
+class Round:
+    """One look at the class, and what follows from it. `before` are the signatures of an earlier look."""
+
+    plan: Plan
+    kit: str
+    database: ClassDatabase
+    names: dict[str, str]
+    allowance: Allowance
+    now: datetime
+    before: dict[str, str]
+    folder: Path  # of what is given
+    feedback: Feedback
+    say: Callable[[str], None]
+    given: list[str] = field(default_factory=list)
+    _reserved: Counter[str] = field(default_factory=Counter)
+
+    def __post_init__(self) -> None:
+        self.log = FeedbackLog(self.database)
+        self.log.mend_clock(self.now)
+
+    @cached_property
+    def _owners(self) -> dict[str, tuple[str, ...]]:
+        """The students of an entry, by its label."""
+        owners: dict[str, list[str]] = defaultdict(list)
+        for at, number in self.plan.matches.pairs:
+            student = self.plan.students[number]
+            owners[self.plan.listing.entries[at].label].append(folded(student.id or student.email or student.name))
+        return {label: tuple(dict.fromkeys(students)) for label, students in owners.items()}
+
+    def is_whole(self, entry: Entry) -> bool:
+        """Whether nothing was written into it since the earlier look."""
+        now = signature(entry.path)
+        return now != "" and now == self.before.get(entry.label)
+
+    @cached_property
+    def looks(self) -> list[Look]:
+        """Those to be graded that took long the last time come last: nobody else waits for them."""
+        return sorted(map(self._look, self.plan.mine()), key=lambda look: look.seconds)
+
+    def _look(self, entry: Entry) -> Look:
+        name = self.names[entry.label]
+        students = self._owners.get(entry.label, () if self.plan.students else (name,))
+        if not students:
+            return Look(entry, name, "nobody")
+        if not self.is_whole(entry):
+            return Look(entry, name, "changing", students)
+        work = key = ""
+        unreadable = False
+        try:
+            taken = load_entry(name, entry.path, self.plan.steps)
+            key = submission_key(taken.submission, self.kit, self.plan.grading)
+            work = submission_key(taken.submission, "", Settings())
+            unreadable = taken.unreadable
+        except GraderFault:
+            pass  # the session meets it again, and keeps it as a fault
+        if not self.is_whole(entry):
+            return Look(entry, name, "changing", students)
+        return self._judged(entry, name, students, key, work, unreadable=unreadable)
+
+    def _judged(
+        self, entry: Entry, name: str, students: tuple[str, ...], key: str, work: str, *, unreadable: bool
+    ) -> Look:
+        current, last = self.database.current(name), self.log.last(name)
+        done = holds(current, key, require_sandbox=self.plan.options.require_sandbox)
+        seconds = current["seconds"] if current is not None else 0.0
+        state: State = "give" if done else "grade"
+        if current is not None and done and last is not None and last.run == current["run"]:
+            return Look(entry, name, "given", students, work)
+        is_fault = current is not None and current["status"] == "fault"
+        if is_fault and (done or self._faults(name, key) >= _MAX_FAULTS):
+            return Look(entry, name, "failed", students, work)
+        # What a student has not changed, or what told nothing, takes no feedback.
+        counts = not unreadable and (last is None or last.work != work)
+        if counts:
+            had = self.log.used(students, self.allowance.day_began(self.now)) + self._reserved
+            if any(had[student] >= self.allowance.per_day for student in students):
+                return Look(entry, name, "waiting", students, work)
+            self._reserved.update(students)
+        return Look(entry, name, state, students, work, counts, seconds)
+
+    def _faults(self, name: str, key: str) -> int:
+        since = self.allowance.day_began(self.now).astimezone(UTC).isoformat(timespec="seconds")
+        (amount,) = self.database.connection.execute(
+            "SELECT count(*) FROM results JOIN submissions ON submissions.id = submission "
+            "WHERE name = ? AND key = ? AND status = 'fault' AND finished_at >= ?",
+            (name, key, since),
+        ).fetchone()
+        return int(amount)
+
+    def told(self, answer: Answer) -> None:
+        """A result is there: it is given at once."""
+        look = next(look for look in self.looks if look.name == answer.name)
+        if answer.status == "graded" and look.state == "grade":
+            self.give(look)
+
+    def give(self, look: Look) -> None:
+        """The page is there before it counts: whoever is killed in between gives it again."""
+        standings = Standings(self.database)
+        one = standings.named(look.name)
+        with tempfile.TemporaryDirectory(prefix="raysteps-class-") as place:
+            steps = steps_of(standings.steps)
+            write_submission(self.database, Path(place), one, standings.course, steps, self.feedback)
+            page = Path(place) / SUBMISSIONS / look.name / REPORT
+            if not page.is_file() or one.run is None:
+                self.say(f"{look.name}: there is no page to give")
+                return
+            write_if_changed(self.folder / look.name / REPORT, page.read_bytes())
+        self.log.add(look.name, one.run, look.students, look.work, self.now, counts=look.counts)
+        self.given.append(look.name)
+
+    def write_statuses(self) -> None:
+        """Beside each page what may be expected next."""
+        for look in self.looks:
+            if look.students:
+                write_if_changed(self.folder / look.name / STATUS, self._words(look).encode())
+
+    def _words(self, look: Look) -> str:
+        last = self.log.last(look.name)
+        used = max(self.log.used(look.students, self.allowance.day_began(self.now)).values(), default=0)
+        most, later = self.allowance.per_day, shown(self.allowance.next_day(self.now))
+        lines = []
+        if last is not None:
+            lines.append(f"{REPORT} tells of what was there on {shown(last.at.astimezone(self.allowance.zone))}.")
+        lines.append(f"Feedback today: {used} of {most}.")
+        current = self.database.current(look.name)
+        failed = look.state == "failed" or (
+            look.state == "grade"
+            and look.name not in self.given
+            and current is not None
+            and current["status"] == "fault"
+        )
+        if look.state == "waiting":
+            lines.append(
+                f"Something was changed since. It is graded from {later} on, as it is then: what lies between is not "
+                "looked at."
+            )
+        elif look.state == "changing":
+            lines.append("Something is being uploaded. It is graded when it stays the same from one look to the next.")
+        elif failed:
+            lines.append(
+                "The grader itself failed with what is there now. That takes no feedback and no points; your "
+                "instructors see it."
+            )
+        elif used >= most:
+            lines.append(f"The next feedback is possible from {later} on.")
+        return "\n".join(lines) + "\n"
+
+
+STATUS = "status.txt"
