@@ -3,14 +3,13 @@
 import argparse
 import os
 import shlex
-from collections.abc import Container, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import closing, contextmanager
 from decimal import Decimal
 from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.cluster import Cluster
 from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
@@ -153,9 +152,8 @@ def _only_one(out: Path) -> Iterator[None]:
         yield
 
 
-def _finish(console: Console, database: ClassDatabase, out: Path, done: Container[str] = ()) -> ClassResults:
-    document = class_document(database)
-    write_class(database, out, document, done)
+def _finish(console: Console, database: ClassDatabase, out: Path, done: Collection[str] = ()) -> ClassResults:
+    document = write_class(database, out, done)
     print_summary(console, document, out)
     return document
 
