@@ -128,10 +128,12 @@ def all_annotations(database: ClassDatabase) -> list[tuple[str, Annotation]]:
     return [(row["entry"], _annotation(row)) for row in rows]
 
 
-def annotated(database: ClassDatabase) -> set[str]:
-    """Names of submissions about which anything was ever said."""
+def annotated(database: ClassDatabase, since: int = 0) -> set[str]:
+    """Names of submissions about which anything was said after that row."""
     rows = database.connection.execute(
-        "SELECT DISTINCT name FROM annotations JOIN submissions ON submissions.id = annotations.submission"
+        "SELECT DISTINCT name FROM annotations JOIN submissions ON submissions.id = annotations.submission "
+        "WHERE serial > ?",
+        (since,),
     )
     return {row["name"] for row in rows}
 

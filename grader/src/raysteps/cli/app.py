@@ -62,6 +62,7 @@ COMMANDS = (
     Command("grade", "grade a submission: a folder, zip or tar", "raysteps.cli.grade", supervised=True),
     Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
+    Command("desk", "read a graded class: comment, change points, answer", "raysteps.cli.desk"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),
     Command("export", "for Gradescope, Classroom 50, Canvas and others", "raysteps.cli.export"),
@@ -77,7 +78,7 @@ COMMANDS = (
 
 # What a students' kit has in their place; else what there is.
 _INSTEAD = {"grade": "check", "grade-class": "check", "learn": "check", "replay": "check", "test": "check",
-            "leaderboard": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
+            "leaderboard": "report", "desk": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
 
 
 def _no_such_command(project: Project, word: str) -> str:

@@ -21,7 +21,7 @@ from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan
 from raysteps.classroom.session import Runner, Session, terminated_as_interrupted
 from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import try_lock, usable_folder
+from raysteps.common.files import try_lock, usable_folder, wait_for_lock
 from raysteps.common.platform import refuse_on_windows
 from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
@@ -145,6 +145,9 @@ def _only_one(out: Path) -> Iterator[None]:
     with (out / LOCK).open("a") as file:
         try:
             is_ours = try_lock(file.fileno())
+            if not is_ours and try_lock(file.fileno(), shared=True):  # only a desk writes, which soon is done
+                wait_for_lock(file.fileno())
+                is_ours = True
         except OSError:
             is_ours = True  # a file system without locks
         if not is_ours:
