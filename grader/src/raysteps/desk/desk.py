@@ -5,38 +5,34 @@ import sqlite3
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from raysteps.classroom.annotations import (
     Annotation,
     AnnotationConflict,
-    Kind,
     Thread,
-    annotate,
     annotations_of,
     code_mark,
     latest_serial,
-    new_annotation,
     threads,
     written_serial,
 )
 from raysteps.classroom.class_document import Standings, read_class_document
 from raysteps.classroom.database import FILE, ClassDatabase, Source, telling_of
-from raysteps.classroom.review import item_words, line_now, review_results
+from raysteps.classroom.review import line_now, review_results
 from raysteps.common.documents import Malformed, convert, plain
 from raysteps.common.errors import RaystepsError, UsageError
 from raysteps.common.local_server import HTML, JSON, LocalHandler, LocalServer
 from raysteps.common.text import clean, number, plain_letters, printable
 from raysteps.course.manifest import Step
 from raysteps.desk.file_writer import FileWriter, check_folder
+from raysteps.desk.said import Said, Scribe
 from raysteps.report.class_page import STATUSES, found_by, who_and_more
 from raysteps.report.page import PictureData, picture_of, render_page
 from raysteps.report.student import ShownImage, parts_of, parts_that_count, step_view
 from raysteps.results.class_model import GradedSubmission
 from raysteps.results.model import Results, StepResult
-from raysteps.results.review import Part
 from raysteps.results.store import stored_results
 
 _CODE_LINES = 20_000
@@ -45,23 +41,6 @@ _MAX_BODY = 1 << 20
 
 Row = dict[str, Any]
 View = dict[str, Any]
-
-
-@dataclass(frozen=True)
-class Said:
-    """What the page sends: what somebody wants to have written. `after`: the last row about it that the page knew."""
-
-    kind: Kind
-    author: str
-    subject: str = ""
-    after: str = ""
-    step: str = ""
-    part: Part = ""
-    line: int = 0
-    text: str = ""
-    answer: str = ""
-    points: float = 0.0
-    withdrawn: bool = False
 
 
 # The table.
@@ -345,70 +324,9 @@ class Desk:
         except Malformed as error:
             raise UsageError(str(error)) from error
         with self._lock:
-            annotate(self._database, name, self._annotation(name, said), after=said.after)
+            Scribe(self._database, name).write(said)
         self.writer.call()
         return self.submission(name)
-
-    def _annotation(self, name: str, said: Said) -> Annotation:
-        current = self._database.current(name)
-        sources: dict[str, Source] = {}
-        if current is not None:
-            sources = self._database.sources(current["submission"], current["run"])
-        more: dict[str, Any] = {
-            key: value for key, value in asdict(said).items() if key not in ("kind", "author", "after")
-        }
-        source = sources.get(said.step)
-        before = self._last(current, said.subject)
-        if before is not None and said.kind in ("comment", "request"):  # it stays where it is
-            more |= {key: getattr(before, key) for key in ("step", "line", "line_text", "source")}
-        elif said.kind == "read":
-            more["source"] = code_mark(sources, current["run"] if current is not None else None)
-        elif source is not None and said.kind == "comment":
-            more |= {"source": source.sha256, "line_text": self._line(source, said.line)}
-        if said.kind == "points":
-            more["automatic"] = self._automatic(current, said)
-        try:
-            return new_annotation(said.kind, said.author, **more)
-        except Malformed as error:
-            raise UsageError(str(error)) from error
-
-    def _last(self, current: sqlite3.Row | None, subject: str) -> Annotation | None:
-        """What held about it until now."""
-        if current is None or not subject:
-            return None
-        found = threads(annotations_of(self._database, current["submission"]))
-        return next((thread.last for thread in found if thread.last.subject == subject), None)
-
-    def _line(self, source: Source, line: int) -> str:
-        if not line:
-            return ""
-        if not 0 < line <= len(source.lines):
-            raise UsageError(f"line {line}: the file has {len(source.lines)} lines")
-        return source.lines[line - 1][:_CODE_LINE]
-
-    def _automatic(self, current: sqlite3.Row | None, said: Said) -> float:
-        """What the grader gives for the item; also whether there is such an item."""
-        results = stored_results(current["document"]) if current is not None else None
-        if results is None:
-            raise UsageError("points: there is no result whose points could be changed")
-        if not said.step:
-            return results.total.points
-        step = next((step for step in results.steps if step.id == said.step), None)
-        if step is None:
-            raise UsageError(f"step: {said.step} was not graded")
-        most, automatic = step.max, step.points
-        if said.part:
-            manifest = next((one for one in self._current().manifests if one.id == said.step), None)
-            part = next((part for part in parts_of(step, manifest) if part.name == said.part), None)
-            if part is None:
-                raise UsageError(f"part: step {said.step[:2]} has no points for {said.part}")
-            most, automatic = part.most, part.earned
-        if said.points > most and not said.withdrawn:
-            raise UsageError(
-                f"points: {item_words(said.step, said.part)} has at most {number(most)}; "
-                "more can be given for the submission as a whole"
-            )
-        return automatic
 
 
 class DeskServer(LocalServer):

@@ -54,6 +54,7 @@ class Row:
     final: str
     seconds: str
     marks: Sequence[str]
+    changed: bool  # a person changed its points
     words: str  # it is found by
     keys: Sequence[float | None]  # the numbers that its columns are sorted by, after the name
 
@@ -114,6 +115,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
                 final="" if one.final is None else number(one.final),
                 seconds="" if seconds is None else f"{seconds:.1f}",
                 marks=marks.get(index, []),
+                changed=bool(one.review.changes),
                 words=found_by(one),
                 keys=[*keys, one.points, days, one.final, seconds],
             )
@@ -187,6 +189,7 @@ def _data(document: ClassResults, rows: list[Row]) -> dict[str, object]:
                 "mistakes": by_row.get(index, []),
                 "look": bool(row.marks),
                 "late": row.days > 0,
+                "changed": row.changed,
             }
             for index, row in enumerate(rows)
         ],
@@ -208,6 +211,7 @@ def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str
         "apart": apart,
         "rows": rows,
         "late": late,
+        "changed": any(row.changed for row in rows),
         "statuses": STATUSES,
         "look": sum(1 for row in rows if row.marks),
         "longest_mark": max((len(", ".join(row.marks)) for row in rows), default=0),

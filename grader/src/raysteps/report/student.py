@@ -509,6 +509,7 @@ def _page(
         "name": name,
         "hand_in": _hand_in_view(results),
         "review": review_view(results.review, whole=True),
+        "extra": sum(one.points for one in results.review.overrides) if results.review is not None else 0.0,
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}

@@ -215,7 +215,8 @@ class Desk {
 
   // From one submission to another: the address names it.
 
-  go(name) {
+  go(name, searching = false) {
+    this.searching = searching;
     location.hash = name ?? "";
   }
 
@@ -284,7 +285,9 @@ class Desk {
     this.room.hidden = false;
     document.title = "Desk";
     this.filter?.apply();
-    this.table.querySelector(name ? `a[href="#${CSS.escape(name)}"]` : "tbody a")?.focus();
+    const link = this.table.querySelector(name ? `a[href="#${CSS.escape(name)}"]` : "tbody a");
+    (this.searching ? document.getElementById("search") : link)?.focus();
+    this.searching = false;
   }
 
   /** From row to row in the table. */
@@ -306,11 +309,7 @@ class Desk {
       j: () => (isOpen ? this.step(1) : this.move(1)),
       k: () => (isOpen ? this.step(-1) : this.move(-1)),
       u: () => this.go(null),
-      "/": () => {
-        this.go(null);
-        this.leave();
-        document.getElementById("search").focus();
-      },
+      "/": () => (isOpen ? this.go(null, true) : document.getElementById("search").focus()),
     };
     const act = acts[key];
     if (act) {
