@@ -42,10 +42,11 @@ def server(grades: Path) -> Iterator[DeskServer]:
 
 
 @pytest.fixture
-def pages(watched: Watched, server: DeskServer) -> Watched:
-    """The page may ask its own server, and nobody else."""
+def pages(watched: Watched, server: DeskServer) -> Iterator[Watched]:
+    """The page may ask its own server, and nobody else; it is closed first, as it asks whether files are written."""
     watched.allowed.append(server.address)
-    return watched
+    yield watched
+    watched.close()
 
 
 def _open(pages: Watched, server: DeskServer, name: str = "", **how: Any) -> "Page":
@@ -57,7 +58,7 @@ def _open(pages: Watched, server: DeskServer, name: str = "", **how: Any) -> "Pa
 
 
 def _is_open(page: "Page", name: str) -> None:
-    page.wait_for_function("name => location.hash === '#' + name && document.querySelector('.desk-head')", arg=name)
+    page.locator(f"#submission[data-name={name}] .desk-head").wait_for()
 
 
 def _press(page: "Page", *keys: str) -> None:

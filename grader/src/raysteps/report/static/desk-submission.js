@@ -33,6 +33,7 @@ class DeskSubmission {
       this.step = deskWhole;
     }
     this.draw();
+    this.room.dataset.name = this.name;
     if (this.code) {
       this.code.choose(at);
     }

@@ -223,11 +223,12 @@ class Desk {
   /** The next one in the table, round its end, that is as wanted. */
   next(wanted, direction = 1) {
     const facts = this.shown();
-    const here = facts.findIndex(({ name }) => name === this.view.name);
+    const current = this.wanted; // whoever presses a key twice means two
+    const here = facts.findIndex(({ name }) => name === current);
     const at = here < 0 && direction < 0 ? facts.length : here;
     for (let step = 1; step <= facts.length; step += 1) {
       const found = facts[(at + direction * step + facts.length * 2) % facts.length];
-      if (wanted(found) && found.name !== this.view.name) {
+      if (wanted(found) && found.name !== current) {
         this.go(found.name);
         return true;
       }
