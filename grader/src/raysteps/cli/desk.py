@@ -13,6 +13,7 @@ from types import FrameType
 from rich.console import Console
 
 from raysteps.classroom.database import FILE, ClassDatabase, telling_of
+from raysteps.classroom.session import undisturbed
 from raysteps.cli.watch import on_a_desktop, port
 from raysteps.common.errors import UsageError
 from raysteps.common.platform import refuse_on_windows
@@ -56,19 +57,21 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
     desk = Desk(out, arguments.author or _login())
     try:
         server = DeskServer(desk, arguments.port)
-        console.print(f"Page: {server.address}", highlight=False, soft_wrap=True, markup=False)
-        console.print("Ctrl-C ends it. All that you say is kept at once.", highlight=False)
-        if not arguments.no_open and on_a_desktop():
-            with suppress(webbrowser.Error, OSError):
-                webbrowser.open(server.address)
-        sys.stdout.flush()
         try:
             with suppress(KeyboardInterrupt):
+                console.print(f"Page: {server.address}", highlight=False, soft_wrap=True, markup=False)
+                console.print("Ctrl-C ends it. All that you say is kept at once.", highlight=False)
+                sys.stdout.flush()
+                if not arguments.no_open and on_a_desktop():
+                    with suppress(webbrowser.Error, OSError):
+                        webbrowser.open(server.address)
                 threading.Event().wait()
         finally:
-            server.close()
+            with undisturbed():
+                server.close()
     finally:
-        desk.close()
+        with undisturbed():
+            desk.close()
     told = {
         "waiting": "A grade-class is at work there; at its end it writes what you said into the files.",
         "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; "
