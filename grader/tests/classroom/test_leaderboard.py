@@ -14,7 +14,6 @@ from export_documents import document, step_result
 from page_results import of_older_kit
 from rich.console import Console
 
-from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import write_class
 from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
 from raysteps.classroom.jobs import Answer
@@ -51,7 +50,7 @@ def _class(folder: Path, results: Mapping[str, Results | str]) -> Path:
             elif made != "not graded":
                 database.record(run, Answer(name, "fault", None, fault=made), "key")
         database.end_run(run, "complete", [])
-        write_class(database, folder, class_document(database))
+        write_class(database, folder)
     return folder
 
 

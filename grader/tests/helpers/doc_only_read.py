@@ -24,6 +24,7 @@ COMMANDS = {
     "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
         "shows a mistake that somebody made; test_divergence makes such"
     ),
+    "./raysteps desk grades": "ends when somebody ends it; test_desk_command does",
     "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
         "needs a cluster; test_cluster has one"
     ),

@@ -20,7 +20,7 @@ _FLOORS = (
     {"diagnosis", "report"},
     {"grading"},
     {"classroom", "finale", "gallery", "progress", "release"},
-    {"exports", "inspector", "watch"},
+    {"desk", "exports", "inspector", "watch"},
     {"cli"},
     {"__main__", "tools"},
 )

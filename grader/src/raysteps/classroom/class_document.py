@@ -5,14 +5,19 @@ import sqlite3
 import statistics
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
+from raysteps.classroom.review import review_of_nothing, reviewed
 from raysteps.common.documents import Malformed, checked, convert, parse
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.manifest import Step, read_manifests
+from raysteps.course.project import here
 from raysteps.results.class_model import (
     ClassResults,
     ClassRun,
@@ -37,6 +42,12 @@ from raysteps.results.store import stored_results
 def _mistakes(step: StepResult) -> list[str]:
     """Titles of the known mistakes in a step of a result."""
     return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
+
+
+def steps_of(graded: Sequence[GradedStep]) -> list[Step]:
+    """The kit's steps as a run graded them: what course.toml says today does not count."""
+    told = {step.id: vars(step) for step in graded}
+    return [replace(step, **told.get(step.id, {})) for step in read_manifests(here()) if not step.left_out]
 
 
 OTHER_FORM = "graded by a kit of another form; grade it again"
@@ -95,6 +106,10 @@ class Standings:
         query = f"SELECT 1 FROM reused WHERE submission = ? AND run IN ({marks})"  # noqa: S608
         return self._query(query, (row["id"], *mine)).fetchone() is None
 
+    @cached_property
+    def manifests(self) -> list[Step]:
+        return steps_of(self.steps)
+
     def mistakes(self) -> list[MistakeCount]:
         """Of all submissions whose standing was asked for; what most of them did comes first."""
         found = sorted(self._mistakes.items(), key=lambda item: (-item[1], item[0]))
@@ -108,11 +123,17 @@ class Standings:
         results = stored_results(current["document"]) if current is not None else None
         is_unread = results is None and current is not None and bool(current["document"])
         steps = results.steps if results is not None else []
+        automatic = current["points"] if current is not None else None
+        review = review_of_nothing(self._database, row["id"], current["run"] if current is not None else None)
+        if current is not None and results is not None:
+            made = reviewed(self._database, row["id"], current["run"], results, self.manifests)
+            results, steps, review = made.results, made.results.steps, made.review
         mistakes = {step.id: titles for step in steps if (titles := _mistakes(step))}
         self._mistakes.update((step, title) for step, titles in mistakes.items() for title in titles)
         students = self._students.get(row["id"], [])
         ids = self.extended(row, students)
-        run, points = (current["run"], current["points"]) if current is not None else (None, None)
+        run = current["run"] if current is not None else None
+        points = results.total.points if results is not None else automatic
         late = None
         if self.policy is not None and points is not None:
             by_file = row["submitted_from"] == "files"
@@ -138,6 +159,7 @@ class Standings:
             fault=current["fault"] if current is not None else "",
             note=" ".join(filter(None, (row["note"], OTHER_FORM if is_unread else ""))),
             results=f"submissions/{row['name']}/results.json" if results is not None else None,
+            review=review,
         )
 
 
@@ -201,9 +223,9 @@ class _Report:
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],
             changed=[
-                PointsChange(one.name, one.before.points, one.points)
+                PointsChange(one.name, one.before.points, one.review.automatic)
                 for one in submissions
-                if one.before is not None and one.before.points != one.points
+                if one.before is not None and one.before.points != one.review.automatic
             ],
             outdated=[one.name for one in submissions if one.outdated],
             mistakes=standings.mistakes(),

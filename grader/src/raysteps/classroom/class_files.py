@@ -6,25 +6,26 @@ import csv
 import io
 import sqlite3
 import sys
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.classroom.class_document import class_document, hand_in, read_class_document
+from raysteps.classroom.annotations import annotated, latest_serial, note_written, written_serial
+from raysteps.classroom.class_document import class_document, hand_in, read_class_document, steps_of
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
+from raysteps.classroom.review import reviewed
 from raysteps.common.csv_safety import escape_formula
 from raysteps.common.documents import as_text, plain
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
 from raysteps.common.text import number
-from raysteps.course.manifest import Step, read_manifests
-from raysteps.course.project import here
+from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
-from raysteps.results.class_model import ClassResults, GradedStep, GradedSubmission, Student
+from raysteps.results.class_model import ClassResults, GradedSubmission, Student
 from raysteps.results.model import Results
 from raysteps.results.settings import Feedback
 from raysteps.results.store import FOLDER as CASES
@@ -80,12 +81,6 @@ def _warn(words: str) -> None:
     print(f"raysteps: {words}", file=sys.stderr)
 
 
-def steps_of(graded: Sequence[GradedStep]) -> list[Step]:
-    """The kit's steps as a run graded them: what course.toml says today does not count."""
-    told = {step.id: vars(step) for step in graded}
-    return [replace(step, **told.get(step.id, {})) for step in read_manifests(here()) if not step.left_out]
-
-
 def write_submission(
     database: ClassDatabase,
     out: Path,
@@ -110,7 +105,8 @@ def write_submission(
         return
     results = None
     if stored is not None:
-        told = withhold(stored, feedback or database.feedback())
+        full = reviewed(database, row["submission"], row["run"], stored, steps).results
+        told = withhold(full, feedback or database.feedback())
         results = replace(told, course=course, handed_in=hand_in(one))
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(results, files)
@@ -130,6 +126,7 @@ def write_submission(
 
 _HEAD = ("submission", "entry", "id", "name", "email", "status", "points", "max", "late_points")
 _TAIL = ("submitted_at", "days_late", "percent_off", "lateness", "points_before", "fault", "note")
+_BY_HAND = ("automatic_points", "changed_by_hand", "look_again", "open_requests")
 
 
 def _row(one: GradedSubmission, student: Student, steps: list[str]) -> list[Cell]:
@@ -142,13 +139,21 @@ def _row(one: GradedSubmission, student: Student, steps: list[str]) -> list[Cell
         *((late.days, late.percent, late.words) if late is not None else (None, None, "")),
         one.before.points if one.before is not None else None,
         *(one.fault, one.note),
+        *_by_hand(one),
     ]
+
+
+def _by_hand(one: GradedSubmission) -> list[Cell]:
+    """What people changed; empty where nobody did."""
+    review = one.review
+    automatic = review.automatic if review.changes else None
+    return [automatic, "; ".join(review.changes), "; ".join(review.look_again), review.open_requests or None]
 
 
 def _rows(document: ClassResults) -> Iterator[list[Cell]]:
     """A row for each student of a submission, one for a submission of nobody, one for a student without one."""
     steps = [step.id for step in document.steps]
-    yield [*_HEAD, *steps, *_TAIL]
+    yield [*_HEAD, *steps, *_TAIL, *_BY_HAND]
     nobody = Student("", "", "")
     for one in document.submissions:
         for student in one.students or [nobody]:
@@ -156,7 +161,7 @@ def _rows(document: ClassResults) -> Iterator[list[Cell]]:
     for student in document.students_without_submission:
         blank = [None] * (len(steps) + 3)
         head = ("", "", student.id, student.name, student.email, "no submission")
-        yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student.note]
+        yield [*head, *blank, *([None] * (len(_TAIL) - 1)), student.note, *([None] * len(_BY_HAND))]
 
 
 def withdraw_tables(out: Path) -> None:
@@ -165,17 +170,41 @@ def withdraw_tables(out: Path) -> None:
         (out / name).unlink(missing_ok=True)
 
 
-def write_class(database: ClassDatabase, out: Path, document: ClassResults, done: Container[str] = ()) -> None:
-    """Everything but what is done: also what a run that was killed had no time for."""
+def write_class(database: ClassDatabase, out: Path, done: Collection[str] = ()) -> ClassResults:
+    """Everything but what is done: also what a run that was killed had no time for, and what people said since it was
+    done."""
+    serial = latest_serial(database.connection)
+    document = class_document(database)
     steps = steps_of(document.steps)
+    still_to_do = {one.name for one in document.submissions} - (set(done) - annotated(database))
     for one in document.submissions:
-        if one.name not in done:
+        if one.name in still_to_do:
             write_submission(database, out, one, document.course, steps)
     forget_unfinished(out)
+    write_tables(database, out, document, serial)
+    return document
+
+
+def write_tables(database: ClassDatabase, out: Path, document: ClassResults, serial: int) -> None:
+    """What is made of the whole class; `serial` is the last annotation that the document surely knows of."""
     table, facts = _TABLES
     write_bytes(out / table, csv_bytes(_rows(document)))
     write_json(out / facts, plain(document))
     class_report.try_class_report(document, out, _warn)
+    note_written(database, serial)
+
+
+def refuse_unwritten(out: Path) -> None:
+    """Files that do not hold what people changed since must not be given to anybody."""
+    path = out / DATABASE
+    if not path.is_file():
+        return
+    with open_readonly(path) as connection:
+        if written_serial(connection) < latest_serial(connection):
+            raise UsageError(
+                f"{out}: comments or points were changed after its files were made; "
+                f"`./raysteps desk {out} --write` makes them anew"
+            )
 
 
 # Makes the page of a class anew from what a grading left.

@@ -9,6 +9,7 @@ from contextlib import closing, contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 from raysteps.classroom.jobs import Answer
@@ -105,6 +106,34 @@ CREATE TABLE IF NOT EXISTS given (        -- what a run was given beside the sub
     files TEXT NOT NULL                   -- JSON: where roster and late policy lay
 )
 """
+_ANNOTATIONS = """
+CREATE TABLE IF NOT EXISTS annotations (  -- what people did: rows are only ever added
+    serial INTEGER PRIMARY KEY AUTOINCREMENT,
+    uid TEXT NOT NULL UNIQUE,             -- tells it from the rows of all other databases
+    submission INTEGER NOT NULL REFERENCES submissions (id),
+    subject TEXT NOT NULL,                -- rows of one subject are its history; the last one holds
+    kind TEXT NOT NULL CHECK (kind IN ('comment', 'points', 'request', 'read')),
+    author TEXT NOT NULL,
+    at TEXT NOT NULL,
+    content TEXT NOT NULL                 -- JSON
+)
+"""
+_SOURCES = """
+CREATE TABLE IF NOT EXISTS sources (      -- the code that a result is of
+    submission INTEGER NOT NULL REFERENCES submissions (id),
+    run INTEGER NOT NULL REFERENCES runs (number),
+    step TEXT NOT NULL,
+    sha256 TEXT NOT NULL REFERENCES blobs (sha256),
+    PRIMARY KEY (submission, run, step)
+)
+"""
+_WRITTEN = """
+CREATE TABLE IF NOT EXISTS written (      -- one row: the last annotation that results.csv and the rest were made with
+    id INTEGER PRIMARY KEY CHECK (id = 1),
+    serial INTEGER NOT NULL
+)
+"""
+_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN)  # an earlier kit did not have them
 _COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
 
 
@@ -177,7 +206,8 @@ def open_database(path: Path) -> sqlite3.Connection:
     """Opens the database of a class, and makes it when there is none."""
     was_there = path.exists()
     with telling_of(path, "opened"):
-        connection = sqlite3.connect(path, isolation_level=None, timeout=30)
+        # Whoever shares a connection among threads sees to it that one at a time uses it.
+        connection = sqlite3.connect(path, isolation_level=None, timeout=30, check_same_thread=False)
         try:
             connection.row_factory = sqlite3.Row
             connection.execute("PRAGMA foreign_keys = ON")
@@ -192,8 +222,8 @@ def open_database(path: Path) -> sqlite3.Connection:
                         connection.execute(statement)
                     connection.execute(f"PRAGMA application_id = {_APPLICATION}")
                     connection.execute(f"PRAGMA user_version = {VERSION}")
-                connection.execute(_REUSED)
-                connection.execute(_GIVEN)
+                for statement in _LATER_TABLES:
+                    connection.execute(statement)
                 if all(column["name"] != "course" for column in connection.execute("PRAGMA table_info(runs)")):
                     connection.execute(_COURSE)
             if was_there:
@@ -264,10 +294,28 @@ class RunFacts:
     course: str = ""  # its title and term
 
 
+def has_table(connection: sqlite3.Connection, name: str) -> bool:
+    """A database that is only read may be one of an earlier kit."""
+    query = "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?"
+    return connection.execute(query, (name,)).fetchone() is not None
+
+
 FILE = "class.sqlite"
 LOCK = "class.lock"
 # The run whose result of a submission counts.
 LATEST = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file of a step as it was graded."""
+
+    sha256: str
+    data: bytes
+
+    @property
+    def lines(self) -> list[str]:
+        return self.data.decode("utf-8", "replace").split("\n")
 
 
 class ClassDatabase:
@@ -360,8 +408,17 @@ class ClassDatabase:
         ).fetchone()
         return row
 
-    def record(self, run: int, answer: Answer, key: str, *, unreadable: bool = False) -> bool:
-        """Keeps an answer; False when the run already has a result of this submission, which then stays."""
+    def record(
+        self,
+        run: int,
+        answer: Answer,
+        key: str,
+        *,
+        unreadable: bool = False,
+        sources: Mapping[str, bytes] = MappingProxyType({}),
+    ) -> bool:
+        """Keeps an answer, and the code that it is of; False when the run already has a result of this submission,
+        which then stays."""
         results = answer.results
         with transaction(self.connection):
             (submission,) = self.connection.execute(
@@ -383,11 +440,42 @@ class ClassDatabase:
             if insert(self.connection, "results", row, "ON CONFLICT (submission, run) DO NOTHING") == 0:
                 return False
             for path, data in answer.pictures.items():
-                digest = hashlib.sha256(data).hexdigest()
-                insert(self.connection, "blobs", {"sha256": digest, "data": data}, "ON CONFLICT (sha256) DO NOTHING")
-                picture = {"submission": submission, "run": run, "path": path, "sha256": digest}
+                picture = {"submission": submission, "run": run, "path": path, "sha256": self._keep_blob(data)}
                 insert(self.connection, "pictures", picture)
+            self._keep_sources(submission, run, sources)
         return True
+
+    def _keep_blob(self, data: bytes) -> str:
+        digest = hashlib.sha256(data).hexdigest()
+        insert(self.connection, "blobs", {"sha256": digest, "data": data}, "ON CONFLICT (sha256) DO NOTHING")
+        return digest
+
+    def _keep_sources(self, submission: int, run: int, sources: Mapping[str, bytes]) -> None:
+        for step, data in sources.items():
+            row = {"submission": submission, "run": run, "step": step, "sha256": self._keep_blob(data)}
+            insert(self.connection, "sources", row, "ON CONFLICT DO NOTHING")
+
+    def keep_sources(self, name: str, sources: Mapping[str, bytes]) -> None:
+        """The code of the result that counts, where an earlier kit did not keep it."""
+        current = self.current(name)
+        if current is not None and sources and not self.sources(current["submission"], current["run"]):
+            with transaction(self.connection):
+                self._keep_sources(current["submission"], current["run"], sources)
+
+    def sources(self, submission: int, run: int) -> dict[str, Source]:
+        """By step."""
+        if not has_table(self.connection, "sources"):
+            return {}
+        rows = self.connection.execute(
+            "SELECT step, sha256, data FROM sources JOIN blobs USING (sha256) WHERE submission = ? AND run = ? "
+            "ORDER BY step",
+            (submission, run),
+        )
+        return {row["step"]: Source(row["sha256"], row["data"]) for row in rows}
+
+    def blob(self, digest: str) -> bytes | None:
+        row = self.connection.execute("SELECT data FROM blobs WHERE sha256 = ?", (digest,)).fetchone()
+        return None if row is None else bytes(row["data"])
 
     def pictures(self, submission: int, run: int) -> dict[str, bytes]:
         rows = self.connection.execute(

@@ -6,7 +6,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.database import FILE, ClassDatabase, insert, open_readonly, transaction
+from raysteps.classroom.database import FILE, ClassDatabase, has_table, insert, open_readonly, transaction
 from raysteps.classroom.entry_names import name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
@@ -84,7 +84,7 @@ def put_in_order(target: sqlite3.Connection) -> None:
     if numbers == sorted(numbers):
         return
     target.execute("PRAGMA defer_foreign_keys = ON")
-    places = (("runs", "number"), ("results", "run"), ("pictures", "run"), ("reused", "run"))
+    places = (("runs", "number"), ("results", "run"), ("pictures", "run"), ("reused", "run"), ("sources", "run"))
     for table, column in places:  # the names are those above
         target.execute(f"UPDATE {table} SET {column} = -{column}")  # noqa: S608
         for new, old in enumerate(numbers, start=1):
@@ -150,7 +150,7 @@ class _Merge:
     def run(self, source: sqlite3.Connection, row: dict[str, Any], ids: dict[int, int]) -> None:
         """One run with its results and pictures."""
         number = self._run(row)
-        if source.execute("SELECT 1 FROM sqlite_master WHERE name = 'given'").fetchone():
+        if has_table(source, "given"):
             for given in rows_of(source, "SELECT * FROM given WHERE uid = ?", row["uid"]):
                 insert(self._target, "given", given, "ON CONFLICT (uid) DO NOTHING")
         for result in rows_of(source, "SELECT * FROM results WHERE run = ?", row["number"]):
@@ -163,10 +163,31 @@ class _Merge:
                 blob = {"sha256": picture["sha256"], "data": picture["data"]}
                 insert(self._target, "blobs", blob, "ON CONFLICT (sha256) DO NOTHING")
                 insert(self._target, "pictures", {**place, "path": picture["path"], "sha256": picture["sha256"]})
-        if source.execute("SELECT 1 FROM sqlite_master WHERE name = 'reused'").fetchone():
+        self._sources(source, row["number"], number, ids)
+        if has_table(source, "reused"):
             for kept in rows_of(source, "SELECT submission FROM reused WHERE run = ?", row["number"]):
                 place = {"submission": ids[kept["submission"]], "run": number}
                 insert(self._target, "reused", place, "ON CONFLICT DO NOTHING")
+
+    def _sources(self, source: sqlite3.Connection, theirs: int, ours: int, ids: dict[int, int]) -> None:
+        """The code of results, also where an earlier kit had not kept it when they were merged."""
+        if not has_table(source, "sources"):
+            return
+        query = "SELECT submission, step, sha256, data FROM sources JOIN blobs USING (sha256) WHERE run = ?"
+        for kept in rows_of(source, query, theirs):
+            blob = {"sha256": kept["sha256"], "data": kept["data"]}
+            insert(self._target, "blobs", blob, "ON CONFLICT (sha256) DO NOTHING")
+            place = {"submission": ids[kept["submission"]], "run": ours, "step": kept["step"]}
+            insert(self._target, "sources", {**place, "sha256": kept["sha256"]}, "ON CONFLICT DO NOTHING")
+
+    def annotations(self, source: sqlite3.Connection, ids: dict[int, int]) -> None:
+        """What people did stays what it is, whoever has it first."""
+        if not has_table(source, "annotations"):
+            return
+        for row in rows_of(source, "SELECT * FROM annotations ORDER BY serial"):
+            columns = {name: value for name, value in row.items() if name != "serial"}
+            mine = {**columns, "submission": ids[row["submission"]]}
+            insert(self._target, "annotations", mine, "ON CONFLICT (uid) DO NOTHING")
 
 
 def _check(folders: list[Path], target: ClassDatabase) -> None:
@@ -192,6 +213,7 @@ def merge(folders: list[Path], target: ClassDatabase) -> tuple[list[str], list[s
                 ids = merging.submissions(part)
                 for row in part.runs:
                     merging.run(part.connection, row, ids)
+                merging.annotations(part.connection, ids)
             if parts[-1].began >= before:
                 merging.register(parts[-1])
             # An entry whose shard is missing is shown as not graded.

@@ -13,14 +13,13 @@ from types import FrameType
 from typing import Protocol
 
 from raysteps.classroom.class_document import Standings
-from raysteps.classroom.class_files import steps_of, withdraw_tables, write_submission
+from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import Entry, load_entry
 from raysteps.classroom.jobs import GAVE_UP, Answer, Job
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
-from raysteps.course.manifest import Step
 from raysteps.report.wording import total_words
 from raysteps.results.settings import Settings
 from raysteps.results.store import stored_results
@@ -97,6 +96,7 @@ class _Pending:
 
     key: str
     unreadable: bool
+    sources: dict[str, bytes] = field(default_factory=dict)
 
 
 @dataclass
@@ -122,10 +122,6 @@ class Session:
         """By the roster and the late policy of this run."""
         return Standings(self.database)
 
-    @cached_property
-    def _steps(self) -> list[Step]:
-        return steps_of(self._standings.steps)
-
     def _jobs(self) -> Iterator[Job]:
         """Read only when it is their turn: a whole class need not fit into memory."""
         has_learned = False
@@ -142,25 +138,28 @@ class Session:
             key = submission_key(taken.submission, self.kit, self.plan.grading)
             require = self.plan.options.require_sandbox
             if self.plan.options.resume and holds(self.database.current(name), key, require_sandbox=require):
+                self.database.keep_sources(name, taken.submission.sources)
                 self.reused.append(name)
                 self.meter.skip()
                 continue
             if not has_learned:
                 self.learn()
                 has_learned = True
-            self._pending[name] = _Pending(key, taken.unreadable)
+            self._pending[name] = _Pending(key, taken.unreadable, taken.submission.sources)
             options = self.plan.options
             yield Job(
                 taken.submission, self.plan.grading, options.grader, self.kit, options.require_sandbox, self.plan.uid
             )
 
     def _record(self, answer: Answer, pending: _Pending) -> None:
-        if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
+        if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable, sources=pending.sources):
             if not self.recorded:
                 withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)
             one = self._standings.named(answer.name)
-            write_submission(self.database, self.plan.options.out, one, self._standings.course, self._steps)
+            write_submission(
+                self.database, self.plan.options.out, one, self._standings.course, self._standings.manifests
+            )
             total = answer.results.total if answer.results is not None else None
             points = total_words(total) if total else f"FAULT: {first_line(answer.fault)}"
             self.meter.count(answer.name, points)

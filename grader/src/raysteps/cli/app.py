@@ -63,6 +63,7 @@ COMMANDS = (
     Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
     Command("nightly", "grade as work comes in, a few times a day for each student", "raysteps.cli.nightly"),
+    Command("desk", "read a graded class: comment, change points, answer", "raysteps.cli.desk"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),
     Command("image", "a container image that grades, or one for students", "raysteps.cli.image"),
@@ -79,7 +80,7 @@ COMMANDS = (
 
 # What a students' kit has in their place; else what there is.
 _INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn": "check", "replay": "check",
-            "test": "check", "leaderboard": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
+            "test": "check", "leaderboard": "report", "desk": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
 
 
 def _no_such_command(project: Project, word: str) -> str:

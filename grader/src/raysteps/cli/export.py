@@ -11,6 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
+from raysteps.classroom.class_files import SUBMISSIONS, refuse_unwritten
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
@@ -280,6 +281,9 @@ def _run_there(project: Project, arguments: argparse.Namespace) -> int:
 
 def _convert(project: Project, arguments: argparse.Namespace) -> int:
     refuse_grading_words(arguments)
+    home = arguments.results.resolve().parent.parent
+    if home.name == SUBMISSIONS:  # of a class
+        refuse_unwritten(home.parent)
     document, steps = read_results(arguments.results), by_id(read_steps(project))
     document = withhold(document, arguments.feedback or "full")
     match arguments.system:

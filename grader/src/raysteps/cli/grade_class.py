@@ -3,14 +3,13 @@
 import argparse
 import os
 import shlex
-from collections.abc import Container, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import closing, contextmanager
 from decimal import Decimal
 from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.cluster import Cluster
 from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
@@ -22,7 +21,7 @@ from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan
 from raysteps.classroom.session import Runner, Session, terminated_as_interrupted
 from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import try_lock, usable_folder
+from raysteps.common.files import try_lock, usable_folder, wait_for_lock
 from raysteps.common.platform import refuse_on_windows
 from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
@@ -158,6 +157,9 @@ def only_one(out: Path) -> Iterator[None]:
     with (out / LOCK).open("a") as file:
         try:
             is_ours = try_lock(file.fileno())
+            if not is_ours and try_lock(file.fileno(), shared=True):  # only a desk writes, which soon is done
+                wait_for_lock(file.fileno())
+                is_ours = True
         except OSError:
             is_ours = True  # a file system without locks
         if not is_ours:
@@ -165,9 +167,8 @@ def only_one(out: Path) -> Iterator[None]:
         yield
 
 
-def _finish(console: Console, database: ClassDatabase, out: Path, done: Container[str] = ()) -> ClassResults:
-    document = class_document(database)
-    write_class(database, out, document, done)
+def _finish(console: Console, database: ClassDatabase, out: Path, done: Collection[str] = ()) -> ClassResults:
+    document = write_class(database, out, done)
     print_summary(console, document, out)
     return document
 

@@ -29,7 +29,7 @@ from raysteps.watch.terminal_view import TerminalView
 _INTERRUPTED = 130
 
 
-def _port(word: str) -> int:
+def port(word: str) -> int:
     if not (word.isascii() and word.isdigit() and int(word) <= 65535):
         raise argparse.ArgumentTypeError(f"{word}: expected a port from 1 to 65535, or 0 for any that is free")
     return int(word)
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--poll", action="store_true", help="look for saves every moment, where events do not work")
     parser.add_argument("--quick", action="store_true", help="never check hidden cases by itself")
-    parser.add_argument("--port", type=_port, default=0, metavar="N", help="of the page (any that is free)")
+    parser.add_argument("--port", type=port, default=0, metavar="N", help="of the page (any that is free)")
 
 
 def on_a_desktop(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> bool:

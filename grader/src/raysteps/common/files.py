@@ -22,17 +22,26 @@ else:
 _LOOK_EVERY = 0.1
 
 
-def try_lock(handle: int) -> bool:
-    """Whether nobody else holds the lock of this open file; then it is held until the file is closed. A file system
-    without locks raises OSError."""
+def try_lock(handle: int, *, shared: bool = False) -> bool:
+    """Whether nobody else holds the lock of this open file; then it is held until the file is closed. Several may hold
+    a shared one; Windows has none. A file system without locks raises OSError."""
     try:
         if sys.platform == "win32":
             msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
         else:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(handle, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
     except (BlockingIOError, PermissionError):  # the second one on Windows
         return False
     return True
+
+
+def wait_for_lock(handle: int) -> None:
+    """Until nobody else holds it."""
+    if sys.platform == "win32":
+        while not try_lock(handle):  # the waiting that Windows offers gives up after 10 seconds
+            time.sleep(_LOOK_EVERY)
+    else:
+        fcntl.flock(handle, fcntl.LOCK_EX)
 
 
 @contextmanager
@@ -42,11 +51,7 @@ def one_at_a_time(lock: Path, wait: Callable[[], None] = lambda: None) -> Iterat
     with lock.open("a") as file:
         if not try_lock(file.fileno()):
             wait()
-            if sys.platform == "win32":
-                while not try_lock(file.fileno()):  # the waiting that Windows offers gives up after 10 seconds
-                    time.sleep(_LOOK_EVERY)
-            else:
-                fcntl.flock(file, fcntl.LOCK_EX)
+            wait_for_lock(file.fileno())
         yield
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
-from raysteps.exports.items import Item, entries_of, objects_tested
+from raysteps.exports.items import Item, entries_of, extra_of, objects_tested, spread_deduction
 from raysteps.results.model import Results
 
 _BRUTE_FORCE = 100.0  # per cent of the objects: what a ray tests without an octree
@@ -24,13 +24,15 @@ def _stage(items: Sequence[Item]) -> dict[str, Any]:
 
 def to_autolab(results: Results, steps: Mapping[str, Step]) -> list[dict[str, Any]]:
     """What was checked, then the scores by problem; the ids of the steps are the problems' names."""
+    results = spread_deduction(results)
     stages = {
         result.id: _stage([entry.item for entry in entries_of(result, steps.get(result.id))])
         for result in results.steps
     }
     tested = objects_tested(results)
+    extra = extra_of(results)
     scores = {
-        "scores": {result.id: result.points for result in results.steps},
+        "scores": {result.id: result.points for result in results.steps} | ({"whole": extra} if extra else {}),
         "scoreboard": [results.total.points, _BRUTE_FORCE if tested is None else tested],
     }
     return [{"_presentation": "semantic", "stages": list(stages), **stages}, scores]

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from raysteps.classroom.class_files import refuse_unwritten
 from raysteps.classroom.entry_names import folded, platform_identity
 from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula
 from raysteps.common.errors import UsageError, reason
@@ -94,6 +95,7 @@ def _why_not(folder: Path, error: OSError) -> str:
 def read_class(folder: Path) -> list[GradedStudent]:
     """The rows of FOLDER/results.csv."""
     path = folder / "results.csv"
+    refuse_unwritten(folder)
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:

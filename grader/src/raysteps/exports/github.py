@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -11,10 +11,21 @@ from raysteps.common.errors import UsageError
 from raysteps.common.text import apportion, clean, tenths
 from raysteps.course.manifest import Step
 from raysteps.exports.formats import sheet
-from raysteps.exports.items import as_code, failed_checks, harmless_log, items_of, one_line, step_text, title
+from raysteps.exports.items import (
+    WHOLE,
+    as_code,
+    extra_of,
+    failed_checks,
+    harmless_log,
+    items_of,
+    one_line,
+    spread_deduction,
+    step_text,
+    title,
+)
 from raysteps.grading.withhold import withhold
 from raysteps.report.student import REPORT, student_page
-from raysteps.report.wording import total_words
+from raysteps.report.wording import review_lines, total_words
 from raysteps.results.model import Results, StepResult
 from raysteps.results.statuses import in_words
 
@@ -36,6 +47,14 @@ def whole_points(results: Results) -> list[tuple[int, int]]:
     return [(min(have, cap), cap) for have, cap in zip(earned, caps, strict=True)]
 
 
+def _whole_test(results: Results, pairs: Sequence[tuple[int, int]]) -> tuple[int, str] | None:
+    """What the total has beyond the steps, as a person added it, and why."""
+    extra = max(0, (round(results.total.points * 100) + 50) // 100 - sum(points for points, _ in pairs))
+    if extra_of(results) <= 0 or not extra:
+        return None
+    return extra, harmless_log(clean("\n".join(review_lines(results.review, whole=True))))
+
+
 def _instant(when: datetime) -> str:
     return when.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
@@ -47,7 +66,9 @@ def to_classroom50(
     missing = [name for name in _FIELDS.values() if not environment.get(name)]
     if missing:
         raise UsageError(f"these variables are not set: {', '.join(missing)}; Classroom 50's runner sets them")
+    results = spread_deduction(results)
     pairs = whole_points(results)
+    whole = _whole_test(results, pairs)
     result: dict[str, Any] = {"schema": "classroom50/result/v1"}
     result |= {field: environment[name] for field, name in _FIELDS.items()}
     result["review"] = environment.get("REVIEW_URL") or environment["COMMIT_URL"]
@@ -56,7 +77,7 @@ def to_classroom50(
     if environment.get("OWNER") or environment.get("USERNAME"):
         result["owner"] = environment.get("OWNER") or environment["USERNAME"]
     result["datetime"] = _instant(submitted)
-    result["score"] = sum(points for points, _ in pairs)
+    result["score"] = sum(points for points, _ in pairs) + (whole[0] if whole else 0)
     result["max-score"] = sum(most for _, most in pairs)
     result["tests"] = [
         {
@@ -68,6 +89,10 @@ def to_classroom50(
         }
         for step, (points, most) in zip(results.steps, pairs, strict=True)
     ]
+    if whole:
+        result["tests"].append(
+            {"test-name": WHOLE, "passed": True, "score": whole[0], "max-score": 0, "message": whole[1]}
+        )
     return result
 
 
@@ -139,13 +164,16 @@ def release_body(
     for result in results.steps:
         name = _inline(one_line(title(result, steps)))
         lines.append(f"| {name} | {in_words(result.status)} | {tenths(result.points)} of {tenths(result.max)} |")
+    results = spread_deduction(results)
     pairs = whole_points(results)
-    recorded = f"{sum(points for points, _ in pairs)} of {sum(most for _, most in pairs)}"
+    whole = _whole_test(results, pairs)
+    recorded = f"{sum(points for points, _ in pairs) + (whole[0] if whole else 0)} of {sum(most for _, most in pairs)}"
     lines += ["", f"Recorded in whole numbers, bonus included: {recorded}.", ""]
     report = links.get(f"{FOLDER}/{REPORT}")
     lines += [f"[The report with all pictures]({report}): download it and open it in a browser.", ""] if report else []
+    lines += [as_code("\n".join(said), _TEXT)] if (said := review_lines(results.review, whole=True)) else []
     for result in results.steps:
-        if result.status != "passed":
+        if result.status != "passed" or result.review:
             lines += _section(result, steps, links.get(f"{FOLDER}/{result.id}.png"))
     text = "\n".join(lines)
     if len(text) <= _MAX_BODY:
@@ -156,6 +184,7 @@ def release_body(
 def to_legacy(results: Results, steps: Mapping[str, Step]) -> dict[str, Any]:
     """One test per step; its seconds are those of its pictures and hidden cases."""
     tests = []
+    results = spread_deduction(results)
     pairs = whole_points(results)
     for step, (points, _) in zip(results.steps, pairs, strict=True):
         seconds = sum(image.seconds for image in step.images) + sum(item.seconds for item in step.hidden)
@@ -170,6 +199,19 @@ def to_legacy(results: Results, steps: Mapping[str, Step]) -> dict[str, Any]:
                 "filename": f"steps/{known.path.as_posix()}" if known is not None else "",
                 "line_no": 0,
                 "execution_time": f"{seconds:.1f}s",
+            }
+        )
+    if whole := _whole_test(results, pairs):
+        tests.append(
+            {
+                "name": WHOLE,
+                "status": "pass",
+                "score": whole[0],
+                "message": whole[1],
+                "test_code": "",
+                "filename": "",
+                "line_no": 0,
+                "execution_time": "0.0s",
             }
         )
     passed = all(step.status == "passed" for step in results.steps if not step.bonus)

@@ -9,7 +9,19 @@ from typing import Any, Literal, get_args
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
 from raysteps.exports.formats import Album, Paste
-from raysteps.exports.items import Entry, Item, as_html, entries_of, one_line, summary, title
+from raysteps.exports.items import (
+    WHOLE,
+    Entry,
+    Item,
+    as_html,
+    entries_of,
+    extra_of,
+    one_line,
+    spread_deduction,
+    summary,
+    title,
+)
+from raysteps.report.wording import review_lines
 from raysteps.results.model import Results, StepResult
 from raysteps.results.work_ratio import NoWorkRatio, work_ratio_of
 
@@ -99,8 +111,13 @@ def to_gradescope(
     output = summary(results, steps, points=hidden == "visible")
     if names:
         output = f"Submitted by {', '.join(names)}.\n{output}"
+    results = spread_deduction(results)
     album = Album(_AROUND_A_PICTURE)
     tests = [test for result in results.steps for test in _tests(result, steps, hidden, album)]
+    if extra := extra_of(results):
+        text = clean("\n".join(review_lines(results.review, whole=True)))
+        more = {"name": WHOLE, "score": extra, "max_score": 0, "status": "passed", "output": text}
+        tests.append({**more, "visibility": "visible"})
     if folder is not None:
         album.fill(folder, _MAX_PICTURES)
     made: dict[str, object] = {

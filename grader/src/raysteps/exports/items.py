@@ -4,12 +4,12 @@ import html
 import re
 import textwrap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from raysteps.common.text import apportion, clean, count, shorten, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import hand_in_words, total_words
+from raysteps.report.wording import hand_in_words, review_lines, total_words
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integration, Results, StepResult, TestResult
 from raysteps.results.statuses import in_words
 
@@ -146,6 +146,7 @@ def step_text(result: StepResult) -> str:
     said += [line for diagnosis in result.diagnoses for line in _diagnosis(diagnosis)]
     if result.status == "does-not-build" and result.build_log:
         said.append(clean(result.build_log))
+    said += [clean(line) for line in review_lines(result.review)]
     return "\n".join(said)
 
 
@@ -191,6 +192,28 @@ def entries_of(result: StepResult, step: Step | None) -> list[Entry]:
     gains = apportion(earned, right) if earned else [0] * len(items)
     losses = apportion(lost, wrong) if lost else [0] * len(items)
     return [Entry(item, gain / 100, (gain + loss) / 100) for item, gain, loss in zip(items, gains, losses, strict=True)]
+
+
+def extra_of(results: Results) -> float:
+    """What a person added to the points of the submission as a whole, as far as the total holds it."""
+    return round(results.total.points - sum(step.points for step in results.steps), 2)
+
+
+WHOLE = "The submission as a whole"
+
+
+def spread_deduction(results: Results) -> Results:
+    """For systems in which no check has less than 0 points: what a person took off the whole is taken off the steps, in
+    proportion to their points."""
+    lost = -_hundredths(extra_of(results))
+    if lost <= 0:
+        return results
+    shares = apportion(lost, [step.points for step in results.steps])
+    steps = [
+        replace(step, points=round(step.points - share / 100, 2))
+        for step, share in zip(results.steps, shares, strict=True)
+    ]
+    return replace(results, steps=steps)
 
 
 # A whole submission in a few lines of text.
@@ -239,6 +262,7 @@ def summary(results: Results, steps: Mapping[str, Step], *, points: bool = True,
     """One line per step with what there is to say about it, on request with the checks that failed; without points,
     nothing that hidden checks decide."""
     lines = [f"{total_words(results.total)}.", *hand_in_words(results)] if points else []
+    lines += [one_line(line, 2000) for line in review_lines(results.review, whole=True)] if points else []
     same = _same_for_all(results)
     lines += same.splitlines()
     for result in results.steps:

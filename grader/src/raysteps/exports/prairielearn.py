@@ -12,7 +12,19 @@ from raysteps.common.files import encoded
 from raysteps.common.text import clean, count, number, tenths
 from raysteps.course.manifest import Step
 from raysteps.exports.formats import Album, Paste
-from raysteps.exports.items import Entry, Kind, entries_of, one_line, summary, title, wrapped
+from raysteps.exports.items import (
+    WHOLE,
+    Entry,
+    Kind,
+    entries_of,
+    extra_of,
+    one_line,
+    spread_deduction,
+    summary,
+    title,
+    wrapped,
+)
+from raysteps.report.wording import review_lines
 from raysteps.results.model import Results, StepResult, Total
 
 # The question.
@@ -140,6 +152,9 @@ def _without_pictures(results: Results, steps: Mapping[str, Step], limit: int) -
             tests.append(card)
             for entry in entries:
                 album.offer(entry.item, _paste(card))
+    if extra := extra_of(results):
+        said = wrapped(clean("\n".join(review_lines(results.review, whole=True)), limit))
+        tests.append({"name": WHOLE, "points": extra, "max_points": 0, "message": said})
     text = clean("\n".join(filter(None, [note, summary(results, steps)])), 8 * limit)
     return {"gradable": True, "score": share, "message": wrapped(text), "tests": tests}, album
 
@@ -150,6 +165,7 @@ def _paste(card: dict[str, Any]) -> Paste:
 
 def to_prairielearn(results: Results, steps: Mapping[str, Step], folder: Path) -> dict[str, Any]:
     """Pictures are shrunk, then left out, until all is below the limit; the texts before that only if they must."""
+    results = spread_deduction(results)
     for limit in _TEXT_LIMITS:
         made, album = _without_pictures(results, steps, limit)
         room = MAX_BYTES - len(encoded(made)) - _ROOM_FOR_A_NOTE

@@ -21,6 +21,7 @@ ENTRIES = ("raysteps.__main__", "raysteps.bootstrap.start", "raysteps.cli.app")
 NEVER = (
     "raysteps.classroom",
     "raysteps.cli.demo",
+    "raysteps.cli.desk",
     "raysteps.cli.export",
     "raysteps.cli.gallery",
     "raysteps.cli.grade",
@@ -34,6 +35,7 @@ NEVER = (
     "raysteps.cli.supervise",
     "raysteps.course.mutants",
     "raysteps.course.settings",
+    "raysteps.desk",
     "raysteps.diagnosis",
     "raysteps.gallery",
     "raysteps.grading.withhold",

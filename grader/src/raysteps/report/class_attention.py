@@ -79,6 +79,17 @@ class _Finder:
             for one in self._document.changed
         ]
 
+    def look_again(self) -> list[Item]:
+        return [
+            self._item(name, one.review.look_again) for name, (_, one) in self._rows.items() if one.review.look_again
+        ]
+
+    def open_requests(self) -> list[Item]:
+        return [self._item(name, []) for name, (_, one) in self._rows.items() if one.review.open_requests]
+
+    def changed_by_hand(self) -> list[Item]:
+        return [self._item(name, one.review.changes) for name, (_, one) in self._rows.items() if one.review.changes]
+
     def plain(self, names: Sequence[str]) -> list[Item]:
         return [self._item(name, []) for name in names]
 
@@ -116,11 +127,26 @@ def groups(document: ClassResults) -> list[Group]:
             "The roster has no submitted_at for these; copying may have set that time.",
             find.late_by_file(),
         ),
+        Group(
+            "look again",
+            "warn",
+            "Changed points to look at again",
+            "The grader gives other points now than when a person changed them. What the person said counts.",
+            find.look_again(),
+        ),
+        Group(
+            "open request",
+            "warn",
+            "Open regrade requests",
+            "The desk is where they are answered.",
+            find.open_requests(),
+        ),
         Group("nobody's", "warn", "Without a student on the roster", "Nothing is lost.", find.strangers()),
         Group(
             "", "note", "On the roster, but without a submission", "", find.people(document.students_without_submission)
         ),
         Group("", "note", "With more than one submission", "", find.people(document.students_with_several)),
+        Group("", "note", "Points that a person changed", "", find.changed_by_hand()),
         Group("", "note", "Changed since the last time", "", find.changed()),
         Group("", "note", "Graded earlier, but no longer in the folder", "", find.plain(document.gone)),
         Group("", "note", "Extensions for ids that nobody has", "", find.plain(document.unknown_extensions)),

@@ -54,6 +54,7 @@ class Row:
     final: str
     seconds: str
     marks: Sequence[str]
+    changed: bool  # a person changed its points
     words: str  # it is found by
     keys: Sequence[float | None]  # the numbers that its columns are sorted by, after the name
 
@@ -65,7 +66,7 @@ def aliases(names: Sequence[str]) -> list[str]:
     return [f"student {numbers[name]}" for name in names]
 
 
-def _who(one: GradedSubmission) -> tuple[str, str]:
+def who_and_more(one: GradedSubmission) -> tuple[str, str]:
     """The name to show, and what else tells who it is."""
     people = [student.name or student.id or student.email for student in one.students]
     ids = [student.id for student in one.students if student.id and student.name]
@@ -74,7 +75,7 @@ def _who(one: GradedSubmission) -> tuple[str, str]:
     return printable(", ".join(people)), printable(" · ".join([*ids, one.name]))
 
 
-def _found_by(one: GradedSubmission) -> str:
+def found_by(one: GradedSubmission) -> str:
     words = [one.name, one.entry]
     words += [word for student in one.students for word in (student.id, student.name, student.email)]
     return searchable(" ".join(dict.fromkeys(word for word in words if word)))
@@ -100,7 +101,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
         results = [one.steps.get(step) for step in steps]
         days = one.late.days if one.late is not None else 0
         seconds = one.seconds
-        who, more = _who(one)
+        who, more = who_and_more(one)
         keys = [result.points if result is not None else None for result in results]
         rows.append(
             Row(
@@ -114,7 +115,8 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
                 final="" if one.final is None else number(one.final),
                 seconds="" if seconds is None else f"{seconds:.1f}",
                 marks=marks.get(index, []),
-                words=_found_by(one),
+                changed=bool(one.review.changes),
+                words=found_by(one),
                 keys=[*keys, one.points, days, one.final, seconds],
             )
         )
@@ -187,6 +189,7 @@ def _data(document: ClassResults, rows: list[Row]) -> dict[str, object]:
                 "mistakes": by_row.get(index, []),
                 "look": bool(row.marks),
                 "late": row.days > 0,
+                "changed": row.changed,
             }
             for index, row in enumerate(rows)
         ],
@@ -208,6 +211,7 @@ def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str
         "apart": apart,
         "rows": rows,
         "late": late,
+        "changed": any(row.changed for row in rows),
         "statuses": STATUSES,
         "look": sum(1 for row in rows if row.marks),
         "longest_mark": max((len(", ".join(row.marks)) for row in rows), default=0),

@@ -123,8 +123,16 @@ def picture_data(path: Path) -> PictureData:
         data = path.read_bytes()
     except OSError as error:
         raise NotAPicture(f"{path}: cannot be read: {reason(error)}") from error
-    if not data.startswith(_MAGIC) or len(data) < _HEADER or data[12:16] != b"IHDR":
+    found = picture_of(data)
+    if found is None:
         raise NotAPicture(f"{path}: is not a PNG")
+    return found
+
+
+def picture_of(data: bytes) -> PictureData | None:
+    """None where the bytes are no PNG."""
+    if not data.startswith(_MAGIC) or len(data) < _HEADER or data[12:16] != b"IHDR":
+        return None
     return PictureData(_uri(data), int.from_bytes(data[16:20]), int.from_bytes(data[20:24]))
 
 

@@ -28,12 +28,15 @@ from raysteps.report.wording import (
     check_command,
     inspect_command,
     moment,
+    override_words,
     percent,
     replay_command,
+    since_words,
     total_words,
     watch_command,
 )
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
+from raysteps.results.review import Comment, Review
 from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.results.store import read_results
 
@@ -176,6 +179,51 @@ def rest_of(result: StepResult, parts: Sequence[Part]) -> float:
     return round(float(rest), 1) if parts and abs(rest) > _NEAR else 0.0
 
 
+# What people added to a step or to a whole submission.
+
+
+def parts_that_count(result: StepResult, step: Step | None) -> list[Part]:
+    """As `parts_of`, with what a person changed in them."""
+    review = result.review
+    if review is None:
+        return parts_of(result, step)
+    changed: dict[str, float] = {found.part: found.points for found in review.overrides}
+    automatic = parts_of(replace(result, points=review.automatic), step)
+    return [replace(part, earned=changed.get(part.name, part.earned)) for part in automatic]
+
+
+def _comment_view(found: Comment) -> dict[str, object]:
+    lines = [
+        {"number": found.first + at, "text": clean(text, _TEXT), "meant": found.first + at == found.line}
+        for at, text in enumerate(found.excerpt)
+    ]
+    return {
+        "text": clean(found.text),
+        "author": clean(found.author, 200),
+        "line": found.line,
+        "lines": lines,
+        "since": since_words(found),
+    }
+
+
+def review_view(review: Review | None, *, whole: bool = False) -> dict[str, Any] | None:
+    """None where nobody said or changed anything."""
+    if review is None:
+        return None
+    return {
+        "overrides": [(clean(override_words(one, whole=whole)), clean(one.author, 200)) for one in review.overrides],
+        "comments": [_comment_view(one) for one in review.comments],
+        "requests": [
+            {
+                "text": clean(one.text),
+                "answer": clean(one.answer) if one.state == "answered" else "",
+                "by": clean(one.answered_by, 200),
+            }
+            for one in review.requests
+        ],
+    }
+
+
 # One step of the results, made ready for a page. Whatever a student's program may have said is cleaned.
 
 _LOG = 20_000  # characters of what the compiler said
@@ -298,7 +346,7 @@ def step_view(
 ) -> dict[str, object]:
     """All that the page says of a step; `has_reference`: its reader has the whole kit, and every command."""
     status = STATUS_WORDS[result.status]
-    parts = parts_of(result, step)
+    parts = parts_that_count(result, step)
     messages = [clean(message) for message in result.messages]
     once = SaidOnce(messages)
     tests = [_test(test, once) for test in result.tests]
@@ -327,6 +375,7 @@ def step_view(
         "together": {"passed": result.cumulative.passed, "message": clean(result.cumulative.message)},
         "hints": hint_views(step.hints) if step is not None else [],
         "check": check_command(result.id),
+        "review": review_view(result.review),
     }
 
 
@@ -451,7 +500,7 @@ def _page(
     views = {
         result.id: step_view(result, known.get(result.id), album, progress.has_reference) for result in results.steps
     }
-    parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
+    parts = [part for result in results.steps for part in parts_that_count(result, known.get(result.id))]
     following, beyond = _next(results.steps), progress.following
     name = clean(results.submission, 200)
     own = _own_pictures(results, views, following)
@@ -459,6 +508,8 @@ def _page(
     context = {
         "name": name,
         "hand_in": _hand_in_view(results),
+        "review": review_view(results.review, whole=True),
+        "extra": sum(one.points for one in results.review.overrides) if results.review is not None else 0.0,
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}

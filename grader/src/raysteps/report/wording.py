@@ -10,6 +10,7 @@ from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
 from raysteps.images.compare import worst_pixel
 from raysteps.results.model import HandIn, ImageResult, Results, Total
+from raysteps.results.review import Comment, PointsOverride, Review
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
@@ -104,6 +105,51 @@ def hand_in_words(results: Results) -> list[str]:
     elif found.submitted_at:
         lines.append(f"Handed in {moment(found)}.")
     return lines
+
+
+def override_words(found: PointsOverride, *, whole: bool = False) -> str:
+    """What a person changed, as the student reads it."""
+    if whole:
+        return f"{found.points:+g} points for the submission as a whole, from your instructor: {found.reason}"
+    what = f"the points for {_PART_WORDS[found.part]}" if found.part else "the points"
+    change = f"from {number(found.automatic)} to {number(found.points)}"
+    return f"Your instructor changed {what} {change}: {found.reason}"
+
+
+_PART_WORDS = {"tests": "tests", "pictures": "pictures", "hidden": "the hidden part", "together": "working together"}
+_SINCE_THEN = {
+    "": "",
+    "moved": "The code has changed since this was written.",
+    "gone": "The code has changed since this was written, and the line is not there any more.",
+}
+
+
+def since_words(found: Comment) -> str:
+    """What became of the commented code; empty where it is as it was."""
+    if found.since_then == "moved" and found.line and found.line != found.line_then:
+        return f"{_SINCE_THEN['moved']} It was line {found.line_then} then."
+    return _SINCE_THEN[found.since_then]
+
+
+def review_lines(review: Review | None, *, whole: bool = False) -> list[str]:
+    """All that people added to a step, or to a whole submission, a line each."""
+    if review is None:
+        return []
+    lines = [f"{override_words(found, whole=whole)} ({found.author})" for found in review.overrides]
+    for found in review.comments:
+        where = f"Line {found.line}: " if found.line else ""
+        code = f"`{found.excerpt[found.line - found.first].strip()}`: " if _has_line(found) else ""
+        lines.append(" ".join(filter(None, [f"{where}{code}{found.text} ({found.author})", since_words(found)])))
+    for asked in review.requests:
+        said = (
+            f"Answer ({asked.answered_by}): {asked.answer}" if asked.state == "answered" else "It is not answered yet."
+        )
+        lines.append(f"You asked: {asked.text} {said}")
+    return lines
+
+
+def _has_line(found: Comment) -> bool:
+    return bool(found.line) and 0 <= found.line - found.first < len(found.excerpt)
 
 
 def moment(found: HandIn) -> str:

@@ -44,6 +44,19 @@ class EarlierResult:
     points: Amount | None
 
 
+@dataclass
+class HumanReview:
+    """What people did with a submission."""
+
+    automatic: Amount | None = None  # the points as the grader gave them
+    changes: list[str] = field(default_factory=list)  # of points, in words
+    look_again: list[str] = field(default_factory=list)  # what of them rests on a result that has changed since
+    comments: Count = 0
+    requests: Count = 0  # for a regrade
+    open_requests: Count = 0
+    read: bool = False  # somebody has read the code as it is now
+
+
 @dataclass(kw_only=True)
 class GradedSubmission:
     """How one submission stands."""
@@ -54,7 +67,7 @@ class GradedSubmission:
     entry: Text
     students: list[Student]
     status: Literal["graded", "unreadable", "fault", "not-graded"]
-    points: Amount | None  # without regard to lateness
+    points: Amount | None  # after what people changed, without regard to lateness
     max: Amount | None  # without the bonus
     run: int | None  # that gave this result
     steps: dict[str, StepPoints]
@@ -70,6 +83,7 @@ class GradedSubmission:
     fault: str
     note: str
     results: str | None  # path of results.json
+    review: HumanReview = field(default_factory=HumanReview, metadata=OPTIONAL)
 
 
 @dataclass

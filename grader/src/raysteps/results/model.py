@@ -9,6 +9,7 @@ from msgspec import Meta
 
 from raysteps import __version__
 from raysteps.common.documents import OPTIONAL, Amount, Count, Share, Text
+from raysteps.results.review import Review
 from raysteps.results.statuses import Status
 from raysteps.sandbox.task import Isolation
 
@@ -175,6 +176,7 @@ class StepResult:
     build_log: str = ""  # all that the compiler said
     cumulative: Integration = field(default_factory=lambda: Integration(False))
     messages: list[str] = field(default_factory=list)
+    review: Review | None = field(default=None, metadata=OPTIONAL)  # what a person added; `points` are those that count
 
     @property
     def share_of_tests(self) -> float:
@@ -219,6 +221,13 @@ class Total:
     max: Amount
     bonus: PointSum
 
+    @classmethod
+    def of(cls, steps: Sequence[StepResult], extra: float = 0.0) -> Self:
+        """`extra`: what a person gave or took for the submission as a whole."""
+        points = max(0.0, round(PointSum.of(steps).points + extra, 2))
+        regular = PointSum.of([step for step in steps if not step.bonus])
+        return cls(points, regular.max, PointSum.of([step for step in steps if step.bonus]))
+
 
 @dataclass(frozen=True)
 class Lateness:
@@ -253,6 +262,7 @@ class Results:
     version: str = field(default="", metadata=OPTIONAL)  # of that kit
     course: str = field(default="", metadata=OPTIONAL)  # its title and term
     handed_in: HandIn | None = field(default=None, metadata=OPTIONAL)
+    review: Review | None = field(default=None, metadata=OPTIONAL)  # what a person added to the whole submission
     isolation: Isolation
     timing: Timing
     total: Total
@@ -274,7 +284,6 @@ class Results:
         timing: Timing | None = None,
     ) -> Self:
         """What this kit has just graded."""
-        regular = PointSum.of([step for step in steps if not step.bonus])
         return cls(
             schema="raysteps/results/v1",
             submission=submission,
@@ -282,6 +291,6 @@ class Results:
             version=__version__,
             isolation=isolation or Isolation(),
             timing=timing or Timing(),
-            total=Total(PointSum.of(steps).points, regular.max, PointSum.of([step for step in steps if step.bonus])),
+            total=Total.of(steps),
             steps=steps,
         )

@@ -58,6 +58,12 @@ class ClassFilter {
     return step === "" ? facts.statuses.some(fits) : fits(facts.statuses[Number(step)]);
   }
 
+  /** A box that is ticked wants those rows only of which its name is true. */
+  matchesBoxes(facts) {
+    const boxes = this.form.querySelectorAll("input[type=checkbox]");
+    return Array.from(boxes).every((box) => !box.checked || facts[box.id]);
+  }
+
   apply() {
     const search = this.searchable(this.value("search")).split(/\s+/).filter(Boolean);
     const hidden = this.rows.namesHidden;
@@ -66,8 +72,7 @@ class ClassFilter {
       return (
         search.every((word) => words.includes(word)) &&
         this.matchesStep(facts) &&
-        (!this.value("look") || facts.look) &&
-        (!this.value("late") || facts.late) &&
+        this.matchesBoxes(facts) &&
         (this.mistake === null || facts.mistakes.includes(this.mistake))
       );
     });

@@ -10,6 +10,7 @@
  * @property {number[]} mistakes
  * @property {boolean} look
  * @property {boolean} late
+ * @property {boolean} changed a person changed its points
  */
 
 const classByName = new Intl.Collator(undefined, { numeric: true, sensitivity: "base" });

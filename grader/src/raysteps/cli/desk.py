@@ -1,0 +1,112 @@
+"""The command `desk`."""
+
+import argparse
+import getpass
+import signal
+import sys
+import threading
+import webbrowser
+from contextlib import closing, suppress
+from pathlib import Path
+from types import FrameType
+
+from rich.console import Console
+
+from raysteps.classroom.database import FILE, ClassDatabase, telling_of
+from raysteps.classroom.session import undisturbed
+from raysteps.cli.watch import on_a_desktop, port
+from raysteps.common.errors import UsageError
+from raysteps.common.platform import refuse_on_windows
+from raysteps.course.project import Project
+from raysteps.desk.desk import Desk, DeskServer
+from raysteps.desk.file_writer import check_folder, write_all
+from raysteps.desk.said import export_file, import_file
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What may follow `desk`."""
+    add = parser.add_argument
+    add("folder", type=Path, metavar="OUT", help="the --out folder of grade-class")
+    add("--as", dest="author", default="", metavar="NAME", help="who you are (your login); students read it")
+    add("--port", type=port, default=0, metavar="N", help="of the page (any that is free)")
+    add("--no-open", action="store_true", help="do not open the page in a browser")
+    add(
+        "--export",
+        type=Path,
+        metavar="FILE",
+        help="write all that was said (.json, with its history, or .csv), and end",
+    )
+    add(
+        "--import", dest="taken", type=Path, metavar="FILE", help="take in such a file, or a table of requests, and end"
+    )
+    add("--write", action="store_true", help="make the files of the class anew with all that was said, and end")
+
+
+def _login() -> str:
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):  # a number that has no name here
+        return ""
+
+
+def _end(_number: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
+    desk = Desk(out, arguments.author or _login())
+    try:
+        server = DeskServer(desk, arguments.port)
+        try:
+            with suppress(KeyboardInterrupt):
+                console.print(f"Page: {server.address}", highlight=False, soft_wrap=True, markup=False)
+                console.print("Ctrl-C ends it. All that you say is kept at once.", highlight=False)
+                sys.stdout.flush()
+                if not arguments.no_open and on_a_desktop():
+                    with suppress(webbrowser.Error, OSError):
+                        webbrowser.open(server.address)
+                threading.Event().wait()
+        finally:
+            with undisturbed():
+                server.close()
+    finally:
+        with undisturbed():
+            desk.close()
+    told = {
+        "waiting": "A grade-class is at work there; at its end it writes what you said into the files.",
+        "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; "
+        f"./raysteps desk {out} --write makes them anew.",
+    }
+    console.print(told.get(desk.writer.state, "All files hold what was said."), highlight=False, markup=False)
+
+
+def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int:
+    check_folder(out)
+    with telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
+        if arguments.taken:
+            new = import_file(database, arguments.taken, arguments.author or _login())
+            console.print(f"{arguments.taken}: {new} new", highlight=False, markup=False, soft_wrap=True)
+        if arguments.export:
+            amount = export_file(database, arguments.export)
+            console.print(f"{arguments.export}: {amount} written", highlight=False, markup=False, soft_wrap=True)
+    if arguments.taken and not write_all(out):
+        console.print("A grade-class is at work there; at its end it writes the files.", highlight=False)
+    return 0
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Serves the page until somebody ends it."""
+    refuse_on_windows("desk")
+    out: Path = arguments.folder
+    if arguments.export or arguments.taken:
+        return _exchange(console, out, arguments)
+    if arguments.write:
+        if not write_all(out):
+            raise UsageError(f"{out}: a grade-class is at work there, and writes the files at its end")
+        console.print(f"Written: {out}", highlight=False, markup=False, soft_wrap=True)
+        return 0
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), _end)
+    _serve(console, out, arguments)
+    return 0

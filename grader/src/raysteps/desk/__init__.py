@@ -1,0 +1,1 @@
+"""Where people read submissions of a class, comment on them and change points."""

@@ -1,0 +1,267 @@
+"""The desk in a real browser, by keyboard alone and by mouse."""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
+from class_fakes import grade_class, write_entry
+
+from raysteps.desk.desk import Desk, DeskServer
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.usefixtures("fake_grader")
+
+_STEP = "01-camera-rays"
+_NASTY = '<img src=x onerror="document.title=1"><script>document.title=2</script>'
+_CODE = f"// points 4\nint first = 1;\n// {_NASTY}\nint third = 3;\n"
+
+
+@pytest.fixture
+def grades(tmp_path: Path) -> Path:
+    for name, code in (("ann", _CODE), ("bob", _CODE), ("eve", _CODE)):
+        write_entry(tmp_path / "in", name, code)
+    roster = tmp_path / "roster.csv"
+    roster.write_text(f'id,name,submission\n1,"Ann {_NASTY.replace(chr(34), chr(34) * 2)}",ann\n', encoding="utf-8")
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out", "--roster", roster) == 0
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def server(grades: Path) -> Iterator[DeskServer]:
+    desk = Desk(grades, "Ada")
+    found = DeskServer(desk)
+    yield found
+    found.close()
+    desk.close()
+
+
+@pytest.fixture
+def pages(watched: Watched, server: DeskServer) -> Iterator[Watched]:
+    """The page may ask its own server, and nobody else; it is closed first, as it asks whether files are written."""
+    watched.allowed.append(server.address)
+    yield watched
+    watched.close()
+
+
+def _open(pages: Watched, server: DeskServer, name: str = "", **how: Any) -> "Page":
+    page = pages.open(server.address + (f"#{name}" if name else ""), **how)
+    page.locator("tbody tr").first.wait_for(state="attached")
+    if name:
+        _is_open(page, name)
+    return page
+
+
+def _is_open(page: "Page", name: str) -> None:
+    page.locator(f"#submission[data-name={name}] .desk-head").wait_for()
+
+
+def _press(page: "Page", *keys: str) -> None:
+    for key in keys:
+        page.keyboard.press(key)
+
+
+def _results(grades: Path, server: DeskServer, name: str = "ann") -> dict[str, Any]:
+    assert server.desk.writer.wait() == "written"
+    found: dict[str, Any] = json.loads((grades / "submissions" / name / "results.json").read_text())
+    return found
+
+
+def _shown(page: "Page") -> list[str]:
+    return [text.split(",")[0] for text in page.locator("tbody tr:not([hidden]) th a").all_inner_texts()]
+
+
+def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server)
+    page.wait_for_function("document.activeElement.matches('tbody a')")
+    _press(page, "j", "k", "j", "Enter")
+    _is_open(page, "bob")
+    _press(page, "l", "ArrowDown", "c")
+    page.keyboard.type("why one? just asking")
+    _press(page, "Control+Enter")
+    card = page.locator(".desk-lines li:nth-child(2) .desk-card")
+    assert "why one? just asking" in card.inner_text()
+    page.wait_for_function("document.activeElement.textContent === '2'")  # one goes on where one was
+    _press(page, "r")
+    page.locator("#read[aria-pressed=true]").wait_for()
+    _press(page, "n")
+    _is_open(page, "eve")
+    comment = _results(grades, server, "bob")["steps"][0]["review"]["comments"][0]
+    assert (comment["line"], comment["text"], comment["author"]) == (2, "why one? just asking", "Ada")
+
+
+def test_points_with_a_reason_and_back(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    _press(page, "p")
+    page.keyboard.type("7.5")
+    _press(page, "Control+Enter")
+    assert page.evaluate("document.activeElement.validity.valueMissing")  # no reason, no change
+    page.keyboard.type("it was my fault")
+    _press(page, "Control+Enter")
+    page.locator(".desk-reason", has_text="Ada: it was my fault").wait_for()
+    assert "7.5 points (4 by the grader)" in page.locator(".desk-points").inner_text()
+    results = _results(grades, server)
+    assert results["total"]["points"] == 7.5
+    assert results["steps"][0]["review"]["overrides"][0]["reason"] == "it was my fault"
+    page.locator("[data-part=step]").click()
+    page.get_by_role("button", name="Take the change back").click()
+    page.locator(".desk-points", has_text="4 points").wait_for()
+    assert _results(grades, server)["total"]["points"] == 4
+    page.locator(".desk-parts summary", has_text="History").click()
+    assert "taken back" in page.locator(".desk-history").inner_text()
+
+
+def test_points_for_the_whole_may_be_less_than_none(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    _press(page, "0", "p")
+    page.keyboard.type("-1.5")
+    _press(page, "Tab")
+    page.keyboard.type("a file was missing")
+    _press(page, "Control+Enter")
+    page.locator(".desk-side", has_text="-1.5 points: a file was missing").wait_for()
+    assert _results(grades, server)["total"]["points"] == 2.5
+
+
+def test_a_request_and_its_answer(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    _press(page, "g")
+    page.keyboard.type("was that right?")
+    _press(page, "Control+Enter")
+    page.locator(".badge", has_text="request: open").wait_for()
+    _press(page, "u")
+    page.locator("#asks").check()
+    assert _shown(page)[0].startswith("Ann")
+    assert len(_shown(page)) == 1
+    _press(page, "Escape", "Enter")
+    page.locator("tbody tr:not([hidden]) a").press("Enter")
+    _is_open(page, "ann")
+    _press(page, "a")
+    page.keyboard.type("It was.")
+    _press(page, "Control+Enter")
+    page.locator(".badge", has_text="request: answered").wait_for()
+    assert _results(grades, server)["steps"][0]["review"]["requests"][0]["answer"] == "It was."
+
+
+def test_by_mouse_at_a_line_and_dropped_again(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    page.locator(".desk-lines li:nth-child(4) .line-number").click()
+    page.locator("textarea").fill("not this")
+    _press(page, "Escape")
+    page.locator("textarea").wait_for(state="detached")
+    page.locator(".desk-lines li:nth-child(4) .line-number").click()
+    page.locator("textarea").fill("this")
+    page.get_by_role("button", name=re.compile("^Save")).click()
+    card = page.locator(".desk-lines li:nth-child(4) .desk-card")
+    card.wait_for()
+    card.get_by_role("button", name="Take back").click()
+    page.locator(".desk-talk .desk-card.withdrawn").wait_for()
+    assert _results(grades, server)["steps"][0]["review"] is None
+
+
+def test_strangers_words_are_only_words(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    assert page.locator(".desk-lines li:nth-child(3) code").inner_text() == f"// {_NASTY}"
+    assert _NASTY in page.locator("#submission-title").inner_text()
+    _press(page, "c")
+    page.keyboard.type(_NASTY)
+    _press(page, "Control+Enter")
+    page.locator(".desk-card").wait_for()
+    assert page.locator("main img, main script").count() == 0
+    assert _NASTY in page.title()
+    _results(grades, server)
+    report = pages.open(grades / "submissions" / "ann" / "report.html")
+    assert report.locator(".by-hand .said").inner_text() == _NASTY
+    assert report.locator(".by-hand img").count() == 0
+
+
+def test_who_was_slower_sees_what_was_written_and_may_replace_it(
+    pages: Watched, server: DeskServer, grades: Path
+) -> None:
+    pages.expected = "409"
+    page = _open(pages, server, "ann")
+    _press(page, "p")
+    server.desk.say("ann", {"kind": "points", "author": "Bob", "step": _STEP, "points": 5, "text": "from bob"})
+    page.keyboard.type("8")
+    _press(page, "Tab")
+    page.keyboard.type("from ada")
+    _press(page, "Control+Enter")
+    trouble = page.locator("form [role=alert]", has_text="Bob has changed this meanwhile")
+    trouble.wait_for()
+    assert "5 from bob" in trouble.inner_text()
+    _press(page, "Control+Enter")
+    page.locator(".desk-reason", has_text="Ada: from ada").wait_for()
+    assert _results(grades, server)["total"]["points"] == 8
+    page.locator(".desk-parts summary", has_text="History").click()
+    assert page.locator(".desk-history li").count() == 2
+
+
+def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
+    pages: Watched, server: DeskServer, grades: Path
+) -> None:
+    server.desk.say("bob", {"kind": "read", "author": "Ada"})
+    page = _open(pages, server)
+    page.locator("#unread").check()
+    assert [name[:3] for name in _shown(page)] == ["Ann", "eve"]
+    page.locator("thead button", has_text="submission").click()
+    page.locator("thead button", has_text="submission").click()
+    assert [name[:3] for name in _shown(page)] == ["eve", "Ann"]
+    page.locator("tbody tr:not([hidden]) a").first.click()
+    _is_open(page, "eve")
+    assert "1 of 2" in page.locator(".desk-head").inner_text()
+    _press(page, "j")
+    _is_open(page, "ann")
+    _press(page, "j")
+    _is_open(page, "eve")
+    _press(page, "/")
+    page.keyboard.type("ann")
+    assert [name[:3] for name in _shown(page)] == ["Ann"]
+
+
+def test_help_tells_all_keys(pages: Watched, server: DeskServer) -> None:
+    page = _open(pages, server, "ann")
+    _press(page, "?")
+    text = page.locator("#help").inner_text()
+    for key in ("j k", "n", "m", "r", "c", "p", "g", "a", "u", "/", "Ctrl + Enter"):
+        assert key in text
+    assert_accessible(page)
+    _press(page, "Escape")
+    page.locator("#help").wait_for(state="hidden")
+
+
+def test_without_a_name_nothing_is_written(pages: Watched, server: DeskServer) -> None:
+    page = _open(pages, server, "ann")
+    page.locator("#author").fill(" ")
+    page.locator("#submission-title").focus()
+    _press(page, "c")
+    page.keyboard.type("who am I?")
+    _press(page, "Control+Enter")
+    page.locator("form [role=alert]", has_text="Say who you are").wait_for()
+    assert page.evaluate("document.activeElement.id") == "author"
+    page.keyboard.type("Ada")
+    page.get_by_role("button", name=re.compile("^Save")).click()
+    page.locator(".desk-card", has_text="who am I?").wait_for()
+
+
+@pytest.mark.parametrize("width", [1400, 390])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_and_the_width(pages: Watched, server: DeskServer, width: int, scheme: Scheme) -> None:
+    for said in (
+        {"kind": "comment", "step": _STEP, "line": 2, "text": "why?"},
+        {"kind": "points", "step": _STEP, "part": "hidden", "points": 2, "text": "because"},
+        {"kind": "request", "step": _STEP, "text": "was it?"},
+    ):
+        server.desk.say("ann", {**said, "author": "Ada"})
+    page = _open(pages, server, width=width, scheme=scheme)
+    assert_accessible(page)
+    assert_no_sideways_scrolling(page)
+    page.locator("tbody a").first.click()
+    _is_open(page, "ann")
+    page.locator(".desk-card").first.wait_for()
+    _press(page, "p")
+    assert_accessible(page)
+    assert_no_sideways_scrolling(page)
