@@ -43,6 +43,11 @@ def test_no_line_is_wider_than_a_terminal(project: Project) -> None:
         assert wide == [], document
 
 
+def test_no_merge_was_left_half_done(project: Project) -> None:
+    marks = re.compile(r"^(?:<{7}|>{7}|\|{7}) ", re.MULTILINE)
+    assert [path.name for path in _documents(project) if marks.search(path.read_text("utf-8"))] == []
+
+
 def test_the_paper_is_explained_where_it_is_first_named(project: Project) -> None:
     """Nobody else's paper, such as Whitted's, is called so."""
     linked = []
