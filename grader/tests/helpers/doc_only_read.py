@@ -4,6 +4,8 @@ from typed_commands import Typed
 
 _TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
 _FIGURES = "takes minutes; `test` does what --check does"
+_IMAGE = "takes minutes, and needs an engine and a network; test_image has one that only listens"
+_NIGHTLY = "goes on until Ctrl-C; test_nightly looks as often as it likes"
 _FINALE = "draws for a minute; test_finale makes a small one"
 
 COMMANDS = {
@@ -24,6 +26,10 @@ COMMANDS = {
     "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
         "shows a mistake that somebody made; test_divergence makes such"
     ),
+    "./raysteps image --tag raysteps-grader": _IMAGE,
+    "./raysteps image --tag raysteps-students --without-solutions --steps 1-4": _IMAGE,
+    "./raysteps nightly submissions --out grades --roster students.csv --per-day 2": _NIGHTLY,
+    "./raysteps nightly --git --out grades --roster students.csv": _NIGHTLY,
     "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
         "needs a cluster; test_cluster has one"
     ),
