@@ -4,6 +4,8 @@ from typed_commands import Typed
 
 _TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
 _FIGURES = "takes minutes; `test` does what --check does"
+_IMAGE = "takes minutes, and needs an engine and a network; test_image has one that only listens"
+_NIGHTLY = "goes on until Ctrl-C; test_nightly looks as often as it likes"
 _FINALE = "draws for a minute; test_finale makes a small one"
 
 COMMANDS = {
@@ -25,6 +27,10 @@ COMMANDS = {
         "shows a mistake that somebody made; test_divergence makes such"
     ),
     "./raysteps desk grades": "ends when somebody ends it; test_desk_command does",
+    "./raysteps image --tag raysteps-grader": _IMAGE,
+    "./raysteps image --tag raysteps-students --without-solutions --steps 1-4": _IMAGE,
+    "./raysteps nightly submissions --out grades --roster students.csv --per-day 2": _NIGHTLY,
+    "./raysteps nightly --git --out grades --roster students.csv": _NIGHTLY,
     "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
         "needs a cluster; test_cluster has one"
     ),

@@ -77,7 +77,7 @@ def planted(kit: BuiltKit, folder: Path) -> Iterator[Planted]:
     text = f"raysteps-secret-{secrets.token_hex(16)}"
     path = folder / "planted-secret.txt"
     database = folder / "class.sqlite"
-    for place in (path, kit.folder / path.name, kit.answers / path.name, kit.folder / "steps" / path.name):
+    for place in (path, kit.folder / path.name, kit.folder / "answers" / path.name, kit.folder / "steps" / path.name):
         place.parent.mkdir(exist_ok=True)
         place.write_text(f"{text}\n", encoding="ascii")
         place.chmod(0o644)

@@ -138,5 +138,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         console.print()
     print_table(console, told)
     print_isolation(console, results)
-    print_files(console, out / "results.json", page)
+    if options.out is None and room != project.build:
+        console.print("Results were not kept: the kit may only be read here. Name a folder for them with --out.")
+    else:
+        print_files(console, out / "results.json", page)
     return results

@@ -151,7 +151,7 @@ def _kept(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Path:
     if not scene.is_file():
         raise GraderFault(f"{scene}: is not there; expected the scene of a picture")
     key = hashlib.sha256(scene.read_bytes() + "\0".join(args).encode()).hexdigest()
-    return kit.pictures / f"{key[:32]}.ppm"
+    return kit.kept("pictures", f"{key[:32]}.ppm")
 
 
 def _stats_beside(picture: Path) -> Path:
@@ -211,7 +211,7 @@ def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
     path = _stats_beside(_kept(kit, scene, args))
     work = read_work(path.read_bytes())
     if work is None:
-        raise GraderFault(f"{path}: expected what `raytrace --stats` writes; delete the folder {kit.pictures}")
+        raise GraderFault(f"{path}: expected what `raytrace --stats` writes; delete the folder {path.parent}")
     return work
 
 

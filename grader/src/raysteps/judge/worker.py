@@ -228,7 +228,7 @@ def reference_unkept(kit: BuiltKit, cases: bytes) -> TaskResult:
 
 def reference_answers(kit: BuiltKit, cases: bytes) -> TaskResult:
     """The reference's answers, kept: a class is asked the same questions."""
-    path = kit.answers / hashlib.sha256(cases).hexdigest()[:32]
+    path = kit.kept("answers", hashlib.sha256(cases).hexdigest()[:32])
     if path.is_file():
         return TaskResult(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
     ran = reference_unkept(kit, cases)

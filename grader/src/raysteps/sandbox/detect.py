@@ -83,7 +83,7 @@ def _refuse_noexec() -> None:
     if sys.platform != "win32" and os.statvfs(folder).f_flag & getattr(os, "ST_NOEXEC", 0):
         raise UsageError(
             f"{folder}: is mounted so that no program there can be run (noexec). Expected a folder for temporary files "
-            "where programs run: set TMPDIR to one, or in a container give `--tmpfs /tmp:exec`"
+            "where programs run: set TMPDIR to one, or in a container mount it as in `--tmpfs /scratch:exec`"
         )
 
 

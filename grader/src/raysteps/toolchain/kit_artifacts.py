@@ -1,13 +1,17 @@
 """The kit as it grades: framework, references and tests, built once and only read from then on."""
 
+import atexit
 import errno
 import hashlib
 import json
+import os
 import shutil
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -178,6 +182,22 @@ class ProgramLinker:
             return folder / name
 
 
+_first_asks = threading.Lock()
+
+
+@cache
+def _new_room() -> Path:
+    room = Path(tempfile.mkdtemp(prefix="raysteps-kept-"))  # open to this user only
+    atexit.register(shutil.rmtree, room, ignore_errors=True)
+    return room
+
+
+def _own_room() -> Path:
+    """One for this process, whichever thread asks first."""
+    with _first_asks:
+        return _new_room()
+
+
 @dataclass(frozen=True)
 class BuiltKit:
     """Lives in build/kit/FINGERPRINT. `tests` holds each step's visible test cases."""
@@ -201,20 +221,16 @@ class BuiltKit:
         """The headers that a student's file may include: core/ and the steps' contracts."""
         return self.folder / "include"
 
-    @property
-    def pictures(self) -> Path:
-        """Pictures of the reference, kept from run to run."""
-        return self.folder / "pictures"
+    def kept(self, kind: Literal["pictures", "answers"], name: str) -> Path:
+        """Something of the reference, kept from run to run: a picture, or answers to the judge. What a kit lacks that
+        may only be read, as in an image, is kept as long as this process runs."""
+        path = self.folder / kind / name
+        return path if path.is_file() or os.access(path.parent, os.W_OK) else _own_room() / kind / name
 
     @property
     def has_reference(self) -> bool:
         """In a students' kit stubs stand where the reference's steps would."""
         return self.project.has_reference
-
-    @property
-    def answers(self) -> Path:
-        """Answers of the reference to the judge, kept from run to run."""
-        return self.folder / "answers"
 
     def reference(self, kind: Kind, step: Step | None = None) -> Path:
         """A program in which every step is the reference's."""
