@@ -337,7 +337,7 @@ _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
 
 
-def _next(steps: Sequence[StepResult]) -> StepResult | None:
+def next_step(steps: Sequence[StepResult]) -> StepResult | None:
     """The first step that is not solved; a bonus only when nothing else is left."""
     unsolved = [step for step in steps if step.status != "passed"]
     return next((step for step in unsolved if not step.bonus), unsolved[0] if unsolved else None)
@@ -432,12 +432,15 @@ def student_page(
     folder: Path,
     steps: Sequence[Step],
     progress: OwnProgress = _NO_PROGRESS,
+    most: int = _MAX,
 ) -> str:
-    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more."""
-    text = _page(results, make_album(results, folder, _ROOM), steps, progress)
-    excess = len(text.encode()) - _MAX
+    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more. It has at most
+    that many bytes, as far as leaving pictures out can do that."""
+    room = _ROOM - (_MAX - most)
+    text = _page(results, make_album(results, folder, room), steps, progress)
+    excess = len(text.encode()) - most
     if excess > 0:
-        text = _page(results, make_album(results, folder, _ROOM - excess), steps, progress)
+        text = _page(results, make_album(results, folder, room - excess), steps, progress)
     return text
 
 
@@ -452,7 +455,7 @@ def _page(
         result.id: step_view(result, known.get(result.id), album, progress.has_reference) for result in results.steps
     }
     parts = [part for result in results.steps for part in parts_of(result, known.get(result.id))]
-    following, beyond = _next(results.steps), progress.following
+    following, beyond = next_step(results.steps), progress.following
     name = clean(results.submission, 200)
     own = _own_pictures(results, views, following)
     is_perfect = following is None and beyond is None and bool(results.steps)
