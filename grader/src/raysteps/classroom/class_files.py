@@ -104,7 +104,7 @@ def write_submission(
     results = None
     if stored is not None:
         told = withhold(stored, database.feedback())
-        results = replace(told, course=course, handed_in=hand_in(one))
+        results = replace(told, course=course, handed_in=hand_in(one), earlier=one.earlier)
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(results, files)
     _forget_files(folder, shown)

@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import sqlite3
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
@@ -105,6 +105,17 @@ CREATE TABLE IF NOT EXISTS given (        -- what a run was given beside the sub
     files TEXT NOT NULL                   -- JSON: where roster and late policy lay
 )
 """
+_SOURCES = """
+CREATE TABLE IF NOT EXISTS sources (      -- of what was handed in when a result was made
+    submission INTEGER NOT NULL,
+    run INTEGER NOT NULL,
+    digest TEXT NOT NULL,                 -- of the sources alone
+    submitted_at TEXT NOT NULL,
+    submitted_from TEXT NOT NULL,
+    PRIMARY KEY (submission, run),
+    FOREIGN KEY (submission, run) REFERENCES results (submission, run)
+)
+"""
 _COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
 
 
@@ -194,6 +205,7 @@ def open_database(path: Path) -> sqlite3.Connection:
                     connection.execute(f"PRAGMA user_version = {VERSION}")
                 connection.execute(_REUSED)
                 connection.execute(_GIVEN)
+                connection.execute(_SOURCES)
                 if all(column["name"] != "course" for column in connection.execute("PRAGMA table_info(runs)")):
                     connection.execute(_COURSE)
             if was_there:
@@ -334,8 +346,8 @@ class ClassDatabase:
                 {**row, "entry": entry},
             )
 
-    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: Collection[str]) -> None:
-        """`reused` are the submissions whose earlier result was found to hold."""
+    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: Mapping[str, str]) -> None:
+        """`reused` are the submissions whose earlier result was found to hold, with the digests of their sources."""
         with transaction(self.connection):
             self.connection.execute(
                 "UPDATE runs SET state = ?, ended_at = ?, reused = ? WHERE number = ?", (state, now(), len(reused), run)
@@ -344,6 +356,10 @@ class ClassDatabase:
                 "INSERT OR IGNORE INTO reused (submission, run) SELECT id, ? FROM submissions WHERE name = ?",
                 [(run, name) for name in reused],
             )
+            for name, sources in reused.items():
+                current = self.current(name)
+                if current is not None:
+                    self._keep_sources(current["submission"], current["run"], sources)
 
     def feedback(self) -> Feedback:
         """How much the last run wants students to be told."""
@@ -360,8 +376,9 @@ class ClassDatabase:
         ).fetchone()
         return row
 
-    def record(self, run: int, answer: Answer, key: str, *, unreadable: bool = False) -> bool:
-        """Keeps an answer; False when the run already has a result of this submission, which then stays."""
+    def record(self, run: int, answer: Answer, key: str, *, unreadable: bool = False, sources: str = "") -> bool:
+        """Keeps an answer; False when the run already has a result of this submission, which then stays. `sources` is
+        the digest of what was handed in."""
         results = answer.results
         with transaction(self.connection):
             (submission,) = self.connection.execute(
@@ -382,12 +399,23 @@ class ClassDatabase:
             }
             if insert(self.connection, "results", row, "ON CONFLICT (submission, run) DO NOTHING") == 0:
                 return False
+            self._keep_sources(submission, run, sources)
             for path, data in answer.pictures.items():
                 digest = hashlib.sha256(data).hexdigest()
                 insert(self.connection, "blobs", {"sha256": digest, "data": data}, "ON CONFLICT (sha256) DO NOTHING")
                 picture = {"submission": submission, "run": run, "path": path, "sha256": digest}
                 insert(self.connection, "pictures", picture)
         return True
+
+    def _keep_sources(self, submission: int, run: int, digest: str) -> None:
+        """With the time of the hand-in as it is known now: the next run may bring another submission. What an earlier
+        kit did not keep is added when its result is found to hold."""
+        if digest:
+            self.connection.execute(
+                "INSERT OR REPLACE INTO sources (submission, run, digest, submitted_at, submitted_from) "
+                "SELECT id, ?, ?, submitted_at, submitted_from FROM submissions WHERE id = ?",
+                (run, digest, submission),
+            )
 
     def pictures(self, submission: int, run: int) -> dict[str, bytes]:
         rows = self.connection.execute(

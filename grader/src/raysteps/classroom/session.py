@@ -16,6 +16,7 @@ from raysteps.classroom.class_files import steps_of, withdraw_tables, write_subm
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import load_entry
 from raysteps.classroom.jobs import GAVE_UP, Answer, Job
+from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
@@ -86,6 +87,7 @@ class _Pending:
 
     key: str
     unreadable: bool
+    sources: str = ""  # their digest
 
 
 @dataclass
@@ -99,7 +101,7 @@ class Session:
     run: int
     names: dict[str, str]
     learn: Callable[[], None] = lambda: None  # called when the first job is due
-    reused: list[str] = field(default_factory=list)
+    reused: dict[str, str] = field(default_factory=dict)  # with the digests of their sources
     recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
@@ -124,13 +126,13 @@ class Session:
                 continue
             key = submission_key(taken.submission, self.kit, self.plan.grading)
             if self.plan.options.resume and self._is_done(name, key):
-                self.reused.append(name)
+                self.reused[name] = sources_digest(taken.submission)
                 self.meter.skip()
                 continue
             if not has_learned:
                 self.learn()
                 has_learned = True
-            self._pending[name] = _Pending(key, taken.unreadable)
+            self._pending[name] = _Pending(key, taken.unreadable, sources_digest(taken.submission))
             options = self.plan.options
             yield Job(
                 taken.submission, self.plan.grading, options.grader, self.kit, options.require_sandbox, self.plan.uid
@@ -146,7 +148,10 @@ class Session:
         return results is not None and (results.isolation.strong or not self.plan.options.require_sandbox)
 
     def _record(self, answer: Answer, pending: _Pending) -> None:
-        if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable):
+        kept = self.database.record(
+            self.run, answer, pending.key, unreadable=pending.unreadable, sources=pending.sources
+        )
+        if kept:
             if not self.recorded:
                 withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)

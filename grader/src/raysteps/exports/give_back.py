@@ -177,8 +177,8 @@ def moodle_zip(deliveries: Deliveries, people: Sequence[Person] | None) -> bytes
     return as_zip(sorted(members.values(), key=lambda member: member.name))
 
 
-# What Canvas takes under "Re-Upload Submissions" of an assignment: files that are called as in the download. It shows each
-# under the name that the student gave it, and so the reports come in an archive of the same kind.
+# What Canvas takes under "Re-Upload Submissions" of an assignment: files that are called as in the download. It shows
+# each under the name that the student gave it, and so the reports come in an archive of the same kind.
 
 _TAR_FORMS = {
     ".tar.gz": "gz", ".tgz": "gz", ".tar.xz": "xz", ".txz": "xz", ".tar.bz2": "bz2", ".tbz2": "bz2",

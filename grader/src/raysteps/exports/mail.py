@@ -23,6 +23,7 @@ from raysteps.common.text import clean, number, size, tenths
 from raysteps.exports.autograders import Member, as_zip
 from raysteps.exports.give_back import Deliveries, Delivery
 from raysteps.exports.items import one_line, title
+from raysteps.report.attempts import history_words
 from raysteps.report.student import REPORT, next_step, student_page
 from raysteps.report.wording import hand_in_words, total_words
 from raysteps.results.model import Results, StepResult
@@ -160,7 +161,7 @@ def values(delivery: Delivery, deliveries: Deliveries, file: str) -> dict[str, s
         "counts": number(student.points) if student.points is not None else "",
         "steps": "\n".join(_step_line(result, known) for result in results.steps),
         "next": _next_words(results, known),
-        "history": "",
+        "history": "\n".join(history_words(results, known)),
         "file": file,
     }
 

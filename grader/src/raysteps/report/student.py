@@ -10,7 +10,7 @@ from raysteps.common.files import write_if_changed
 from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import GROSS, read_png
-from raysteps.report.attempts import OwnProgress, chart_of
+from raysteps.report.attempts import History, OwnProgress, chart_of, history_of
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
     COMPARE_STYLES,
@@ -423,6 +423,11 @@ def _hand_in_view(results: Results) -> dict[str, object]:
     }
 
 
+def _history(results: Results, views: Mapping[str, Mapping[str, Any]]) -> History | None:
+    """What was handed in before; nothing where no class was graded."""
+    return history_of(results, {step: f"{view['number']} {view['title']}" for step, view in views.items()})
+
+
 def _sums(parts: Sequence[Part]) -> dict[str, float]:
     return {name: round(sum(part.earned for part in parts if part.name == name), 1) for name in _PARTS}
 
@@ -462,6 +467,7 @@ def _page(
     context = {
         "name": name,
         "hand_in": _hand_in_view(results),
+        "history": _history(results, views),
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}
