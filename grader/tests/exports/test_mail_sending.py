@@ -1,19 +1,24 @@
 """Reports are sent by SMTP, each once, whatever happens in between."""
 
+import email
+import email.policy
 import io
 import json
 import socket
 import ssl
 import subprocess
 from collections.abc import Callable
+from email.message import EmailMessage
 from pathlib import Path
 
 import pytest
 from give_back_class import export, grade
 from smtp_server import FakeSmtp, Mischief
 
+from raysteps.classroom.database import LOCK
 from raysteps.cli.give_back import PASSWORD
 from raysteps.common.errors import UsageError
+from raysteps.common.files import try_lock
 from raysteps.exports.smtp import LOG, parse_server, read_log
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -155,7 +160,7 @@ def test_a_second_sending_at_the_same_time_is_refused(graded: Path) -> None:
 
         server.on_taken = again
         assert _send(graded, server)[0] == 0
-        assert told == [f"{graded / LOG}: another sending of this class is going on; wait for it"]
+        assert told == [f"{graded}: this class is being graded or sent right now; wait for the end of that"]
         assert _to(server) == _ALL
 
 
@@ -184,6 +189,38 @@ def test_a_message_that_the_server_finds_too_large(graded: Path) -> None:
         assert (code, _to(server)) == (1, [])
         assert "s1@example.edu (s1): the server takes 20.0 kB at most, and this has " in text
         assert not any("RCPT" in line for line in server.heard)
+
+
+def test_lines_that_are_a_dot_and_large_reports_arrive_whole(graded: Path, tmp_path: Path) -> None:
+    page = graded / "submissions" / "s1" / "report.html"
+    page.write_bytes(page.read_bytes() + b"." * 3_000_000)
+    template = tmp_path / "mail.txt"
+    template.write_text("Subject: x\n\n.\n..\n.text\nFrom here on\n")
+    with FakeSmtp() as server:
+        assert _send(graded, server, "--only", "s1", "--template", str(template))[0] == 0
+        message = email.message_from_bytes(server.taken[0].data, policy=email.policy.default)
+    assert isinstance(message, EmailMessage)
+    body = message.get_body(("plain",))
+    assert body is not None
+    assert body.get_content().splitlines() == [".", "..", ".text", "From here on"]
+    [part] = message.iter_attachments()
+    assert part.get_payload(decode=True) == page.read_bytes()
+
+
+def test_a_class_that_is_being_graded_is_not_sent(graded: Path) -> None:
+    with FakeSmtp() as server, (graded / LOCK).open("a") as file:
+        assert try_lock(file.fileno())
+        with pytest.raises(UsageError, match="this class is being graded or sent right now"):
+            _send(graded, server)
+        assert server.connections == 0
+
+
+def test_a_folder_that_is_no_class(tmp_path: Path) -> None:
+    with FakeSmtp() as server:
+        with pytest.raises(UsageError, match="is not there; --results wants the folder that grade-class wrote"):
+            _send(tmp_path / "nowhere", server)
+        with pytest.raises(UsageError, match=r"holds no results\.csv; --results wants the folder"):
+            _send(tmp_path, server)
 
 
 def test_the_rate(graded: Path, monkeypatch: pytest.MonkeyPatch) -> None:

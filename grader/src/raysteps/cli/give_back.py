@@ -194,7 +194,7 @@ def _print_others(console: Console, heading: str, others: list[Undelivered]) -> 
 def _dry_run(arguments: argparse.Namespace, console: Console, deliveries: Deliveries, options: MailOptions) -> int:
     had = _leave_out_sent(deliveries, read_log(arguments.results / LOG), again=arguments.again)
     table = Table()
-    for heading in ("to", "of", "subject", "attached"):
+    for heading in ("to", "submission", "subject", "attached"):
         table.add_column(heading, overflow="fold")
     table.add_column("size", justify="right")
     amount = total = 0
@@ -265,8 +265,11 @@ def _counted(made: Iterator[Message], amount: int) -> Iterator[Message]:
 _GO_ON = "type the same command again to go on: nobody gets it twice"
 
 
-def _send(arguments: argparse.Namespace, console: Console, deliveries: Deliveries, options: MailOptions) -> int:
+def _send(arguments: argparse.Namespace, console: Console, options: MailOptions) -> int:
+    if not arguments.results.is_dir():
+        read_deliveries(arguments.results)  # which says what is expected there
     with open_log(arguments.results / LOG) as log:
+        deliveries = read_deliveries(arguments.results, arguments.only)
         had = _leave_out_sent(deliveries, log, again=arguments.again)
         amount = len(deliveries.given)
         addressed = sum(plain_address(one.student.email) is not None for one in deliveries.given)
@@ -311,9 +314,9 @@ def give_back(arguments: argparse.Namespace, console: Console) -> int:
             if value and arguments.out is not None:
                 raise UsageError(f"--out writes a file and sends nothing; leave {option} out")
     options = _options(arguments)
+    if arguments.send:
+        return _send(arguments, console, options)
     deliveries = read_deliveries(arguments.results, arguments.only)
     if arguments.out is not None:
         return _write_mbox(arguments, console, deliveries, options)
-    if arguments.send:
-        return _send(arguments, console, deliveries, options)
     return _dry_run(arguments, console, deliveries, options)

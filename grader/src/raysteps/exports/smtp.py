@@ -14,6 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
 
+from raysteps.classroom.database import LOCK
 from raysteps.common.documents import Malformed, parse, plain
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import try_lock
@@ -84,9 +85,9 @@ def read_log(path: Path) -> MailLog:
 
 @contextlib.contextmanager
 def open_log(path: Path) -> Iterator[MailLog]:
-    """Two sendings at a time would send twice."""
+    """Two sendings at a time would send twice, and a grading would change what is sent."""
     try:
-        file = path.open("ab")
+        file = (path.parent / LOCK).open("a")
     except OSError as error:
         raise UsageError(f"{path}: cannot be written: {reason(error)}") from error
     with file:
@@ -95,7 +96,7 @@ def open_log(path: Path) -> Iterator[MailLog]:
         except OSError:
             is_ours = True  # a file system without locks
         if not is_ours:
-            raise UsageError(f"{path}: another sending of this class is going on; wait for it")
+            raise UsageError(f"{path.parent}: this class is being graded or sent right now; wait for the end of that")
         yield read_log(path)
 
 
@@ -231,6 +232,8 @@ def connect(server: Server) -> smtplib.SMTP:
 
 # One message after the other.
 
+_PIECE = 1 << 16  # bytes: the time limit is for each, not for a large message over a slow line
+
 
 class _Refused(Exception):
     """By the server; the message was not taken."""
@@ -260,7 +263,9 @@ def _send(session: smtplib.SMTP, sender: str, message: Message, log: MailLog) ->
     """The server takes a message when it has read the dot at its end: only from there on is it perhaps sent."""
     try:
         _envelope(session, sender, message)
-        session.send(re.sub(rb"(?m)^\.", b"..", message.data))
+        text = re.sub(rb"(?m)^\.", b"..", message.data)
+        for at in range(0, len(text), _PIECE):
+            session.send(text[at : at + _PIECE])
     except (OSError, smtplib.SMTPServerDisconnected) as error:
         raise ConnectionLost(str(error)) from error
     log.note(message, "sending")

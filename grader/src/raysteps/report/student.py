@@ -424,7 +424,9 @@ def _hand_in_view(results: Results) -> dict[str, object]:
 
 
 def _history(results: Results, views: Mapping[str, Mapping[str, Any]]) -> History | None:
-    """What was handed in before; nothing where no class was graded."""
+    """What was handed in before; nothing where no class was graded, or nothing was."""
+    if not results.earlier:
+        return None
     return history_of(results, {step: f"{view['number']} {view['title']}" for step, view in views.items()})
 
 
