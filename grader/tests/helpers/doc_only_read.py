@@ -5,6 +5,7 @@ from typed_commands import Typed
 _TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
 _FIGURES = "takes minutes; `test` does what --check does"
 _FINALE = "draws for a minute; test_finale makes a small one"
+_DOWNLOAD = "needs the names of a platform's download; test_feedback_zips has such"
 
 COMMANDS = {
     "./raysteps test": "is what runs the tests",
@@ -27,6 +28,10 @@ COMMANDS = {
     "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
         "needs a cluster; test_cluster has one"
     ),
+    "./raysteps export mail --results grades --from Graphics 101 <graphics@example.edu> --send "
+    "--smtp smtp.example.edu --user graphics": "needs a mail server; test_mail_sending has one",
+    "./raysteps export moodle-feedback --results grades --out feedback.zip": _DOWNLOAD,
+    "./raysteps export canvas-feedback --results grades --out feedback.zip": _DOWNLOAD,
 }
 
 SOMEBODY_ELSES = {
