@@ -230,7 +230,7 @@ def _graded_folder(out: Path) -> Path:
     with closing(ClassDatabase(out)) as database:
         run = _begin(database)
         database.record(run, _answer(5, **{f"p{n}": bytes([n]) * 5000 for n in range(50)}), "key")
-        database.end_run(run, "complete", [])
+        database.end_run(run, "complete", {})
     (out / "class.json").write_text("{}")
     return out / "class.sqlite"
 

@@ -150,8 +150,8 @@ def test_grading_again_keeps_the_earlier_results(tmp_path: Path, handed_in: Path
     assert _graded(tmp_path) == ["s1", "s2", "s3"]
     document = _document(out)
     assert document["changed"] == [
-        {"name": "s1", "before": 1, "after": None},
-        {"name": "s2", "before": 2, "after": 8},
+        {"name": "s1", "before": 1, "after": None, "resubmitted": True},
+        {"name": "s2", "before": 2, "after": 8, "resubmitted": True},
     ]
     assert document["gone"] == ["s4"]
     assert [run["results"]["graded"] for run in document["runs"]] == [4, 2]

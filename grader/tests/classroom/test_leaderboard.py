@@ -49,7 +49,7 @@ def _class(folder: Path, results: Mapping[str, Results | str]) -> Path:
                 database.record(run, Answer(name, "graded", made), "key")
             elif made != "not graded":
                 database.record(run, Answer(name, "fault", None, fault=made), "key")
-        database.end_run(run, "complete", [])
+        database.end_run(run, "complete", {})
         write_class(database, folder)
     return folder
 

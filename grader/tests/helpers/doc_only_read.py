@@ -7,6 +7,7 @@ _FIGURES = "takes minutes; `test` does what --check does"
 _IMAGE = "takes minutes, and needs an engine and a network; test_image has one that only listens"
 _NIGHTLY = "goes on until Ctrl-C; test_nightly looks as often as it likes"
 _FINALE = "draws for a minute; test_finale makes a small one"
+_DOWNLOAD = "needs the names of a platform's download; test_feedback_zips has such"
 
 COMMANDS = {
     "./raysteps test": "is what runs the tests",
@@ -34,6 +35,10 @@ COMMANDS = {
     "./raysteps grade-class submissions --out grades --roster students.csv --scheduler tcp://head:8786": (
         "needs a cluster; test_cluster has one"
     ),
+    "./raysteps export mail --results grades --from Graphics 101 <graphics@example.edu> --send "
+    "--smtp smtp.example.edu --user graphics": "needs a mail server; test_mail_sending has one",
+    "./raysteps export moodle-feedback --results grades --out feedback.zip": _DOWNLOAD,
+    "./raysteps export canvas-feedback --results grades --out feedback.zip": _DOWNLOAD,
 }
 
 SOMEBODY_ELSES = {

@@ -13,6 +13,7 @@ from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
+from raysteps.classroom.resubmissions import Resubmissions
 from raysteps.classroom.review import review_of_nothing, reviewed
 from raysteps.common.documents import Malformed, checked, convert, parse
 from raysteps.common.errors import GraderFault, UsageError
@@ -72,6 +73,7 @@ class Standings:
         self._runs = {row["number"]: row for row in _last_runs(self.all_runs)}
         people = self._query("SELECT id, email FROM students").fetchall()
         self._mistakes: Counter[tuple[str, str]] = Counter()
+        self._resubmissions = Resubmissions(database.connection)
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
         self._students: dict[int, list[Student]] = defaultdict(list)  # by submission
         for row in self._query(
@@ -88,7 +90,9 @@ class Standings:
             "SELECT run, status, points FROM results WHERE submission = ? AND run < ? ORDER BY run DESC LIMIT 1",
             (submission, run),
         ).fetchone()
-        return EarlierResult(**row) if row is not None else None
+        if row is None or run is None:
+            return None
+        return EarlierResult(**row, resubmitted=self._resubmissions.has_changed(submission, row["run"], run))
 
     def extended(self, row: sqlite3.Row, students: list[Student]) -> list[str]:
         """By what names an extension may be given: also that of the submission, unless it is what another one on the
@@ -155,6 +159,7 @@ class Standings:
             submitted_from=row["submitted_from"],
             outdated=self._is_outdated(row, run),
             before=self._before(row["id"], run),
+            earlier=self._resubmissions.before(row, run) if results is not None else [],
             isolation=results.isolation.name if results is not None else "",
             fault=current["fault"] if current is not None else "",
             note=" ".join(filter(None, (row["note"], OTHER_FORM if is_unread else ""))),
@@ -223,7 +228,7 @@ class _Report:
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],
             changed=[
-                PointsChange(one.name, one.before.points, one.review.automatic)
+                PointsChange(one.name, one.before.points, one.review.automatic, one.before.resubmitted)
                 for one in submissions
                 if one.before is not None and one.before.points != one.review.automatic
             ],

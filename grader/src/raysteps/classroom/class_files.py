@@ -107,7 +107,7 @@ def write_submission(
     if stored is not None:
         full = reviewed(database, row["submission"], row["run"], stored, steps).results
         told = withhold(full, feedback or database.feedback())
-        results = replace(told, course=course, handed_in=hand_in(one))
+        results = replace(told, course=course, handed_in=hand_in(one), earlier=one.earlier)
     files = database.pictures(row["submission"], row["run"])
     shown = set(files) - _withheld_cases(results, files)
     _forget_files(folder, shown)

@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import sqlite3
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
@@ -133,7 +133,18 @@ CREATE TABLE IF NOT EXISTS written (      -- one row: the last annotation that r
     serial INTEGER NOT NULL
 )
 """
-_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN)  # an earlier kit did not have them
+_ARRIVALS = """
+CREATE TABLE IF NOT EXISTS arrivals (     -- of what was handed in when a result was made
+    submission INTEGER NOT NULL,
+    run INTEGER NOT NULL,
+    digest TEXT NOT NULL,                 -- of the sources alone
+    submitted_at TEXT NOT NULL,
+    submitted_from TEXT NOT NULL,
+    PRIMARY KEY (submission, run),
+    FOREIGN KEY (submission, run) REFERENCES results (submission, run)
+)
+"""
+_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN, _ARRIVALS)  # an earlier kit did not have them
 _COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
 
 
@@ -382,8 +393,8 @@ class ClassDatabase:
                 {**row, "entry": entry},
             )
 
-    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: Collection[str]) -> None:
-        """`reused` are the submissions whose earlier result was found to hold."""
+    def end_run(self, run: int, state: Literal["complete", "interrupted"], reused: Mapping[str, str]) -> None:
+        """`reused` are the submissions whose earlier result was found to hold, with the digests of their sources."""
         with transaction(self.connection):
             self.connection.execute(
                 "UPDATE runs SET state = ?, ended_at = ?, reused = ? WHERE number = ?", (state, now(), len(reused), run)
@@ -392,6 +403,10 @@ class ClassDatabase:
                 "INSERT OR IGNORE INTO reused (submission, run) SELECT id, ? FROM submissions WHERE name = ?",
                 [(run, name) for name in reused],
             )
+            for name, digest in reused.items():
+                current = self.current(name)
+                if current is not None:
+                    self._keep_arrival(current["submission"], current["run"], digest)
 
     def feedback(self) -> Feedback:
         """How much the last run wants students to be told."""
@@ -416,9 +431,10 @@ class ClassDatabase:
         *,
         unreadable: bool = False,
         sources: Mapping[str, bytes] = MappingProxyType({}),
+        digest: str = "",
     ) -> bool:
-        """Keeps an answer, and the code that it is of; False when the run already has a result of this submission,
-        which then stays."""
+        """Keeps an answer, the code that it is of, and the digest of all that was handed in; False when the run already
+        has a result of this submission, which then stays."""
         results = answer.results
         with transaction(self.connection):
             (submission,) = self.connection.execute(
@@ -439,6 +455,7 @@ class ClassDatabase:
             }
             if insert(self.connection, "results", row, "ON CONFLICT (submission, run) DO NOTHING") == 0:
                 return False
+            self._keep_arrival(submission, run, digest)
             for path, data in answer.pictures.items():
                 picture = {"submission": submission, "run": run, "path": path, "sha256": self._keep_blob(data)}
                 insert(self.connection, "pictures", picture)
@@ -476,6 +493,16 @@ class ClassDatabase:
     def blob(self, digest: str) -> bytes | None:
         row = self.connection.execute("SELECT data FROM blobs WHERE sha256 = ?", (digest,)).fetchone()
         return None if row is None else bytes(row["data"])
+
+    def _keep_arrival(self, submission: int, run: int, digest: str) -> None:
+        """With the time of the hand-in as it is known now: the next run may bring another submission. What an earlier
+        kit did not keep is added when its result is found to hold."""
+        if digest:
+            self.connection.execute(
+                "INSERT OR REPLACE INTO arrivals (submission, run, digest, submitted_at, submitted_from) "
+                "SELECT id, ?, ?, submitted_at, submitted_from FROM submissions WHERE id = ?",
+                (run, digest, submission),
+            )
 
     def pictures(self, submission: int, run: int) -> dict[str, bytes]:
         rows = self.connection.execute(

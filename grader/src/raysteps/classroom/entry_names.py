@@ -31,6 +31,17 @@ def platform_identity(entry: str) -> tuple[str, str]:
     return (found[1], found[2]) if found else ("", "")
 
 
+def moodle_identity(entry: str) -> tuple[str, str]:
+    """The same where Moodle named it; a download of Canvas gives nothing."""
+    found = None if _CANVAS.match(entry) else _MOODLE.match(entry)
+    return (found[1], found[2]) if found else ("", "")
+
+
+def is_of_canvas(entry: str) -> bool:
+    """Whether the name is one that Canvas gives to a download."""
+    return _CANVAS.match(entry) is not None
+
+
 def folded(text: str) -> str:
     """For comparisons: without differences of case, spacing and encoding."""
     return " ".join(unicodedata.normalize("NFKC", text).casefold().split())

@@ -84,11 +84,20 @@ def put_in_order(target: sqlite3.Connection) -> None:
     if numbers == sorted(numbers):
         return
     target.execute("PRAGMA defer_foreign_keys = ON")
-    places = (("runs", "number"), ("results", "run"), ("pictures", "run"), ("reused", "run"), ("sources", "run"))
+    tables = ("results", "pictures", "reused", "sources", "arrivals", "feedback_given")
+    places = [("runs", "number"), *((table, "run") for table in tables if has_table(target, table))]
     for table, column in places:  # the names are those above
         target.execute(f"UPDATE {table} SET {column} = -{column}")  # noqa: S608
         for new, old in enumerate(numbers, start=1):
             target.execute(f"UPDATE {table} SET {column} = ? WHERE {column} = ?", (new, -old))  # noqa: S608
+
+
+def _arrivals_of(source: sqlite3.Connection, result: dict[str, Any]) -> list[dict[str, Any]]:
+    """An earlier kit kept none."""
+    if not has_table(source, "arrivals"):
+        return []
+    query = "SELECT * FROM arrivals WHERE submission = ? AND run = ?"
+    return rows_of(source, query, result["submission"], result["run"])
 
 
 class _Merge:
@@ -163,6 +172,8 @@ class _Merge:
                 blob = {"sha256": picture["sha256"], "data": picture["data"]}
                 insert(self._target, "blobs", blob, "ON CONFLICT (sha256) DO NOTHING")
                 insert(self._target, "pictures", {**place, "path": picture["path"], "sha256": picture["sha256"]})
+            for kept in _arrivals_of(source, result):
+                insert(self._target, "arrivals", {**kept, **place})
         self._sources(source, row["number"], number, ids)
         if has_table(source, "reused"):
             for kept in rows_of(source, "SELECT submission FROM reused WHERE run = ?", row["number"]):

@@ -11,8 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
-from raysteps.classroom.class_document import Standings
-from raysteps.classroom.class_files import SUBMISSIONS, steps_of, write_submission
+from raysteps.classroom.class_document import Standings, steps_of
+from raysteps.classroom.class_files import SUBMISSIONS, write_submission
 from raysteps.classroom.database import ClassDatabase, insert, transaction
 from raysteps.classroom.entries import Entry, load_entry
 from raysteps.classroom.entry_names import folded

@@ -17,6 +17,7 @@ from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import Entry, load_entry
 from raysteps.classroom.jobs import GAVE_UP, Answer, Job
+from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
@@ -97,6 +98,7 @@ class _Pending:
     key: str
     unreadable: bool
     sources: dict[str, bytes] = field(default_factory=dict)
+    digest: str = ""  # of all that was handed in
 
 
 @dataclass
@@ -113,7 +115,7 @@ class Session:
     entries: Sequence[Entry] | None = None  # those to grade, in this order; all of the plan when not said
     is_whole: Callable[[Entry], bool] = lambda entry: True  # asked once an entry was read: it may be changing
     told: Callable[[Answer], None] = lambda answer: None  # of each result that was kept
-    reused: list[str] = field(default_factory=list)
+    reused: dict[str, str] = field(default_factory=dict)  # with the digests of their sources
     recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
@@ -137,22 +139,29 @@ class Session:
                 continue
             key = submission_key(taken.submission, self.kit, self.plan.grading)
             require = self.plan.options.require_sandbox
+            digest = sources_digest(taken.submission)
             if self.plan.options.resume and holds(self.database.current(name), key, require_sandbox=require):
                 self.database.keep_sources(name, taken.submission.sources)
-                self.reused.append(name)
+                self.reused[name] = digest
                 self.meter.skip()
                 continue
             if not has_learned:
                 self.learn()
                 has_learned = True
-            self._pending[name] = _Pending(key, taken.unreadable, taken.submission.sources)
+            self._pending[name] = _Pending(key, taken.unreadable, taken.submission.sources, digest)
             options = self.plan.options
             yield Job(
                 taken.submission, self.plan.grading, options.grader, self.kit, options.require_sandbox, self.plan.uid
             )
 
     def _record(self, answer: Answer, pending: _Pending) -> None:
-        if self.database.record(self.run, answer, pending.key, unreadable=pending.unreadable, sources=pending.sources):
+        kept = self.database.record(
+            *(self.run, answer, pending.key),
+            unreadable=pending.unreadable,
+            sources=pending.sources,
+            digest=pending.digest,
+        )
+        if kept:
             if not self.recorded:
                 withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)

@@ -197,7 +197,9 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     _print_list(console, "Nothing could be taken from these", unread)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
     _print_list(console, "The most common mistakes, by submissions", _mistakes(document))
-    changed = [f"{one.name}: {_points(one.before)} before, {_points(one.after)} now" for one in document.changed]
+    changed = [
+        f"{one.name}: {_points(one.before)} before, {_points(one.after)} now{one.why}" for one in document.changed
+    ]
     _print_list(console, "Changed since the last time", changed)
     _print_list(
         console,

@@ -80,7 +80,8 @@ COMMANDS = (
 
 # What a students' kit has in their place; else what there is.
 _INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn": "check", "replay": "check",
-            "test": "check", "leaderboard": "report", "desk": "report", "demo": "finale", "gallery": "finale"}  # fmt: skip
+            "test": "check", "leaderboard": "report", "desk": "report", "demo": "finale",
+            "gallery": "finale"}  # fmt: skip
 
 
 def _no_such_command(project: Project, word: str) -> str:

@@ -1,4 +1,4 @@
-"""The command `export`: results, autograders and gradebooks for other systems."""
+"""The command `export`: results, autograders, gradebooks and reports for other systems."""
 
 import argparse
 import json
@@ -12,6 +12,8 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.classroom.class_files import SUBMISSIONS, refuse_unwritten
+from raysteps.cli.give_back import SYSTEMS as WAYS_BACK
+from raysteps.cli.give_back import add_give_back_arguments, give_back, renamed_column
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
@@ -43,15 +45,6 @@ from raysteps.toolchain.limits import LIMIT_HELP, parse_limits
 # `export canvas` and `export moodle`.
 
 
-def _renamed(text: str) -> tuple[str, str]:
-    kind, _, name = text.partition("=")
-    if kind not in MOODLE_COLUMNS or not name.strip():
-        raise argparse.ArgumentTypeError(
-            f"'{text}': expected KIND=HEADING with KIND one of {', '.join(MOODLE_COLUMNS)}"
-        )
-    return kind, name.strip()
-
-
 def add_gradebook_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
     """Both fill a file that was exported from the system."""
     for system, title in (("canvas", "a gradebook exported from Canvas"), ("moodle", "a Moodle grading worksheet")):
@@ -67,7 +60,7 @@ def add_gradebook_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
         else:
             add.add_argument(
                 "--column",
-                type=_renamed,
+                type=renamed_column,
                 action="append",
                 default=[],
                 metavar="KIND=HEADING",
@@ -180,6 +173,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--image", default="", metavar="ACCOUNT/NAME", help="what the image that grades will be called")
     _add_grading(add)
     add_gradebook_arguments(systems)
+    add_give_back_arguments(systems)
     add_similarity_arguments(systems)
 
 
@@ -318,6 +312,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     """Runs `export` and returns its exit code."""
     if arguments.system in ("canvas", "moodle"):
         return fill_gradebook(project, arguments, console)
+    if arguments.system in WAYS_BACK:
+        return give_back(arguments, console)
     if arguments.system == "similarity":
         return export_similarity(project, arguments)
     if arguments.run is not None:

@@ -12,7 +12,6 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from rich.console import Console
 
-from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import write_class
 from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.entries import NoSubmission
@@ -166,9 +165,7 @@ class _Night:
             )
             with meter:
                 complete = session.grade(LocalPool(self.options.jobs))
-            document = class_document(database)
-            write_class(database, self.options.out, document, session.recorded)
-            failed = document.faults
+            failed = write_class(database, self.options.out, session.recorded).faults
         look.write_statuses()
         self._tell(look, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0

@@ -19,7 +19,8 @@ from raysteps.results.model import Results
 from raysteps.results.store import read_results
 
 _ALIKE = 0.005  # points are written in hundredths
-_NEEDED = ("submission", "id", "name", "email", "points", "max")
+_WHO = ("submission", "id", "name", "email")
+_NEEDED = (*_WHO, "points", "max")
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,8 @@ class GradedStudent:
     in_time: float | None  # the points as graded
     points: float | None  # those that count, after lateness
     most: float
+    entry: str = ""  # as it is called in the folder that was handed in
+    status: str = ""
 
     @property
     def known(self) -> bool:
@@ -77,7 +80,7 @@ def _graded(path: Path, line: int, row: dict[str, str]) -> GradedStudent:
     points = _number(path, line, "points", row["points"])
     late = _number(path, line, "late_points", row.get("late_points") or "")
     most = _number(path, line, "max", row["max"])
-    who = {name: _unmarked(row[name].strip()) for name in ("submission", "id", "name", "email")}
+    who = {name: _unmarked((row.get(name) or "").strip()) for name in (*_WHO, "entry", "status")}
     return GradedStudent(**who, in_time=points, points=points if late is None else late, most=most or 0.0)
 
 

@@ -1,8 +1,10 @@
-"""How a student's own points and pictures came about: a small file beside the report, and a chart of it on the page."""
+"""How a student's points came about: in the own checks, with a small file beside the report and a chart of it on the
+page; and in what was handed in before.
+"""
 
 import base64
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -15,10 +17,11 @@ from PIL import Image
 from raysteps.common.documents import Amount, plain
 from raysteps.common.documents import parse as parse_document
 from raysteps.common.files import write_json
-from raysteps.common.text import clean, tenths
+from raysteps.common.text import clean, join_and, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
-from raysteps.results.model import ImageResult, Results
+from raysteps.results.model import EarlierSubmission, ImageResult, Results, StepResult
+from raysteps.results.statuses import in_words
 
 HISTORY = "history.json"
 _MAX = 40  # attempts that are kept
@@ -166,3 +169,93 @@ class OwnProgress:
     changed: frozenset[str] = frozenset()  # ids of steps whose files are newer than what the report says of them
     following: Step | None = None  # to do when those in the report are right
     has_reference: bool = False  # the kit beside the report is the whole one: its reader can `replay`
+
+
+# What was handed in before, and what is better or worse now.
+
+_MAX_SHOWN = 4  # earlier submissions that have a column
+_ALIKE = 0.05
+
+
+@dataclass(frozen=True)
+class HistoryRow:
+    """A step: its points each time, the oldest first, and what the last change was."""
+
+    step: str
+    points: Sequence[str]
+    change: str
+    tone: str
+
+
+@dataclass(frozen=True)
+class History:
+    """Of a submission that was handed in more than once."""
+
+    words: Sequence[str]
+    heads: Sequence[str]  # when each was handed in
+    rows: Sequence[HistoryRow]
+
+
+def _graded(step: StepResult) -> float:
+    """The grader's points, since those of before are, too: what a person changed is told beside."""
+    return step.review.automatic if step.review is not None else step.points
+
+
+def _graded_in_all(results: Results) -> float:
+    return sum(map(_graded, results.steps))
+
+
+def _when(one: EarlierSubmission) -> str:
+    shown = clean(one.submitted_at or one.graded_at, 40).replace("T", " ")[:16]
+    return f"{shown}, by the time of the file" if one.submitted_at and one.by_file else shown
+
+
+def _signed(change: float) -> str:
+    if abs(change) < _ALIKE:
+        return "="
+    return f"+{tenths(change)}" if change > 0 else f"\N{MINUS SIGN}{tenths(-change)}"
+
+
+def _moved(results: Results, titles: Mapping[str, str], direction: int) -> list[str]:
+    last = results.earlier[-1].steps
+    return [
+        f"{titles[step.id]} from {tenths(last[step.id].points)} to {tenths(_graded(step))}"
+        + (f" ({in_words(step.status)})" if step.status in ("does-not-build", "crashed", "timeout") else "")
+        for step in results.steps
+        if step.id in last and direction * (_graded(step) - last[step.id].points) >= _ALIKE
+    ]
+
+
+def history_words(results: Results, titles: Mapping[str, str]) -> list[str]:
+    """What changed since the last time, in sentences; nothing where nothing was handed in before. `titles` by step."""
+    if not results.earlier:
+        return []
+    times = [f"{tenths(one.points)} points ({_when(one)})" for one in results.earlier[-_MAX_SHOWN:]]
+    amount = len(results.earlier) + 1
+    lines = [f"You have handed in {amount} times: {', then '.join(times)}, and {tenths(_graded_in_all(results))} now."]
+    better, worse = (_moved(results, titles, direction) for direction in (1, -1))
+    lines += [f"Better than the last time: {join_and(better)}."] if better else []
+    lines += [f"Worse than the last time: {join_and(worse)}."] if worse else []
+    lines += [] if better or worse else ["No step has other points than the last time."]
+    if not results.earlier[-1].same_grading:
+        lines.append("The grading itself was changed in between: not every difference need come from your work.")
+    return lines
+
+
+def history_of(results: Results, titles: Mapping[str, str]) -> History | None:
+    """The same as a table as well; None where nothing was handed in before."""
+    earlier = results.earlier[-_MAX_SHOWN:]
+    if not earlier:
+        return None
+    rows = []
+    for step in results.steps:
+        then = [one.steps.get(step.id) for one in earlier]
+        points = [tenths(found.points) if found is not None else "" for found in then]
+        change = _graded(step) - then[-1].points if then[-1] is not None else 0.0
+        tone = "good" if change >= _ALIKE else "bad" if change <= -_ALIKE else ""
+        shown = _signed(change) if then[-1] is not None else ""
+        rows.append(HistoryRow(titles[step.id], [*points, tenths(_graded(step))], shown, tone))
+    now = _graded_in_all(results)
+    total = [*(tenths(one.points) for one in earlier), tenths(now)]
+    rows.append(HistoryRow("in all", total, _signed(now - earlier[-1].points), ""))
+    return History(history_words(results, titles), [_when(one) for one in earlier], rows)

@@ -75,7 +75,7 @@ class _Finder:
 
     def changed(self) -> list[Item]:
         return [
-            self._item(one.name, [f"{_points(one.before)} before, {_points(one.after)} now"])
+            self._item(one.name, [f"{_points(one.before)} before, {_points(one.after)} now{one.why}"])
             for one in self._document.changed
         ]
 

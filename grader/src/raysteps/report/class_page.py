@@ -53,6 +53,7 @@ class Row:
     days: int
     final: str
     seconds: str
+    change: str  # of the points since something else was handed in
     marks: Sequence[str]
     changed: bool  # a person changed its points
     words: str  # it is found by
@@ -92,6 +93,18 @@ def _points(value: float | None, status: str) -> str:
     return _NO_POINTS.get(status, "") if value is None else tenths(value)
 
 
+def _change(one: GradedSubmission) -> float | None:
+    """Of the grader's points since the student last handed in something else; None where that was never."""
+    now = one.review.automatic
+    return round(now - one.earlier[-1].points, 2) if one.earlier and now is not None else None
+
+
+def _signed(change: float | None) -> str:
+    return (
+        "" if change is None else f"+{number(change)}" if change > 0 else number(change).replace("-", "\N{MINUS SIGN}")
+    )
+
+
 def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link: Link) -> list[Row]:
     """One for each submission, in the order of class.json."""
     submissions = document.submissions
@@ -100,7 +113,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
     for index, (one, alias) in enumerate(zip(submissions, aliases([one.name for one in submissions]), strict=True)):
         results = [one.steps.get(step) for step in steps]
         days = one.late.days if one.late is not None else 0
-        seconds = one.seconds
+        seconds, change = one.seconds, _change(one)
         who, more = who_and_more(one)
         keys = [result.points if result is not None else None for result in results]
         rows.append(
@@ -114,10 +127,11 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
                 days=days,
                 final="" if one.final is None else number(one.final),
                 seconds="" if seconds is None else f"{seconds:.1f}",
+                change=_signed(change),
                 marks=marks.get(index, []),
                 changed=bool(one.review.changes),
                 words=found_by(one),
-                keys=[*keys, one.points, days, one.final, seconds],
+                keys=[*keys, one.points, days, one.final, seconds, change],
             )
         )
     return rows
@@ -212,6 +226,7 @@ def class_page(document: ClassResults, link: Callable[[str], str | None]) -> str
         "rows": rows,
         "late": late,
         "changed": any(row.changed for row in rows),
+        "again": any(row.change for row in rows),
         "statuses": STATUSES,
         "look": sum(1 for row in rows if row.marks),
         "longest_mark": max((len(", ".join(row.marks)) for row in rows), default=0),

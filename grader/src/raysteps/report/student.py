@@ -10,7 +10,7 @@ from raysteps.common.files import write_if_changed
 from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import GROSS, read_png
-from raysteps.report.attempts import OwnProgress, chart_of
+from raysteps.report.attempts import History, OwnProgress, chart_of, history_of
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
     COMPARE_STYLES,
@@ -386,7 +386,7 @@ _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual
 _PARTS = ("tests", "pictures", "hidden", "together")
 
 
-def _next(steps: Sequence[StepResult]) -> StepResult | None:
+def next_step(steps: Sequence[StepResult]) -> StepResult | None:
     """The first step that is not solved; a bonus only when nothing else is left."""
     unsolved = [step for step in steps if step.status != "passed"]
     return next((step for step in unsolved if not step.bonus), unsolved[0] if unsolved else None)
@@ -472,6 +472,13 @@ def _hand_in_view(results: Results) -> dict[str, object]:
     }
 
 
+def _history(results: Results, views: Mapping[str, Mapping[str, Any]]) -> History | None:
+    """What was handed in before; nothing where no class was graded, or nothing was."""
+    if not results.earlier:
+        return None
+    return history_of(results, {step: f"{view['number']} {view['title']}" for step, view in views.items()})
+
+
 def _sums(parts: Sequence[Part]) -> dict[str, float]:
     return {name: round(sum(part.earned for part in parts if part.name == name), 1) for name in _PARTS}
 
@@ -481,12 +488,15 @@ def student_page(
     folder: Path,
     steps: Sequence[Step],
     progress: OwnProgress = _NO_PROGRESS,
+    most: int = _MAX,
 ) -> str:
-    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more."""
-    text = _page(results, make_album(results, folder, _ROOM), steps, progress)
-    excess = len(text.encode()) - _MAX
+    """The page of results whose pictures lie in the folder. It shows what the results hold, and no more. It has at most
+    that many bytes, as far as leaving pictures out can do that."""
+    room = _ROOM - (_MAX - most)
+    text = _page(results, make_album(results, folder, room), steps, progress)
+    excess = len(text.encode()) - most
     if excess > 0:
-        text = _page(results, make_album(results, folder, _ROOM - excess), steps, progress)
+        text = _page(results, make_album(results, folder, room - excess), steps, progress)
     return text
 
 
@@ -501,7 +511,7 @@ def _page(
         result.id: step_view(result, known.get(result.id), album, progress.has_reference) for result in results.steps
     }
     parts = [part for result in results.steps for part in parts_that_count(result, known.get(result.id))]
-    following, beyond = _next(results.steps), progress.following
+    following, beyond = next_step(results.steps), progress.following
     name = clean(results.submission, 200)
     own = _own_pictures(results, views, following)
     is_perfect = following is None and beyond is None and bool(results.steps)
@@ -510,6 +520,7 @@ def _page(
         "hand_in": _hand_in_view(results),
         "review": review_view(results.review, whole=True),
         "extra": sum(one.points for one in results.review.overrides) if results.review is not None else 0.0,
+        "history": _history(results, views),
         "steps": list(views.values()),
         "next": views[following.id] if following is not None else None,
         "beyond": {"number": beyond.number, "title": beyond.title, "watch": watch_command(beyond.id)}

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 from msgspec import Meta
 
 from raysteps.common.documents import OPTIONAL, Amount, Count, Text
-from raysteps.results.model import Lateness
+from raysteps.results.model import EarlierSubmission, Lateness
 from raysteps.results.settings import Settings
 
 
@@ -42,6 +42,9 @@ class EarlierResult:
     run: int
     status: Literal["graded", "unreadable", "fault"]
     points: Amount | None
+    # Whether something else had been handed in until then, or the same was graded otherwise; null where a kit that did
+    # not keep what was handed in graded one of them.
+    resubmitted: bool | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass
@@ -79,6 +82,7 @@ class GradedSubmission:
     submitted_from: Literal["", "roster", "files"]
     outdated: bool  # the last run was interrupted before it came to this one
     before: EarlierResult | None
+    earlier: list[EarlierSubmission] = field(default_factory=list, metadata=OPTIONAL)  # the oldest first
     isolation: str  # what kept the code apart from the machine
     fault: str
     note: str
@@ -137,6 +141,14 @@ class PointsChange:
     name: str
     before: Amount | None
     after: Amount | None
+    resubmitted: bool | None = field(default=None, metadata=OPTIONAL)  # else the same was graded otherwise
+
+    @property
+    def why(self) -> str:
+        """The end of a sentence; nothing where it is not known."""
+        if self.resubmitted is None:
+            return ""
+        return "; handed in again" if self.resubmitted else "; the same submission, with another kit, seed or option"
 
 
 @dataclass

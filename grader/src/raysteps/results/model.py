@@ -250,6 +250,26 @@ class HandIn:
     late: Lateness | None  # none where there is no late policy
 
 
+@dataclass(frozen=True)
+class EarlierStep:
+    """What a step got when something else was handed in."""
+
+    points: Amount
+    status: Status
+
+
+@dataclass(frozen=True)
+class EarlierSubmission:
+    """What was handed in before, and what came of it the last time that it was graded."""
+
+    submitted_at: str  # with a time zone; empty when it is not known
+    by_file: bool  # nobody but the time of a file says when
+    graded_at: str
+    points: Amount
+    steps: dict[str, EarlierStep]
+    same_grading: bool  # by the same kit, hidden cases and options as the submission of these results
+
+
 @dataclass(kw_only=True)
 class Results:
     """All steps of one submission. Nothing here tells the seed: whoever has it can make the hidden cases."""
@@ -263,6 +283,7 @@ class Results:
     course: str = field(default="", metadata=OPTIONAL)  # its title and term
     handed_in: HandIn | None = field(default=None, metadata=OPTIONAL)
     review: Review | None = field(default=None, metadata=OPTIONAL)  # what a person added to the whole submission
+    earlier: list[EarlierSubmission] = field(default_factory=list, metadata=OPTIONAL)  # the oldest first
     isolation: Isolation
     timing: Timing
     total: Total
