@@ -18,7 +18,7 @@ from rich.console import Console
 
 import raysteps.classroom.database
 import raysteps.classroom.nightly
-from raysteps.classroom import class_files
+from raysteps.classroom.class_files import write_submission
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.nightly import STATUS, Allowance, FeedbackLog, signature
 from raysteps.cli.nightly import add_arguments, run
@@ -354,13 +354,13 @@ def test_a_day_on_which_the_clocks_change(day: str, hours: int) -> None:
 
 def test_no_hidden_case_is_given_whatever_grade_class_was_told(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
     levels: list[object] = []
-    known = class_files.write_submission
+    known = write_submission
 
     def write(*arguments: object) -> None:
         levels.append(arguments[-1])
         known(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(raysteps.classroom.nightly, "write_submission", write)
+    monkeypatch.setattr("raysteps.classroom.nightly.write_submission", write)
     course.hand_in("ann", "// points 1\n")
     assert grade_class(course.inbox, "--out", course.out, "--feedback", "full") == 0
     course.look()
