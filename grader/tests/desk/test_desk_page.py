@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,11 @@ import pytest
 from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
 from class_fakes import grade_class, write_entry
 
+from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
+from raysteps.classroom.jobs import Answer
 from raysteps.desk.desk import Desk, DeskServer
+from raysteps.results.model import Diagnosis, Results, StepResult
+from raysteps.results.settings import Settings
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -222,6 +227,35 @@ def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     assert [name[:3] for name in _shown(page)] == ["Ann"]
 
 
+def _with_mistakes(out: Path, titles: dict[str, str]) -> None:
+    """A class that nobody graded: who made which mistake in step 01."""
+    entries = [Registered(name, name, "here") for name in titles]
+    steps = [{"id": _STEP, "title": "Camera rays", "points": 10, "bonus": False}]
+    with closing(ClassDatabase(out)) as database:
+        run = database.begin_run(RunFacts("u", "kit", "/in", "1/1", Settings(), steps, "", []), entries, [])
+        for name, title in titles.items():
+            found = [Diagnosis("mistake", "m", title)] if title else []
+            results = Results.of(name, [StepResult(_STEP, "partial", 5, 10, False, diagnoses=found)])
+            database.record(run, Answer(name, "graded", results, worker="w"), "key", sources={_STEP: b"int a;\n"})
+        database.end_run(run, "complete", [])
+
+
+def test_the_same_mistake_leads_to_the_next_who_made_it(watched: Watched, tmp_path: Path) -> None:
+    _with_mistakes(tmp_path, {"a": "it is slow", "b": "it is red", "c": "", "d": "it is slow"})
+    with closing(Desk(tmp_path, "Ada")) as desk, closing(DeskServer(desk)) as server:
+        watched.allowed.append(server.address)
+        page = _open(watched, server, "a")
+        _press(page, "m")
+        _is_open(page, "d")
+        page.get_by_role("button", name="Next with this mistake").click()
+        _is_open(page, "a")
+        _press(page, "j")
+        _is_open(page, "b")
+        _press(page, "m")
+        page.locator("#trouble", has_text="Nobody else").wait_for()
+        watched.close()
+
+
 def test_help_tells_all_keys(pages: Watched, server: DeskServer) -> None:
     page = _open(pages, server, "ann")
     _press(page, "?")
@@ -249,7 +283,7 @@ def test_without_a_name_nothing_is_written(pages: Watched, server: DeskServer) -
 
 @pytest.mark.parametrize("width", [1400, 390])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_and_the_width(pages: Watched, server: DeskServer, width: int, scheme: Scheme) -> None:
+def test_axe_and_the_width(pages: Watched, server: DeskServer, grades: Path, width: int, scheme: Scheme) -> None:
     for said in (
         {"kind": "comment", "step": _STEP, "line": 2, "text": "why?"},
         {"kind": "points", "step": _STEP, "part": "hidden", "points": 2, "text": "because"},
@@ -265,3 +299,21 @@ def test_axe_and_the_width(pages: Watched, server: DeskServer, width: int, schem
     _press(page, "p")
     assert_accessible(page)
     assert_no_sideways_scrolling(page)
+    _results(grades, server)
+    for path in (grades / "submissions" / "ann" / "report.html", grades / "class.html"):
+        made = pages.open(path, width=width, scheme=scheme)
+        assert_accessible(made)
+        assert_no_sideways_scrolling(made)
+
+
+def test_the_page_of_the_class_shows_whose_points_were_changed(
+    pages: Watched, server: DeskServer, grades: Path
+) -> None:
+    server.desk.say("bob", {"kind": "points", "author": "Ada", "points": 2, "text": "nice"})
+    _results(grades, server)
+    page = pages.open(grades / "class.html")
+    page.locator("#changed").check()
+    shown = page.locator("tbody tr:not([hidden])")
+    assert shown.count() == 1
+    assert "bob" in shown.inner_text()
+    assert "6" in shown.locator(".total").first.inner_text()

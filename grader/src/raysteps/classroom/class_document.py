@@ -4,10 +4,11 @@ import json
 import sqlite3
 import statistics
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import read_shard
@@ -72,7 +73,6 @@ class Standings:
         self.policy = parse_late_policy(text, "the late policy of the run") if text else None
         self._runs = {row["number"]: row for row in _last_runs(self.all_runs)}
         people = self._query("SELECT id, email FROM students").fetchall()
-        self._mistakes: Counter[tuple[str, str]] = Counter()
         self._resubmissions = Resubmissions(database.connection)
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
         self._students: dict[int, list[Student]] = defaultdict(list)  # by submission
@@ -114,11 +114,6 @@ class Standings:
     def manifests(self) -> list[Step]:
         return steps_of(self.steps)
 
-    def mistakes(self) -> list[MistakeCount]:
-        """Of all submissions whose standing was asked for; what most of them did comes first."""
-        found = sorted(self._mistakes.items(), key=lambda item: (-item[1], item[0]))
-        return [MistakeCount(step, title, amount) for (step, title), amount in found]
-
     def named(self, name: str) -> GradedSubmission:
         return self.of(self._query("SELECT * FROM submissions WHERE name = ?", (name,)).fetchone())
 
@@ -133,7 +128,6 @@ class Standings:
             made = reviewed(self._database, row["id"], current["run"], results, self.manifests)
             results, steps, review = made.results, made.results.steps, made.review
         mistakes = {step.id: titles for step in steps if (titles := _mistakes(step))}
-        self._mistakes.update((step, title) for step, titles in mistakes.items() for title in titles)
         students = self._students.get(row["id"], [])
         ids = self.extended(row, students)
         run = current["run"] if current is not None else None
@@ -174,8 +168,21 @@ def _last_runs(runs: Sequence[sqlite3.Row]) -> list[sqlite3.Row]:
     return list({row["shard"]: row for row in runs if row["shard"].split("/")[1] == count}.values())
 
 
+def _count_mistakes(submissions: Iterable[GradedSubmission]) -> list[MistakeCount]:
+    """What most of them did comes first."""
+    amounts = Counter((step, title) for one in submissions for step, titles in one.mistakes.items() for title in titles)
+    found = sorted(amounts.items(), key=lambda item: (-item[1], item[0]))
+    return [MistakeCount(step, title, amount) for (step, title), amount in found]
+
+
+def _by_the_grader(one: GradedSubmission) -> float | None:
+    """Its points without what people changed."""
+    return one.points if one.review.automatic is None else one.review.automatic
+
+
 class _Report:
-    def __init__(self, database: ClassDatabase) -> None:
+    def __init__(self, database: ClassDatabase, known: Mapping[str, GradedSubmission]) -> None:
+        self._known = known
         self._query = database.connection.execute
         self._standings = Standings(database)
         self._last = self._standings.last
@@ -202,7 +209,7 @@ class _Report:
     def document(self) -> ClassResults:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
         standings = self._standings
-        submissions = [standings.of(row) for row in rows]
+        submissions = [self._known.get(row["name"]) or standings.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
             "ORDER BY id, name, email"
@@ -228,12 +235,12 @@ class _Report:
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],
             changed=[
-                PointsChange(one.name, one.before.points, one.review.automatic, one.before.resubmitted)
+                PointsChange(one.name, one.before.points, _by_the_grader(one), one.before.resubmitted)
                 for one in submissions
-                if one.before is not None and one.before.points != one.review.automatic
+                if one.before is not None and one.before.points != _by_the_grader(one)
             ],
             outdated=[one.name for one in submissions if one.outdated],
-            mistakes=standings.mistakes(),
+            mistakes=_count_mistakes(submissions),
             gone=self._names("gone"),
             ignored=json.loads(self._last["ignored"]),
             unknown_extensions=self._unknown_extensions(submissions),
@@ -251,9 +258,23 @@ def hand_in(one: GradedSubmission) -> HandIn:
     return HandIn(names, one.submitted_at, one.submitted_from == "files", one.late)
 
 
-def class_document(database: ClassDatabase) -> ClassResults:
-    """Checked: what is not of its form is the kit's fault."""
-    return checked(_Report(database).document(), "class.json")
+def class_document(
+    database: ClassDatabase, known: Mapping[str, GradedSubmission] = MappingProxyType({})
+) -> ClassResults:
+    """Checked: what is not of its form is the kit's fault. `known` are those that need not be made anew, by name."""
+    return checked(_Report(database, known).document(), "class.json")
+
+
+def still_true(database: ClassDatabase, path: Path, run: int) -> dict[str, GradedSubmission]:
+    """Of a class.json that the last run and what was said until then are in: the submissions, by name. Nothing where
+    it is older, or of a run that was broken off."""
+    try:
+        document = read_class_document(path)
+    except UsageError:
+        return {}
+    last = database.connection.execute("SELECT number, state FROM runs ORDER BY number DESC LIMIT 1").fetchone()
+    is_new = (document.run.number, document.run.state) == (last["number"], last["state"]) == (run, "complete")
+    return {one.name: one for one in document.submissions} if is_new else {}
 
 
 def read_class_document(path: Path) -> ClassResults:

@@ -55,7 +55,8 @@ def csv_bytes(rows: Iterable[Sequence[Cell]]) -> bytes:
 
 
 SUBMISSIONS = "submissions"
-_TABLES = ("results.csv", "class.json")
+CLASS_JSON = "class.json"
+_TABLES = ("results.csv", CLASS_JSON)
 
 
 def _forget_files(folder: Path, kept: set[str]) -> None:
@@ -209,14 +210,12 @@ def refuse_unwritten(out: Path) -> None:
 
 # Makes the page of a class anew from what a grading left.
 
-_FACTS = "class.json"
-
 
 def class_source(place: Path) -> Path | None:
     """What the class is read from, when the place is a class: its folder, its database or its class.json."""
-    if place.name in (DATABASE, _FACTS) and place.is_file():
+    if place.name in (DATABASE, CLASS_JSON) and place.is_file():
         return place
-    return next((place / name for name in (DATABASE, _FACTS) if (place / name).is_file()), None)
+    return next((place / name for name in (DATABASE, CLASS_JSON) if (place / name).is_file()), None)
 
 
 def _from_database(path: Path) -> ClassResults:

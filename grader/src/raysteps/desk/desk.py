@@ -4,7 +4,6 @@ import json
 import sqlite3
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,8 @@ from raysteps.classroom.annotations import (
     threads,
     written_serial,
 )
-from raysteps.classroom.class_document import Standings, read_class_document
+from raysteps.classroom.class_document import Standings, still_true
+from raysteps.classroom.class_files import CLASS_JSON
 from raysteps.classroom.database import FILE, ClassDatabase, Source, telling_of
 from raysteps.classroom.review import line_now, review_results
 from raysteps.common.documents import Malformed, convert, plain
@@ -173,14 +173,11 @@ class Desk:
         standings = self._current()
         stamps = self._stamps()
         connection = self._database.connection
-        if written_serial(connection) != latest_serial(connection) or standings.last["state"] != "complete":
+        if written_serial(connection) != latest_serial(connection):
             return
-        with suppress(UsageError):
-            document = read_class_document(self._out / "class.json")
-            if document.run.number == standings.last["number"]:
-                for one in document.submissions:
-                    if one.name in stamps and one.run == (stamps[one.name][0] or None):
-                        self._keep(one, stamps[one.name])
+        for name, one in still_true(self._database, self._out / CLASS_JSON, standings.last["number"]).items():
+            if name in stamps and one.run == (stamps[name][0] or None):
+                self._keep(one, stamps[name])
 
     def _keep(self, one: GradedSubmission, stamp: tuple[int, int]) -> Row:
         for step, titles in one.mistakes.items():

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.classroom.annotations import annotated, latest_serial, written_serial
-from raysteps.classroom.class_document import Standings, class_document
-from raysteps.classroom.class_files import write_class, write_submission, write_tables
+from raysteps.classroom.class_document import Standings, class_document, still_true
+from raysteps.classroom.class_files import CLASS_JSON, write_class, write_submission, write_tables
 from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, try_lock
@@ -109,9 +109,12 @@ class FileWriter:
         if serial == before:
             return
         standings = Standings(database)
-        for name in sorted(annotated(database, since=before)):
+        changed = annotated(database, since=before)
+        for name in sorted(changed):
             write_submission(database, self._out, standings.named(name), standings.course, standings.manifests)
         with self._changed:
             is_busy = self._is_due  # then the tables would be old at once
         if not is_busy:
-            write_tables(database, self._out, class_document(database), serial)
+            kept = still_true(database, self._out / CLASS_JSON, standings.last["number"])
+            known = {name: one for name, one in kept.items() if name not in changed}
+            write_tables(database, self._out, class_document(database, known), serial)

@@ -8,7 +8,13 @@ function deskField(label, field) {
 function deskFacts(pairs) {
   const rows = pairs.filter(([, text]) => text);
   return rows.length
-    ? [make("dl", { class: "facts" }, ...rows.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))))]
+    ? [
+        make(
+          "dl",
+          { class: "facts" },
+          ...rows.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))),
+        ),
+      ]
     : [];
 }
 
@@ -61,7 +67,13 @@ function deskPicture(image) {
   );
   const words = image.message || (image.facts.length ? `${image.facts.join("; ")}.` : "");
   const title = make("p", {}, make("strong", {}, `${image.passed ? "✓" : "✗"} ${image.name}`));
-  return make("div", { class: "desk-picture" }, title, ...deskSaid(words), make("div", { class: "desk-pair" }, ...figures));
+  return make(
+    "div",
+    { class: "desk-picture" },
+    title,
+    ...deskSaid(words),
+    make("div", { class: "desk-pair" }, ...figures),
+  );
 }
 
 function deskFolded(title, ...children) {
@@ -109,7 +121,14 @@ function deskChecks(step, onMistake) {
 function deskHistory(thread) {
   const entries = thread.history.map(({ author, at, text, answer, points, withdrawn }) => {
     const what = withdrawn ? "taken back" : points;
-    return make("li", {}, `${at} ${author}: `, what ? make("b", {}, `${what} `) : "", text, answer ? ` — ${answer}` : "");
+    return make(
+      "li",
+      {},
+      `${at} ${author}: `,
+      what ? make("b", {}, `${what} `) : "",
+      text,
+      answer ? ` — ${answer}` : "",
+    );
   });
   return entries.length > 1 || thread.withdrawn
     ? [deskFolded("History", make("ol", { class: "desk-history" }, ...entries))]

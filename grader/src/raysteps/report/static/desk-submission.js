@@ -99,10 +99,14 @@ class DeskSubmission {
 
   tabs() {
     const tab = (id, words, tone, key) =>
-      makeButton(words, { class: `desk-tab ${tone}`, "aria-pressed": String(id === this.step), "aria-keyshortcuts": key }, () => {
-        this.choose(id);
-        this.room.querySelector(".desk-tab[aria-pressed=true]").focus();
-      });
+      makeButton(
+        words,
+        { class: `desk-tab ${tone}`, "aria-pressed": String(id === this.step), "aria-keyshortcuts": key },
+        () => {
+          this.choose(id);
+          this.room.querySelector(".desk-tab[aria-pressed=true]").focus();
+        },
+      );
     const tabs = this.view.steps.map(({ id, number, points, max, status }) =>
       tab(id, `${number} ${status.sign} ${points} of ${max}`, status.tone, String(Number(number))),
     );
@@ -143,7 +147,12 @@ class DeskSubmission {
       return mistake >= 0 && (() => this.desk.nextWith(mistake));
     };
     const part = make("section", { class: "desk-side", "aria-label": `Step ${step.number} ${step.title}` });
-    part.append(make("h3", {}, `${step.number} ${step.title}`), this.points(step), this.talk(), ...deskChecks(step, onMistake));
+    part.append(
+      make("h3", {}, `${step.number} ${step.title}`),
+      this.points(step),
+      this.talk(),
+      ...deskChecks(step, onMistake),
+    );
     return part;
   }
 
@@ -151,7 +160,8 @@ class DeskSubmission {
     this.code = null;
     const part = make("section", { class: "desk-side", "aria-label": "The submission as a whole" });
     const [thread] = this.threads("points", deskWhole);
-    const extra = thread && !thread.withdrawn ? `${thread.points >= 0 ? "+" : ""}${thread.points} points: ${thread.text}` : "";
+    const extra =
+      thread && !thread.withdrawn ? `${thread.points >= 0 ? "+" : ""}${thread.points} points: ${thread.text}` : "";
     part.append(make("h3", {}, "The submission as a whole"), ...deskSaid(extra));
     if (this.view.steps.length) {
       part.append(this.pointsButton(deskWhole, "whole", "Add or take points", "p"));
@@ -168,7 +178,10 @@ class DeskSubmission {
   }
 
   points(step) {
-    const items = [...step.parts, { name: "", said: "all of the step", points: step.points, most: step.max, automatic: step.automatic }];
+    const items = [
+      ...step.parts,
+      { name: "", said: "all of the step", points: step.points, most: step.max, automatic: step.automatic },
+    ];
     const rows = items.map(({ name, said, points, most, automatic }) => {
       const [thread] = this.threads("points").filter((one) => one.part === name);
       const changed = thread && !thread.withdrawn;
@@ -206,14 +219,21 @@ class DeskSubmission {
     const parts = [];
     if (thread.kind === "request") {
       const state = thread.withdrawn ? "taken back" : thread.answer ? "answered" : "open";
-      parts.push(make("p", {}, make("span", { class: `badge ${state === "open" ? "warn" : ""}` }, `request: ${state}`)));
+      parts.push(
+        make("p", {}, make("span", { class: `badge ${state === "open" ? "warn" : ""}` }, `request: ${state}`)),
+      );
     }
     parts.push(make("p", { class: "said" }, thread.text));
     if (thread.answer) {
       parts.push(make("p", { class: "said" }, make("span", { class: "muted" }, "Answer: "), thread.answer));
     }
     if (thread.since) {
-      const where = thread.since === "gone" ? ` Line ${thread.then} was:` : thread.line !== thread.then ? ` It was line ${thread.then}.` : "";
+      const where =
+        thread.since === "gone"
+          ? ` Line ${thread.then} was:`
+          : thread.line !== thread.then
+            ? ` It was line ${thread.then}.`
+            : "";
       parts.push(make("p", { class: "desk-look" }, `The code has changed since.${where}`));
       if (thread.since === "gone") {
         parts.push(make("pre", { class: "desk-was" }, thread.was));
@@ -225,8 +245,15 @@ class DeskSubmission {
       buttons.push(makeButton(edit, { "data-edit": thread.subject }, () => this.edit(thread)));
       buttons.push(makeButton("Take back", {}, () => this.withdraw(thread)));
     }
-    parts.push(make("p", { class: "muted small desk-by" }, `${by.author}, ${by.at} `, ...buttons), ...deskHistory(thread));
-    return make("div", { class: `desk-card${thread.withdrawn ? " withdrawn" : ""}`, "data-subject": thread.subject }, ...parts);
+    parts.push(
+      make("p", { class: "muted small desk-by" }, `${by.author}, ${by.at} `, ...buttons),
+      ...deskHistory(thread),
+    );
+    return make(
+      "div",
+      { class: `desk-card${thread.withdrawn ? " withdrawn" : ""}`, "data-subject": thread.subject },
+      ...parts,
+    );
   }
 
   // Forms: one is open at a time, below what it is about.
@@ -242,7 +269,13 @@ class DeskSubmission {
     const save = make("button", { type: "submit" }, "Save ", make("kbd", { "aria-hidden": "true" }, "Ctrl+Enter"));
     const cancel = makeButton("Cancel ", {}, () => this.cancel());
     cancel.append(make("kbd", { "aria-hidden": "true" }, "Esc"));
-    const form = make("form", { class: "desk-form panel", "aria-label": title }, make("p", {}, make("strong", {}, title)), ...fields, trouble);
+    const form = make(
+      "form",
+      { class: "desk-form panel", "aria-label": title },
+      make("p", {}, make("strong", {}, title)),
+      ...fields,
+      trouble,
+    );
     form.append(make("div", { class: "desk-buttons" }, save, cancel));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -311,22 +344,38 @@ class DeskSubmission {
 
   /** After somebody else was faster: what they wrote; the next Save replaces it. */
   told(view, said) {
-    const now = view.threads.find(({ subject }) => subject === said.subject || subject === `points/${said.step}/${said.part}`);
+    const now = view.threads.find(
+      ({ subject }) => subject === said.subject || subject === `points/${said.step}/${said.part}`,
+    );
     this.view = view;
     this.faster = now?.after ?? "";
     const last = now?.history.at(-1);
-    return last ? `Now it is: ${last.points} ${last.text} ${last.answer} (${last.author}). Save again to replace that.` : "";
+    return last
+      ? `Now it is: ${last.points} ${last.text} ${last.answer} (${last.author}). Save again to replace that.`
+      : "";
   }
 
   said(kind, more) {
-    return { kind, author: this.desk.author(), step: this.step, ...more, ...(this.faster ? { after: this.faster } : {}) };
+    return {
+      kind,
+      author: this.desk.author(),
+      step: this.step,
+      ...more,
+      ...(this.faster ? { after: this.faster } : {}),
+    };
   }
 
   comment(line) {
     this.faster = "";
-    const where = line ? `Comment at line ${line}` : this.step ? `Comment on step ${this.step.slice(0, 2)}` : "Comment on all";
+    const where = line
+      ? `Comment at line ${line}`
+      : this.step
+        ? `Comment on step ${this.step.slice(0, 2)}`
+        : "Comment on all";
     const field = this.text("Comment", "");
-    const form = this.open(where, [field], () => this.said("comment", { line, text: field.querySelector("textarea").value }));
+    const form = this.open(where, [field], () =>
+      this.said("comment", { line, text: field.querySelector("textarea").value }),
+    );
     if (line) {
       this.code.place(line, form);
       this.put(form, form.previousElementSibling);
@@ -338,7 +387,9 @@ class DeskSubmission {
   request() {
     this.faster = "";
     const field = this.text("What the student asks", "");
-    const form = this.open("Regrade request", [field], () => this.said("request", { text: field.querySelector("textarea").value }));
+    const form = this.open("Regrade request", [field], () =>
+      this.said("request", { text: field.querySelector("textarea").value }),
+    );
     this.put(form, this.room.querySelector(".desk-talk .desk-buttons"));
   }
 
@@ -369,7 +420,9 @@ class DeskSubmission {
     number.value = String(item ? item.points : isChanged ? thread.points : "");
     const reason = this.text("Reason, which the student reads", isChanged ? thread.text : "");
     reason.querySelector("textarea").removeAttribute("data-first");
-    const most = item ? ` of ${item.most ?? item.max}, ${item.automatic} by the grader` : " more (or less, with a minus)";
+    const most = item
+      ? ` of ${item.most ?? item.max}, ${item.automatic} by the grader`
+      : " more (or less, with a minus)";
     const title = `Points for ${part ? `${part} of step ${step.number}` : step ? `step ${step.number}` : "the submission as a whole"}`;
     const said = (withdrawn) =>
       this.said("points", {
@@ -380,7 +433,11 @@ class DeskSubmission {
         text: reason.querySelector("textarea").value,
         withdrawn,
       });
-    const form = this.open(title, [deskField("Points", number), make("p", { class: "muted small" }, most), reason], () => said(false));
+    const form = this.open(
+      title,
+      [deskField("Points", number), make("p", { class: "muted small" }, most), reason],
+      () => said(false),
+    );
     if (isChanged) {
       const back = makeButton("Take the change back", {}, () => {
         if (form.reportValidity()) {
@@ -441,7 +498,7 @@ class DeskSubmission {
     } else if (key === "l") {
       this.code?.focus();
     } else if (key === "m") {
-      const [mistake] = this.view.row.mistakes.filter((at) => this.desk.mistakes[at].step === this.step);
+      const [mistake] = this.view.row.mistakes.filter((at) => this.desk.mistakes[at]?.step === this.step);
       this.desk.nextWith(mistake ?? this.view.row.mistakes[0]);
     } else if (key === "r") {
       this.toggleRead();

@@ -133,7 +133,12 @@ class Desk {
       const text = words(row);
       return text ? [make("span", { class: `desk-mark ${tone}` }, text), " "] : [];
     });
-    element.replaceChildren(head, ...cells, make("td", { class: "total" }, total), make("td", { class: "marks" }, ...marks));
+    element.replaceChildren(
+      head,
+      ...cells,
+      make("td", { class: "total" }, total),
+      make("td", { class: "marks" }, ...marks),
+    );
   }
 
   update(row) {
@@ -153,7 +158,11 @@ class Desk {
         make("small", {}, String(points), make("span", { class: "hidden-text" }, ` points, ${title}`)),
       ),
     );
-    const final = make("th", { scope: "col", class: "total", "data-column": data.steps.length + 1 }, data.late ? "final" : "total");
+    const final = make(
+      "th",
+      { scope: "col", class: "total", "data-column": data.steps.length + 1 },
+      data.late ? "final" : "total",
+    );
     const who = make("th", { scope: "col", class: "who", "data-column": 0 }, "submission");
     this.table.tHead.rows[0].append(who, ...steps, final, make("th", { scope: "col", class: "marks" }, "marks"));
   }
@@ -180,17 +189,19 @@ class Desk {
     );
     makeSortable(this.table, this.rows);
     const form = document.getElementById("filters");
-    document.getElementById("step").append(
-      ...data.steps.map(({ number, title }, at) => make("option", { value: at }, `${number} ${title}`)),
-    );
-    document.getElementById("status").append(
-      ...Object.entries(data.statuses).map(([status, words]) => make("option", { value: status }, words)),
-    );
-    document.getElementById("legend").append(
-      ...Object.entries(data.statuses).map(([status, words]) =>
-        make("li", {}, make("span", { class: `sign ${status}` }), ` ${words}`),
-      ),
-    );
+    document
+      .getElementById("step")
+      .append(...data.steps.map(({ number, title }, at) => make("option", { value: at }, `${number} ${title}`)));
+    document
+      .getElementById("status")
+      .append(...Object.entries(data.statuses).map(([status, words]) => make("option", { value: status }, words)));
+    document
+      .getElementById("legend")
+      .append(
+        ...Object.entries(data.statuses).map(([status, words]) =>
+          make("li", {}, make("span", { class: `sign ${status}` }), ` ${words}`),
+        ),
+      );
     this.filter = new ClassFilter(form, this.rows, data.mistakes, data.letters);
     form.hidden = false;
     this.filter.apply();
@@ -300,7 +311,12 @@ class Desk {
 
   key(event) {
     const { key, target } = event;
-    if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input:not([type=checkbox]), textarea, select, dialog")) {
+    if (
+      event.ctrlKey ||
+      event.altKey ||
+      event.metaKey ||
+      target.closest("input:not([type=checkbox]), textarea, select, dialog")
+    ) {
       return;
     }
     const isOpen = this.view.view !== null;
@@ -327,7 +343,9 @@ function startDesk() {
   const help = document.getElementById("help");
   document
     .getElementById("help-keys")
-    .append(...deskKeys.map(([keys, words]) => make("div", {}, make("dt", {}, make("kbd", {}, keys)), make("dd", {}, words))));
+    .append(
+      ...deskKeys.map(([keys, words]) => make("div", {}, make("dt", {}, make("kbd", {}, keys)), make("dd", {}, words))),
+    );
   document.getElementById("help-open").addEventListener("click", () => help.showModal());
   document.getElementById("author").addEventListener("input", ({ target }) => {
     sessionStorage.setItem("desk-author", target.value);
