@@ -163,7 +163,10 @@ def only_one(out: Path) -> Iterator[None]:
         except OSError:
             is_ours = True  # a file system without locks
         if not is_ours:
-            raise UsageError(f"{out}: another grade-class is writing there; wait for it, or name another --out")
+            raise UsageError(
+                f"{out}: another grade-class is writing there, or `export mail` sends from there; wait for it, or name "
+                "another --out"
+            )
         yield
 
 

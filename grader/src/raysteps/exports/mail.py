@@ -8,6 +8,7 @@ import mailbox
 import os
 import re
 import tempfile
+import uuid
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -230,14 +231,19 @@ def digest_of(results: Results) -> str:
     return hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()
 
 
-def _attach(message: EmailMessage, page: bytes, *, zipped: bool) -> None:
+def _attached(message: EmailMessage, page: bytes, *, zipped: bool) -> bytes:
+    """The whole message as it travels. The library takes a second for an attachment of some megabytes, so it gets a
+    mark in its place."""
     data = as_zip([Member(REPORT, page)]) if zipped else page
     kind = ("application", "zip") if zipped else ("text", "html")
     message.add_attachment(b"", maintype=kind[0], subtype=kind[1], filename=_file(zipped=zipped))
     part = next(iter(message.iter_attachments()))
-    part.set_payload(base64.encodebytes(data).decode("ascii"))
+    mark = f"@@{uuid.uuid4().hex}@@"
+    part.set_payload(f"{mark}\n")
     if not zipped:
         part.set_param("charset", "utf-8")
+    before, after = message.as_bytes().split(f"{mark}\r\n".encode())
+    return before + base64.encodebytes(data).replace(b"\n", b"\r\n") + after
 
 
 def _file(*, zipped: bool) -> str:
@@ -272,18 +278,17 @@ def compose(delivery: Delivery, deliveries: Deliveries, options: MailOptions) ->
     page, note = delivery.report_bytes(), ""
     message = _text_message(delivery, deliveries, options, address)
     bare = len(message.as_bytes())
-    _attach(message, page, zipped=options.zipped)
-    if len(message.as_bytes()) > options.max_bytes:
-        was = size(len(message.as_bytes()))
+    data = _attached(message, page, zipped=options.zipped)
+    if len(data) > options.max_bytes:
+        was = size(len(data))
         most = int((options.max_bytes - bare - _SPARE) / _BASE64)
         page = student_page(delivery.results, delivery.folder, deliveries.steps, most=most).encode()
         message = _text_message(delivery, deliveries, options, address)
-        _attach(message, page, zipped=options.zipped)
-        if len(message.as_bytes()) > options.max_bytes:
-            least = size(len(message.as_bytes()))
+        data = _attached(message, page, zipped=options.zipped)
+        if len(data) > options.max_bytes:
+            least = size(len(data))
             return f"too large: {was}, and {least} without pictures, of {size(options.max_bytes)}; say --max-size"
         note = f"with fewer pictures, as it would have {was}"
-    data = message.as_bytes()
     subject, digest = str(message["Subject"]), digest_of(delivery.results)
     return Message(delivery, address, subject, data, _file(zipped=options.zipped), digest, note)
 
