@@ -63,6 +63,7 @@ COMMANDS = (
     Command("learn", "what the known mistakes answer, so that no submission waits for it", "raysteps.cli.learn"),
     Command("grade-class", "grade a whole class", "raysteps.cli.grade_class"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
+    Command("similar", "which submissions have more in common than others", "raysteps.cli.similar"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),
     Command("export", "for Gradescope, Classroom 50, Canvas and others", "raysteps.cli.export"),
     Command("demo", "one picture per step, and two sample submissions graded", "raysteps.cli.demo"),

@@ -29,6 +29,7 @@ NEVER = (
     "raysteps.cli.learn",
     "raysteps.cli.release",
     "raysteps.cli.replay",
+    "raysteps.cli.similar",
     "raysteps.cli.supervise",
     "raysteps.course.mutants",
     "raysteps.course.settings",
