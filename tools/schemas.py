@@ -10,6 +10,7 @@ import msgspec
 from raysteps.classroom.leaderboard import Leaderboard
 from raysteps.common.documents import former_keys
 from raysteps.common.files import write_json
+from raysteps.exports.similar_pairs import Similarity
 from raysteps.inspector.model import Record
 from raysteps.judge.counterexamples import CaseFile
 from raysteps.results.class_model import ClassResults
@@ -21,6 +22,7 @@ DOCUMENTS: Mapping[str, type] = {
     "results": Results,
     "class": ClassResults,
     "leaderboard": Leaderboard,
+    "similarity": Similarity,
     "case": CaseFile,
     "inspect": Record,
     "release": Release,

@@ -65,6 +65,7 @@ COMMANDS = (
     Command("nightly", "grade as work comes in, a few times a day for each student", "raysteps.cli.nightly"),
     Command("desk", "read a graded class: comment, change points, answer", "raysteps.cli.desk"),
     Command("leaderboard", "rank submissions by counted work", "raysteps.cli.leaderboard"),
+    Command("similar", "which submissions have more in common than others", "raysteps.cli.similar"),
     Command("release", "make the repository that students get", "raysteps.cli.release"),
     Command("image", "a container image that grades, or one for students", "raysteps.cli.image"),
     Command("export", "for Gradescope, Classroom 50, Canvas and others", "raysteps.cli.export"),

@@ -1,7 +1,9 @@
-"""`export similarity`: the sources of a class as JPlag reads them, to be compared with each other."""
+"""What of a class is compared, and `export similarity`: the same as JPlag reads it."""
 
 import argparse
 import sys
+from collections.abc import Collection, Mapping
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -11,14 +13,17 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
 from raysteps.course.manifest import Step, chosen_steps, read_steps
-from raysteps.course.mutants import reference_source
+from raysteps.course.mutants import read_alternatives, reference_source
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.exports.autograders import Member, as_zip, into_folder
+from raysteps.exports.similar_pairs import Handed, Origin
 from raysteps.submission.load import Submission, load_submission
 
 BASE, ROOM = "base-code", "submissions"
 _REFERENCE = "_kit-reference"  # no submission's name begins with `_` and a letter
+
+Started = dict[str, dict[Step, bytes]]  # by the names of submissions
 
 
 def add_similarity_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
@@ -42,10 +47,11 @@ def _started(submission: Submission, stubs: dict[Step, str]) -> dict[Step, bytes
     return found
 
 
-def _of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> list[Member]:
+def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> Started:
+    """What each has begun, by name; who has begun nothing is named on stderr."""
     entries = list_entries(folder, left_out).entries
     names = name_entries([entry.label for entry in entries], {})
-    members = []
+    found: Started = {}
     for entry in entries:
         try:
             started = _started(load_submission(entry.path, every), stubs)
@@ -54,9 +60,26 @@ def _of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out:
             started, note = {}, str(error).removeprefix(f"{entry.path}: ")
         if note:
             print(f"raysteps: {clean(entry.label)} is left out: {clean(note)}", file=sys.stderr)
-        name = names[entry.label]
-        members += [Member(f"{ROOM}/{name}/{step.path.as_posix()}", data) for step, data in started.items()]
-    return members
+        else:
+            found[names[entry.label]] = started
+    return found
+
+
+def kits_ways(project: Project, steps: Collection[Step], origin: Origin) -> list[Handed]:
+    """The reference, and the other correct ways, one for each step: they tell what is usual where a class is small."""
+    ways = [[reference_source(project, one), *(way.source for way in read_alternatives(project, one))] for one in steps]
+    rows = [
+        {step.id: source for step, source in zip(steps, row, strict=True) if source is not None}
+        for row in zip_longest(*ways)
+    ]
+    names = ["the kit's reference", *(f"the kit's other way {number}" for number in range(1, len(rows)))]
+    return [Handed(name, row, origin) for name, row in zip(names, rows, strict=True)]
+
+
+def everybodys_code(project: Project, stubs: Mapping[Step, str]) -> list[str]:
+    """Stubs, contracts and the framework."""
+    paths = [*project.steps.glob("*/*.hpp"), *(project.root / "framework").rglob("*.?pp")]
+    return [*stubs.values(), *(path.read_text(encoding="utf-8", errors="replace") for path in sorted(paths))]
 
 
 def _of_kit(project: Project, chosen: list[Step]) -> list[Member]:
@@ -69,8 +92,12 @@ def export_similarity(project: Project, arguments: argparse.Namespace) -> int:
     every = read_steps(project)
     stubs = {step: pristine_stub(project, step) for step in chosen_steps(project, arguments.steps)}
     out: Path = arguments.out
-    members = _of_class(arguments.folder, every, stubs, [out])
-    handed_in = {member.name.split("/")[1] for member in members}
+    handed_in = started_of_class(arguments.folder, every, stubs, [out])
+    members = [
+        Member(f"{ROOM}/{name}/{step.path.as_posix()}", data)
+        for name, started in handed_in.items()
+        for step, data in started.items()
+    ]
     if len(handed_in) + (1 if arguments.solutions else 0) < 2:
         raise UsageError(f"{arguments.folder}: holds {count(len(handed_in), 'submission')} with work; expected two")
     members += _of_kit(project, list(stubs)) if arguments.solutions else []

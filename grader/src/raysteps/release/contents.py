@@ -32,6 +32,7 @@ NEVER = (
     "raysteps.cli.nightly",
     "raysteps.cli.release",
     "raysteps.cli.replay",
+    "raysteps.cli.similar",
     "raysteps.cli.supervise",
     "raysteps.course.mutants",
     "raysteps.course.settings",
