@@ -175,11 +175,6 @@ def _count_mistakes(submissions: Iterable[GradedSubmission]) -> list[MistakeCoun
     return [MistakeCount(step, title, amount) for (step, title), amount in found]
 
 
-def _by_the_grader(one: GradedSubmission) -> float | None:
-    """Its points without what people changed."""
-    return one.points if one.review.automatic is None else one.review.automatic
-
-
 class _Report:
     def __init__(self, database: ClassDatabase, known: Mapping[str, GradedSubmission]) -> None:
         self._known = known
@@ -235,9 +230,9 @@ class _Report:
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],
             changed=[
-                PointsChange(one.name, one.before.points, _by_the_grader(one), one.before.resubmitted)
+                PointsChange(one.name, one.before.points, one.automatic_points, one.before.resubmitted)
                 for one in submissions
-                if one.before is not None and one.before.points != _by_the_grader(one)
+                if one.before is not None and one.before.points != one.automatic_points
             ],
             outdated=[one.name for one in submissions if one.outdated],
             mistakes=_count_mistakes(submissions),

@@ -95,7 +95,7 @@ def _points(value: float | None, status: str) -> str:
 
 def _change(one: GradedSubmission) -> float | None:
     """Of the grader's points since the student last handed in something else; None where that was never."""
-    now = one.review.automatic
+    now = one.automatic_points
     return round(now - one.earlier[-1].points, 2) if one.earlier and now is not None else None
 
 

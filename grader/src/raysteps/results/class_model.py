@@ -89,6 +89,11 @@ class GradedSubmission:
     results: str | None  # path of results.json
     review: HumanReview = field(default_factory=HumanReview, metadata=OPTIONAL)
 
+    @property
+    def automatic_points(self) -> float | None:
+        """As the grader gave them."""
+        return self.points if self.review.automatic is None else self.review.automatic
+
 
 @dataclass
 class RunCounts:
