@@ -237,7 +237,7 @@ def _with_mistakes(out: Path, titles: dict[str, str]) -> None:
             found = [Diagnosis("mistake", "m", title)] if title else []
             results = Results.of(name, [StepResult(_STEP, "partial", 5, 10, False, diagnoses=found)])
             database.record(run, Answer(name, "graded", results, worker="w"), "key", sources={_STEP: b"int a;\n"})
-        database.end_run(run, "complete", [])
+        database.end_run(run, "complete", {})
 
 
 def test_the_same_mistake_leads_to_the_next_who_made_it(watched: Watched, tmp_path: Path) -> None:
