@@ -173,7 +173,7 @@ def test_a_database_of_an_earlier_kit_tells_nothing_of_before(tmp_path: Path) ->
     _hand_in(tmp_path, "ann", 4, _FIRST_TIME)
     _grade(tmp_path)
     with closing(sqlite3.connect(out / "class.sqlite")) as database:
-        database.execute("DROP TABLE sources")
+        database.execute("DROP TABLE arrivals")
     _hand_in(tmp_path, "ann", 7, _SECOND)
     _grade(tmp_path, "--resume")
     assert _results(out, "ann")["earlier"] == []
@@ -190,7 +190,7 @@ def test_a_result_that_still_holds_is_known_from_then_on(tmp_path: Path) -> None
     _hand_in(tmp_path, "ann", 4, _FIRST_TIME)
     _grade(tmp_path)
     with closing(sqlite3.connect(out / "class.sqlite")) as database:
-        database.execute("DROP TABLE sources")
+        database.execute("DROP TABLE arrivals")
     _hand_in(tmp_path, "ann", 4, _SECOND)  # the roster was mended
     _grade(tmp_path, "--resume")
     _hand_in(tmp_path, "ann", 7, _THIRD)
