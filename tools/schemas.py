@@ -10,6 +10,7 @@ import msgspec
 from raysteps.classroom.leaderboard import Leaderboard
 from raysteps.common.documents import former_keys
 from raysteps.common.files import write_json
+from raysteps.desk.said import AnnotationFile
 from raysteps.exports.similar_pairs import Similarity
 from raysteps.inspector.model import Record
 from raysteps.judge.counterexamples import CaseFile
@@ -23,6 +24,7 @@ DOCUMENTS: Mapping[str, type] = {
     "class": ClassResults,
     "leaderboard": Leaderboard,
     "similarity": Similarity,
+    "annotations": AnnotationFile,
     "case": CaseFile,
     "inspect": Record,
     "release": Release,
