@@ -127,25 +127,29 @@ def test_a_line_is_found_again_in_other_code_and_points_are_to_be_looked_at(
     assert moved["excerpt"][moved["line"] - moved["first"]] == "int second = 2;"
     assert (gone["line"], gone["since_then"]) == (4, "gone")
     assert "int third = 3;" in gone["excerpt"]
-    assert _step(grades)["points"] == 6.5
+    assert _step(grades)["points"] == 7, "better work is not hurt by a favour"
     assert _step(grades)["review"]["automatic"] == 7
+    assert _step(grades)["review"]["overrides"] == []
     review = _class(grades)["review"]
-    assert review["look_again"] == ["01: Ada made 6.5 of the 4 that the grader gave then; now it gives 7"]
+    assert review["look_again"] == ["01: Ada made 6.5 of the 4 that the grader gave then; now it gives 7, which counts"]
     assert not review["read"]
     assert "The code has changed since this was written. It was line 3 then." in _report(grades)
     assert "look again" in (grades / "class.html").read_text()
     assert _row(grades)["look_again"] == review["look_again"][0]
 
 
-def test_a_brace_alone_is_no_line_that_can_be_found(tmp_path: Path, handed_in: Path) -> None:
-    write_entry(handed_in, "ann", "// points 4\nint one() {\n    return 1;\n}\n")
-    out = tmp_path / "braces"
+@pytest.mark.parametrize("line", ["}", "return k_black;"])
+def test_a_line_among_others_is_another_line(tmp_path: Path, handed_in: Path, line: str) -> None:
+    """Wherever the same words stand again."""
+    write_entry(handed_in, "ann", f"// points 4\nint one() {{\n    int a;\n    {line}\n}}\n")
+    out = tmp_path / "lines"
     grade_class(handed_in, "--out", out)
     _say(out, "comment", step=_STEP, line=4, text="which?")
-    write_entry(handed_in, "ann", "// points 4\nint two() {\n    return 2;\n}\n")
+    write_entry(handed_in, "ann", f"// points 4\n\nint two() {{\n    int a;\n    {line}\n}}\n")
     grade_class(handed_in, "--out", out, "--resume")
-    assert _step(out)["review"]["comments"][0]["since_then"] == "moved"  # the end of the file is still below it
-    write_entry(handed_in, "ann", "// points 4\nint a;\nint b;\nint two() {\n    return 2;\n}\nint c;\nint d;\n")
+    comment = _step(out)["review"]["comments"][0]
+    assert (comment["line"], comment["since_then"]) == (5, "moved")
+    write_entry(handed_in, "ann", f"// points 4\nint b;\nint c;\nint d;\nint e;\n    {line}\n}}\nint f;\n")
     grade_class(handed_in, "--out", out, "--resume")
     assert _step(out)["review"]["comments"][0]["since_then"] == "gone"
 

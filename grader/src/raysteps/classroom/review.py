@@ -37,15 +37,16 @@ class LinePlace:
 
 
 def _likeness(old: Sequence[str], at: int, new: Sequence[str], other: int) -> int:
-    """How many of the lines around are the same."""
+    """How many of the lines around that hold words are the same."""
     around = [offset for offset in range(-_AROUND, _AROUND + 1) if offset]
     pairs = [(at + offset, other + offset) for offset in around]
-    return sum(0 <= a < len(old) and 0 <= b < len(new) and old[a].strip() == new[b].strip() for a, b in pairs)
+    there = [(old[a].strip(), new[b].strip()) for a, b in pairs if 0 <= a < len(old) and 0 <= b < len(new)]
+    return sum(before == now and any(map(str.isalnum, now)) for before, now in there)
 
 
 def line_now(one: Annotation, old: Sequence[str], source: Source | None) -> LinePlace:
-    """The same line in the code as it is now, the one whose neighbours are most like those of before; a line without a
-    word of its own needs a neighbour."""
+    """The same line in the code as it is now, the one whose neighbours are most like those of before; without one
+    neighbour it is another line that happens to read the same."""
     at = one.line - 1
     if source is not None and source.sha256 == one.source:
         return LinePlace(one.line, source.lines, "")
@@ -53,7 +54,7 @@ def line_now(one: Annotation, old: Sequence[str], source: Source | None) -> Line
     wanted = one.line_text.strip()
     found = [index for index, text in enumerate(new) if text.strip() == wanted]
     found.sort(key=lambda index: (-_likeness(old, at, new, index), abs(index - at)))
-    if found and (any(map(str.isalnum, wanted)) or _likeness(old, at, new, found[0])):
+    if found and _likeness(old, at, new, found[0]):
         return LinePlace(found[0] + 1, new, "moved")
     return LinePlace(one.line, old or ["" for _ in range(at)] + [one.line_text], "gone")
 
@@ -75,7 +76,12 @@ def _comment(thread: Thread, sources: Mapping[str, Source], blobs: Blobs) -> Com
 
 
 def _override(one: Annotation, automatic: float) -> PointsOverride:
-    return PointsOverride(one.part, automatic, one.points, one.text, one.author, one.at)
+    """Who was given more than the grader gave has at least that, and who was given less has at most that: nobody is
+    hurt by what was meant as a favour when better work comes."""
+    points = one.points
+    if one.step:
+        points = max(points, automatic) if points >= one.automatic else min(points, automatic)
+    return PointsOverride(one.part, automatic, points, one.text, one.author, one.at)
 
 
 def item_words(step: str, part: str) -> str:
@@ -91,20 +97,23 @@ def change_words(step: str, found: PointsOverride) -> str:
     return f"{what} from {number(found.automatic)} to {number(found.points)} by {found.author}: {found.reason}"
 
 
+def _earned(result: StepResult, step: Step | None, part: str) -> float:
+    """What the grader gives for a part, or for all of the step."""
+    parts = {found.name: found.earned for found in parts_of(result, step)}
+    return parts.get(part, 0.0) if part else result.points
+
+
 def _reviewed_step(
     result: StepResult, step: Step | None, mine: Sequence[Thread], sources: Mapping[str, Source], blobs: Blobs
 ) -> StepResult:
     points = result.points
-    parts = {part.name: part.earned for part in parts_of(result, step)}
-    changed: list[PointsOverride] = []
-    for one in _points(mine):
-        automatic = parts.get(one.part, 0.0) if one.part else result.points
-        changed.append(_override(one, automatic))
+    changed = [_override(one, _earned(result, step, one.part)) for one in _points(mine)]
     whole = [found for found in changed if not found.part]
     if whole:  # goes before what was said of its parts
         changed, points = whole, whole[0].points
     elif changed:
         points = max(0.0, round(points + sum(found.points - found.automatic for found in changed), 2))
+    changed = [found for found in changed if found.points != found.automatic]
     return replace(result, points=points, review=_review(result.points, changed, mine, sources, blobs))
 
 
@@ -139,10 +148,10 @@ def _review(
     return Review(automatic, changed, comments, requests)
 
 
-def _look_again(mine: Sequence[Annotation], results: Results) -> list[str]:
-    """Changed points stay what a person made them, also when the grader gives others than it gave then."""
+def _look_again(mine: Sequence[Annotation], results: Results, known: Mapping[str, Step]) -> list[str]:
+    """Changed points where the grader gives others than it gave then. `results` are the grader's."""
     found = []
-    steps = {step.id: step.review for step in results.steps}
+    steps = {step.id: step for step in results.steps}
     for one in mine:
         if not one.step:
             continue
@@ -150,13 +159,13 @@ def _look_again(mine: Sequence[Annotation], results: Results) -> list[str]:
         if one.step not in steps:
             found.append(f"{what}: the step is not graded any more, and the {number(one.points)} points do not count")
             continue
-        review = steps[one.step]
-        for held in review.overrides if review is not None else []:
-            if held.part == one.part and abs(held.automatic - one.automatic) > _ALIKE:
-                found.append(
-                    f"{what}: {one.author} made {number(one.points)} of the {number(one.automatic)} that the grader "
-                    f"gave then; now it gives {number(held.automatic)}"
-                )
+        now = _earned(steps[one.step], known.get(one.step), one.part)
+        if abs(now - one.automatic) > _ALIKE:
+            counts = _override(one, now).points == now
+            found.append(
+                f"{what}: {one.author} made {number(one.points)} of the {number(one.automatic)} that the grader gave "
+                f"then; now it gives {number(now)}{', which counts' if counts else ''}"
+            )
     return found
 
 
@@ -196,7 +205,7 @@ def review_results(
     ) if found else results  # fmt: skip
     words = [change_words(step.id, one) for step in made if step.review for one in step.review.overrides]
     words += [change_words("", one) for one in whole]
-    again = _look_again(_points(found), changed)
+    again = _look_again(_points(found), results, known)
     return Reviewed(changed, _human_review(found, mark, results.total.points, words, again))
 
 

@@ -139,6 +139,9 @@ def _table(document: ClassResults) -> Table:
     return table
 
 
+_MANY = 12  # of those who handed nothing in: more would hide what else there is to see
+
+
 def _print_list(console: Console, heading: str, lines: list[str]) -> None:
     if lines:
         console.print(f"\n[bold]{heading}[/bold]")
@@ -200,12 +203,18 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     changed = [
         f"{one.name}: {_points(one.before)} before, {_points(one.after)} now{one.why}" for one in document.changed
     ]
-    _print_list(console, "Changed since the last time", changed)
+    _print_list(console, "Changed since the last time, as the grader gave them", changed)
+    again = [f"{one.name}: {words}" for one in document.submissions for words in one.review.look_again]
+    _print_list(console, "Points that a person changed, to look at again", again)
     _print_list(
         console,
-        "On the roster, but without a submission",
-        [_who(one) for one in document.students_without_submission],
+        "Open regrade requests",
+        [f"{one.name}: {one.review.open_requests}" for one in document.submissions if one.review.open_requests],
     )
+    absent = [_who(one) for one in document.students_without_submission]
+    if len(absent) > _MANY:
+        absent = [f"{count(len(absent), 'student')}; results.csv names them"]
+    _print_list(console, "On the roster, but without a submission", absent)
     _print_list(console, "With more than one submission", [_who(one) for one in document.students_with_several])
     notes = [f"{name}: {by_name[name].note}" for name in document.submissions_without_student]
     _print_list(console, "Without a student on the roster", notes)
