@@ -95,6 +95,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         release.refuse_inside(project, arguments.context.resolve())
         if not _write(project, arguments, arguments.context, console):
             return 1
+        if not arguments.without_solutions:
+            console.print("It holds the solutions, and the seed of course.toml: nobody else may read it.")
         console.print(escape(f"To build it: docker build --tag NAME {arguments.context}"), highlight=False)
         return 0
     engine = _engine()

@@ -1,6 +1,7 @@
 """The command `similar`: which submissions of a class have more in common than others, as a page and a short table."""
 
 import argparse
+import math
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
@@ -232,7 +233,7 @@ def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair
         names = [escape(printable(handed[at].name)) for at in (one.pair.first, one.pair.second)]
         shares = [f"{100 * share:.0f} %" for share in (one.pair.whole.first, one.pair.whole.second)]
         table.add_row(
-            f"{100 * one.pair.value:.0f} %", *names, one.pair.most[:2] or "all", *shares, f"{one.longest} words"
+            f"{math.floor(100 * one.pair.value)} %", *names, one.pair.most[:2] or "all", *shares, f"{one.longest} words"
         )
     console.print(table)
     console.print(
