@@ -96,10 +96,10 @@ def _hand_in(workshop: Workshop) -> None:
 
 
 def _copy_what_a_document_shows(workshop: Workshop) -> None:
-    """The roster and the late policy."""
+    """The roster and the late policy, as they are first shown."""
     shown = [block.body for block in blocks((workshop.kit.root / "docs" / "class.md").read_text("utf-8"))]
     for name, start in (("students.csv", "id,name,"), ("late.toml", "deadline = ")):
-        (text,) = (body for body in shown if body.startswith(start))
+        text = next(body for body in shown if body.startswith(start))
         (workshop.kit.root / name).write_text(text, encoding="utf-8")
 
 
