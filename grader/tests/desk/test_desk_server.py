@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import pytest
 from class_fakes import grade_class, write_entry
@@ -158,10 +159,21 @@ def test_only_json_of_a_size_is_read(server: DeskServer, grades: Path) -> None:
 
 
 @pytest.mark.parametrize("place", ["submission/../class.sqlite", "submission/eve", "class.sqlite", "submission/ann/x",
-                                   "submission/%2e%2e", "submission/ann?x", "/etc/passwd", "submission/"])  # fmt: skip
+                                   "submission/%2e%2e", "submission/ann?x", "/etc/passwd", "submission/",
+                                   "submission%2Fann", "submission/..%2Fann", "submission/%ff"])  # fmt: skip
 def test_there_is_nothing_else(server: DeskServer, place: str) -> None:
     assert _ask(server, place).status in (400, 404)
     assert _ask(server, place, _COMMENT).status in (400, 404)
+
+
+def test_a_name_may_have_any_letters(tmp_path: Path) -> None:
+    write_entry(tmp_path / "in", "Jörg_Müller_88_李", _CODE)
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out") == 0
+    with closing(Desk(tmp_path / "out", "Ada")) as desk, closing(DeskServer(desk)) as server:
+        name = server.desk.overview()["rows"][0]["name"]
+        assert name == "Jörg_Müller_88_李"
+        assert _ask(server, f"submission/{quote(name)}").json["row"]["name"] == name
+        assert _ask(server, f"submission/{quote(name)}", _COMMENT).status == 200
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import sys
 import threading
 from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from urllib.parse import urlsplit
+from urllib.parse import unquote, urlsplit
 
 from raysteps.common.errors import UsageError, reason
 
@@ -96,7 +96,8 @@ class LocalHandler(BaseHTTPRequestHandler):
         return ""
 
     def place(self) -> list[str] | None:
-        """The parts of the address after the word; None where the question was answered already, with a refusal."""
+        """The parts of the address after the word, decoded; None where the question was answered already, with a
+        refusal."""
         if self._host() not in _HOSTS:
             self.answer(403, "This page is for the machine that it is made on.\n")
             return None
@@ -104,7 +105,11 @@ class LocalHandler(BaseHTTPRequestHandler):
         if not secrets.compare_digest(token.encode(), self.server.token.encode()):
             self.answer(404, "There is nothing here. The whole address stands in the terminal.\n")
             return None
-        return rest[:-1]
+        parts = [unquote(part) for part in rest[:-1]]
+        if any("/" in part or part in (".", "..") for part in parts):
+            self.nothing()
+            return None
+        return parts
 
     def is_from_here(self) -> bool:
         """Whether the page that asks is one of this server's: others must not write, whatever they know."""
