@@ -86,9 +86,16 @@ def _shows(page: "Page", *names: str) -> None:
     expect(rows).to_have_text([re.compile(rf"^\s*{name}") for name in names], timeout=60_000)
 
 
+def _has_focus(page: "Page", selector: str) -> None:
+    """Waits until it has."""
+    from playwright.sync_api import expect
+
+    expect(page.locator(selector)).to_be_focused(timeout=60_000)
+
+
 def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades: Path) -> None:
     page = _open(pages, server)
-    page.wait_for_function("document.activeElement.matches('tbody a')")
+    _has_focus(page, "tbody tr:first-child a")
     _press(page, "j", "k", "j", "Enter")
     _is_open(page, "bob")
     _press(page, "l", "ArrowDown", "c")
@@ -96,7 +103,7 @@ def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades:
     _press(page, "Control+Enter")
     card = page.locator(".desk-lines li:nth-child(2) .desk-card")
     assert "why one? just asking" in card.inner_text()
-    page.wait_for_function("document.activeElement.textContent === '2'")  # one goes on where one was
+    _has_focus(page, ".desk-lines li:nth-child(2) .line-number")  # one goes on where one was
     _press(page, "r")
     page.locator("#read[aria-pressed=true]").wait_for()
     _press(page, "n")
@@ -227,6 +234,7 @@ def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     _press(page, "j")
     _is_open(page, "eve")
     _press(page, "/")
+    _has_focus(page, "#search")
     page.keyboard.type("ann")
     _shows(page, "Ann")
 
@@ -279,7 +287,7 @@ def test_without_a_name_nothing_is_written(pages: Watched, server: DeskServer) -
     page.keyboard.type("who am I?")
     _press(page, "Control+Enter")
     page.locator("form [role=alert]", has_text="Say who you are").wait_for()
-    assert page.evaluate("document.activeElement.id") == "author"
+    _has_focus(page, "#author")
     page.keyboard.type("Ada")
     page.get_by_role("button", name=re.compile("^Save")).click()
     page.locator(".desk-card", has_text="who am I?").wait_for()
