@@ -216,6 +216,69 @@ def test_who_was_slower_sees_what_was_written_and_may_replace_it(
     assert page.locator(".desk-history li").count() == 2
 
 
+def test_a_change_by_somebody_else_stops_no_later_one(pages: Watched, server: DeskServer, grades: Path) -> None:
+    pages.expected = "409"
+    server.desk.say("ann", {"kind": "comment", "author": "Ada", "step": _STEP, "text": "first"})
+    page = _open(pages, server, "ann")
+    _press(page, "p")
+    server.desk.say("ann", {"kind": "points", "author": "Bob", "step": _STEP, "points": 5, "text": "from bob"})
+    page.keyboard.type("8")
+    _press(page, "Tab")
+    page.keyboard.type("from ada")
+    _press(page, "Control+Enter")
+    page.locator("form [role=alert]", has_text="Bob has changed this meanwhile").wait_for()
+    _press(page, "Escape")
+    page.locator(".desk-reason", has_text="Bob: from bob").wait_for()  # as it is now
+    page.locator(".desk-card").get_by_role("button", name="Take back").click()
+    page.locator(".desk-card.withdrawn").wait_for()
+    assert _results(grades, server)["steps"][0]["review"]["comments"] == []
+
+
+_ELSEWHERE = {
+    "another form": lambda page: page.locator("#request").click(),
+    "another line": lambda page: page.locator(".desk-lines li:nth-child(4) .line-number").click(),
+    "a tab": lambda page: page.locator(".desk-tab", has_text="Whole").click(),
+    "read": lambda page: page.locator("#read").click(),
+    "the next one": lambda page: page.get_by_role("button", name="Next", exact=True).click(),
+    "a key": lambda page: page.locator("#submission-title").press("j"),
+    "the class": lambda page: page.locator("#submission-title").press("u"),
+    "back": lambda page: page.go_back(),
+}
+
+
+@pytest.mark.parametrize("way", _ELSEWHERE)
+def test_words_that_are_not_saved_stay(pages: Watched, server: DeskServer, way: str) -> None:
+    page = _open(pages, server)
+    page.locator("tbody a").first.click()
+    _is_open(page, "ann")
+    _press(page, "c")
+    page.keyboard.type("half a thou")
+    _ELSEWHERE[way](page)
+    page.locator("form [role=alert]", has_text="not saved yet").wait_for()
+    _has_focus(page, "textarea")
+    assert page.locator("textarea").input_value() == "half a thou"
+    assert page.url.endswith("#ann")
+    page.keyboard.type("ght")
+    _press(page, "Control+Enter")
+    page.locator(".desk-card", has_text="half a thought").wait_for()
+    _press(page, "c", "Escape", "j")  # a form without words of one's own goes
+    _is_open(page, "bob")
+
+
+def test_a_save_that_is_pressed_twice_saves_once(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    _press(page, "c")
+    page.keyboard.type("once")
+    page.locator("textarea").evaluate(
+        """field => [1, 2].forEach(() => field.dispatchEvent(
+            new KeyboardEvent("keydown", {key: "Enter", ctrlKey: true, bubbles: true, cancelable: true})))"""
+    )
+    page.locator(".desk-card").wait_for()
+    _press(page, "r")  # answered after both
+    page.locator("#read[aria-pressed=true]").wait_for()
+    assert page.locator(".desk-card").count() == 1
+
+
 def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     pages: Watched, server: DeskServer, grades: Path
 ) -> None:
