@@ -190,6 +190,8 @@ def test_a_name_may_have_any_letters(tmp_path: Path) -> None:
         ({"kind": "points", "author": "Ada", "text": "x", "step": "10-fog", "points": 1}, "10-fog was not graded"),
         ({"kind": "points", "author": "Ada", "text": "", "step": _STEP, "points": 1}, "expected a reason"),
         ({**_COMMENT, "more": 1}, "unknown key"),
+        ({**_COMMENT, "points": float("nan")}, "points: expected a number, found nan"),
+        ({**_COMMENT, "kind": "read", "points": float("-inf")}, "points: expected a number, found -inf"),
         ([], "expected object"),
     ],
 )  # fmt: skip
@@ -308,6 +310,10 @@ def test_a_file_carries_all_of_it_to_another_copy(tmp_path: Path, grades: Path) 
         ("submission,kind,text\nann,comment,x\nbob,comment,\n", "3: text: expected a comment"),
         ("submission,kind,text,step\nann,comment,x,77\n", "2: step is '77'"),
         ("submission,kind,text,points\nann,points,x,many\n", "2: points is 'many'"),
+        *((f"submission,kind,text,points\nann,{kind},x,{found}\n", f"2: points is '{found}', expected a number")
+          for kind in ("points", "comment", "request") for found in ("nan", "-inf", "1e999")),
+        *((f"submission,kind,text,step,line\nann,comment,x,1,{found}\n", f"2: line is '{found}', expected a whole")
+          for found in ("nan", "inf", "2.5")),
         ("submission,kind,text,step,line\nann,comment,x,1,77\n", "2: line 77"),
         ("name,text\nann,x\n", "has no column kind"),
         ("\xff", "has no column kind and text"),

@@ -4,6 +4,7 @@ import csv
 import hashlib
 import io
 import json
+import math
 import sqlite3
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
@@ -247,9 +248,12 @@ class _Table:
 
 def _number(text: str, column: str, place: str) -> float:
     try:
-        return float(text or 0)
-    except ValueError as error:
-        raise UsageError(f"{place}: {column} is '{text}', expected a number") from error
+        found = float(text or 0)
+    except ValueError:
+        found = math.nan
+    if not math.isfinite(found) or (column == "line" and not found.is_integer()):
+        raise UsageError(f"{place}: {column} is '{text}', expected a {'whole ' if column == 'line' else ''}number")
+    return found
 
 
 def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) -> Said:
