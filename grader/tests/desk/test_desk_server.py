@@ -1,5 +1,6 @@
 """Who may read and write at the desk, and what it does beside others: a second desk, a grade-class."""
 
+import errno
 import http.client
 import json
 import threading
@@ -263,6 +264,30 @@ def test_a_grade_class_waits_for_a_desk_that_writes_and_writes_what_was_said(tmp
         assert codes == [0]
     assert _results(grades)["total"]["points"] == 7
     refuse_unwritten(grades)
+
+
+def test_a_file_system_without_locks(grades: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_args: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("fcntl.flock", refuse)
+    with closing(Desk(grades, "Ada")) as desk:
+        desk.say("ann", _COMMENT)
+        assert desk.writer.wait(60) == "written"
+    assert _results(grades)["steps"][0]["review"]["comments"][0]["text"] == "why?"
+
+
+def test_what_keeps_files_from_being_written_is_said_and_tried_again(grades: Path) -> None:
+    (grades / "desk.lock").unlink(missing_ok=True)
+    (grades / "desk.lock").mkdir()
+    with closing(Desk(grades, "Ada")) as desk:
+        desk.say("ann", _COMMENT)
+        assert desk.writer.wait(60) == "failed"
+        assert "desk.lock" in desk.files()["trouble"]
+        (grades / "desk.lock").rmdir()
+        desk.say("ann", {**_COMMENT, "text": "and then"})
+        assert desk.writer.wait(60) == "written"
+    assert len(_results(grades)["steps"][0]["review"]["comments"]) == 2
 
 
 def test_a_new_run_is_seen(tmp_path: Path, grades: Path, desk: Desk) -> None:

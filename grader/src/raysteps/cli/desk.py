@@ -73,11 +73,14 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
         with undisturbed():
             desk.close()
     told = {
+        "written": "All files hold what was said.",
         "waiting": "A grade-class is at work there; at its end it writes what you said into the files.",
+        "writing": f"Some files may not hold what was said last. It is kept; ./raysteps desk {out} --write makes them "
+        "anew.",
         "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; "
         f"./raysteps desk {out} --write makes them anew.",
     }
-    console.print(told.get(desk.writer.state, "All files hold what was said."), highlight=False, markup=False)
+    console.print(told[desk.writer.state], highlight=False, markup=False)
 
 
 def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int:

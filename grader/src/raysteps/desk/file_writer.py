@@ -92,15 +92,15 @@ class FileWriter:
                 self._changed.notify_all()
 
     def _write(self) -> State:
-        with may_write(self._out) as is_free:
-            if not is_free:
-                return "waiting"
-            try:
+        try:
+            with may_write(self._out) as is_free:
+                if not is_free:
+                    return "waiting"
                 with closing(ClassDatabase(self._out)) as database:
                     self._write_with(database)
-            except Exception as error:  # the database has it; the next writing, or --write, tries again
-                self.trouble = str(error)
-                return "failed"
+        except Exception as error:  # the database has it; the next writing, or --write, tries again
+            self.trouble = str(error)
+            return "failed"
         self.trouble = ""
         return "written"
 
