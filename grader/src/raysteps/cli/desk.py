@@ -2,6 +2,7 @@
 
 import argparse
 import getpass
+import shlex
 import signal
 import sys
 import threading
@@ -49,6 +50,15 @@ def _login() -> str:
         return ""
 
 
+def _anew(out: Path) -> str:
+    return f"./raysteps desk {shlex.quote(str(out))} --write"
+
+
+def _busy(out: Path) -> str:
+    """A grade-class writes what was said at its end; a sending, or a nightly that only looks, does not."""
+    return f"something else is at work there. When it has ended, {_anew(out)} makes the files anew."
+
+
 def _end(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
@@ -74,13 +84,12 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
             desk.close()
     told = {
         "written": "All files hold what was said.",
-        "waiting": "A grade-class is at work there; at its end it writes what you said into the files.",
-        "writing": f"Some files may not hold what was said last. It is kept; ./raysteps desk {out} --write makes them "
-        "anew.",
-        "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; "
-        f"./raysteps desk {out} --write makes them anew.",
+        "waiting": f"What you said is kept, and the files wait: {_busy(out)}",
+        "writing": f"Some files may not hold what was said last. It is kept; {_anew(out)} makes them anew.",
+        "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; {_anew(out)} makes "
+        "them anew.",
     }
-    console.print(told[desk.writer.state], highlight=False, markup=False)
+    console.print(told[desk.writer.state], highlight=False, markup=False, soft_wrap=True)
 
 
 def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int:
@@ -93,7 +102,7 @@ def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int
             amount = export_file(database, arguments.export)
             console.print(f"{arguments.export}: {amount} written", highlight=False, markup=False, soft_wrap=True)
     if arguments.taken and not write_all(out):
-        console.print("A grade-class is at work there; at its end it writes the files.", highlight=False)
+        console.print(f"The files wait: {_busy(out)}", highlight=False, markup=False, soft_wrap=True)
     return 0
 
 
@@ -105,7 +114,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         return _exchange(console, out, arguments)
     if arguments.write:
         if not write_all(out):
-            raise UsageError(f"{out}: a grade-class is at work there, and writes the files at its end")
+            raise UsageError(f"{out}: {_busy(out).removesuffix('.')}")
         console.print(f"Written: {out}", highlight=False, markup=False, soft_wrap=True)
         return 0
     for name in ("SIGTERM", "SIGHUP"):

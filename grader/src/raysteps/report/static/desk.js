@@ -62,7 +62,7 @@ class Desk {
     const words = {
       written: "✓ files written",
       writing: "writing files …",
-      waiting: "files wait for grade-class",
+      waiting: "files wait: something else is at work there",
       failed: `files not written: ${trouble}`,
     };
     const badge = document.getElementById("files");
