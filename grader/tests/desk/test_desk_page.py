@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
@@ -13,6 +15,7 @@ from class_fakes import grade_class, write_entry
 
 from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
 from raysteps.classroom.jobs import Answer
+from raysteps.common.local_server import shown_in_browser
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.results.model import Diagnosis, Results, StepResult
 from raysteps.results.settings import Settings
@@ -110,6 +113,21 @@ def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades:
     _is_open(page, "eve")
     comment = _results(grades, server, "bob")["steps"][0]["review"]["comments"][0]
     assert (comment["line"], comment["text"], comment["author"]) == (2, "why one? just asking", "Ada")
+
+
+def test_the_browser_is_led_to_the_page_by_a_file_of_ones_own(
+    pages: Watched, server: DeskServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    with shown_in_browser(server.address):
+        assert server.token not in opened[0]
+        path = Path(url2pathname(urlsplit(opened[0]).path))
+        assert [one.stat().st_mode & 0o077 for one in (path, path.parent)] == [0, 0]
+        page = pages.open(path)
+        page.wait_for_url(server.address)
+        page.locator("tbody tr").first.wait_for()
+    assert not path.parent.exists()
 
 
 def test_points_with_a_reason_and_back(pages: Watched, server: DeskServer, grades: Path) -> None:

@@ -6,8 +6,7 @@ import shlex
 import signal
 import sys
 import threading
-import webbrowser
-from contextlib import closing, suppress
+from contextlib import ExitStack, closing, suppress
 from pathlib import Path
 from types import FrameType
 
@@ -17,6 +16,7 @@ from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.session import undisturbed
 from raysteps.cli.watch import on_a_desktop, port
 from raysteps.common.errors import UsageError
+from raysteps.common.local_server import shown_in_browser
 from raysteps.common.platform import refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.desk.desk import Desk, DeskServer
@@ -68,13 +68,12 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
     try:
         server = DeskServer(desk, arguments.port)
         try:
-            with suppress(KeyboardInterrupt):
+            with suppress(KeyboardInterrupt), ExitStack() as stack:
                 console.print(f"Page: {server.address}", highlight=False, soft_wrap=True, markup=False)
                 console.print("Ctrl-C ends it. All that you say is kept at once.", highlight=False)
                 sys.stdout.flush()
                 if not arguments.no_open and on_a_desktop():
-                    with suppress(webbrowser.Error, OSError):
-                        webbrowser.open(server.address)
+                    stack.enter_context(shown_in_browser(server.address))
                 threading.Event().wait()
         finally:
             with undisturbed():

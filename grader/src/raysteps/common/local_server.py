@@ -1,11 +1,16 @@
 """Serves pages to this machine's own browser, and to nobody else."""
 
+import html
 import secrets
 import socket
 import sys
+import tempfile
 import threading
-from contextlib import suppress
+import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from raysteps.common.errors import UsageError, reason
@@ -62,6 +67,20 @@ class LocalServer(ThreadingHTTPServer):
             self.socket.shutdown(socket.SHUT_RDWR)
         self.server_close()
         self._thread.join(2)
+
+
+@contextmanager
+def shown_in_browser(address: str) -> Iterator[None]:
+    """Opens the page. Everybody on a machine can read with which words a program was started, so the browser is given
+    the name of a file that leads there, which nobody else can read."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        path = Path(folder) / "page.html"
+        path.touch(mode=0o600)
+        goal = html.escape(address)
+        path.write_text(f'<!doctype html><meta http-equiv="refresh" content="0; url={goal}">\n', encoding="utf-8")
+        with suppress(webbrowser.Error, OSError):
+            webbrowser.open(path.as_uri())
+        yield
 
 
 class LocalHandler(BaseHTTPRequestHandler):
