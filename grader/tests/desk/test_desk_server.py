@@ -13,6 +13,7 @@ from urllib.parse import quote
 import pytest
 from class_fakes import grade_class, write_entry
 
+from raysteps.classroom.annotations import all_annotations
 from raysteps.classroom.class_files import refuse_unwritten
 from raysteps.classroom.database import LOCK, ClassDatabase
 from raysteps.common.errors import UsageError
@@ -351,6 +352,15 @@ def test_a_table_that_is_wrong_is_refused_as_a_whole(tmp_path: Path, grades: Pat
         import_file(database, path, "Ada")
     assert words in str(told.value)
     assert _amount(grades) == 0
+
+
+def test_a_table_that_two_people_take_in_is_taken_in_once(tmp_path: Path, grades: Path) -> None:
+    path = tmp_path / "asked.csv"
+    path.write_text("submission,kind,text,author\nann,request,why?,\nann,request,why?,Eve\n")
+    with closing(ClassDatabase(grades)) as database:
+        assert import_file(database, path, "Ada") == 2
+        assert import_file(database, path, "Bob") == 0
+        assert {one.author for _, one in all_annotations(database)} == {"Ada", "Eve"}
 
 
 def test_a_folder_without_a_class(tmp_path: Path) -> None:
