@@ -9,7 +9,7 @@ from typing import Literal
 from raysteps.classroom.annotations import annotated, latest_serial, written_serial
 from raysteps.classroom.class_document import Standings, class_document, still_true
 from raysteps.classroom.class_files import CLASS_JSON, write_class, write_submission, write_tables
-from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
+from raysteps.classroom.database import FILE, LOCK, ClassDatabase, open_database, telling_of
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, try_lock
 
@@ -97,7 +97,8 @@ class FileWriter:
             with may_write(self._out) as is_free:
                 if not is_free:
                     return "waiting"
-                with closing(ClassDatabase(self._out)) as database:
+                # Whoever made this writer has opened the database, and thereby looked for damage.
+                with closing(ClassDatabase(self._out, open_database(self._out / FILE, check=False))) as database:
                     self._write_with(database)
         except Exception as error:  # the database has it; the next writing, or --write, tries again
             self.trouble = str(error)
