@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 from class_fakes import grade_class, write_entry
 
+from raysteps.classroom.database import LOCK
 from raysteps.cli.app import main
+from raysteps.common.files import try_lock
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -50,6 +52,21 @@ def test_files_in_and_out(tmp_path: Path, grades: Path, capsys: pytest.CaptureFi
     assert json.loads((tmp_path / "said.json").read_text())["annotations"][0]["entry"] == "ann"
     assert main(["desk", str(grades), "--write"]) == 0
     assert "Written:" in capsys.readouterr().out
+
+
+def test_while_something_else_is_at_work_the_way_to_write_later_is_named(
+    tmp_path: Path, grades: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = tmp_path / "asked.csv"
+    table.write_text("submission,kind,text\nann,request,was it right?\n")
+    with (grades / LOCK).open("a") as file:
+        assert try_lock(file.fileno())
+        assert main(["desk", str(grades), "--import", str(table)]) == 0
+        assert main(["desk", str(grades), "--write"]) == 2
+    told = capsys.readouterr()
+    for words in (told.out, " ".join(told.err.split())):
+        assert "something else is at work there" in words
+        assert f"./raysteps desk {grades} --write" in words
 
 
 def test_a_folder_without_a_class_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

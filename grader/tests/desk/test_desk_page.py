@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
@@ -13,6 +15,7 @@ from class_fakes import grade_class, write_entry
 
 from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
 from raysteps.classroom.jobs import Answer
+from raysteps.common.local_server import shown_in_browser
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.results.model import Diagnosis, Results, StepResult
 from raysteps.results.settings import Settings
@@ -86,9 +89,16 @@ def _shows(page: "Page", *names: str) -> None:
     expect(rows).to_have_text([re.compile(rf"^\s*{name}") for name in names], timeout=60_000)
 
 
+def _has_focus(page: "Page", selector: str) -> None:
+    """Waits until it has."""
+    from playwright.sync_api import expect
+
+    expect(page.locator(selector)).to_be_focused(timeout=60_000)
+
+
 def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades: Path) -> None:
     page = _open(pages, server)
-    page.wait_for_function("document.activeElement.matches('tbody a')")
+    _has_focus(page, "tbody tr:first-child a")
     _press(page, "j", "k", "j", "Enter")
     _is_open(page, "bob")
     _press(page, "l", "ArrowDown", "c")
@@ -96,13 +106,28 @@ def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades:
     _press(page, "Control+Enter")
     card = page.locator(".desk-lines li:nth-child(2) .desk-card")
     assert "why one? just asking" in card.inner_text()
-    page.wait_for_function("document.activeElement.textContent === '2'")  # one goes on where one was
+    _has_focus(page, ".desk-lines li:nth-child(2) .line-number")  # one goes on where one was
     _press(page, "r")
     page.locator("#read[aria-pressed=true]").wait_for()
     _press(page, "n")
     _is_open(page, "eve")
     comment = _results(grades, server, "bob")["steps"][0]["review"]["comments"][0]
     assert (comment["line"], comment["text"], comment["author"]) == (2, "why one? just asking", "Ada")
+
+
+def test_the_browser_is_led_to_the_page_by_a_file_of_ones_own(
+    pages: Watched, server: DeskServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    with shown_in_browser(server.address):
+        assert server.token not in opened[0]
+        path = Path(url2pathname(urlsplit(opened[0]).path))
+        assert [one.stat().st_mode & 0o077 for one in (path, path.parent)] == [0, 0]
+        page = pages.open(path)
+        page.wait_for_url(server.address)
+        page.locator("tbody tr").first.wait_for()
+    assert not path.parent.exists()
 
 
 def test_points_with_a_reason_and_back(pages: Watched, server: DeskServer, grades: Path) -> None:
@@ -209,6 +234,69 @@ def test_who_was_slower_sees_what_was_written_and_may_replace_it(
     assert page.locator(".desk-history li").count() == 2
 
 
+def test_a_change_by_somebody_else_stops_no_later_one(pages: Watched, server: DeskServer, grades: Path) -> None:
+    pages.expected = "409"
+    server.desk.say("ann", {"kind": "comment", "author": "Ada", "step": _STEP, "text": "first"})
+    page = _open(pages, server, "ann")
+    _press(page, "p")
+    server.desk.say("ann", {"kind": "points", "author": "Bob", "step": _STEP, "points": 5, "text": "from bob"})
+    page.keyboard.type("8")
+    _press(page, "Tab")
+    page.keyboard.type("from ada")
+    _press(page, "Control+Enter")
+    page.locator("form [role=alert]", has_text="Bob has changed this meanwhile").wait_for()
+    _press(page, "Escape")
+    page.locator(".desk-reason", has_text="Bob: from bob").wait_for()  # as it is now
+    page.locator(".desk-card").get_by_role("button", name="Take back").click()
+    page.locator(".desk-card.withdrawn").wait_for()
+    assert _results(grades, server)["steps"][0]["review"]["comments"] == []
+
+
+_ELSEWHERE = {
+    "another form": lambda page: page.locator("#request").click(),
+    "another line": lambda page: page.locator(".desk-lines li:nth-child(4) .line-number").click(),
+    "a tab": lambda page: page.locator(".desk-tab", has_text="Whole").click(),
+    "read": lambda page: page.locator("#read").click(),
+    "the next one": lambda page: page.get_by_role("button", name="Next", exact=True).click(),
+    "a key": lambda page: page.locator("#submission-title").press("j"),
+    "the class": lambda page: page.locator("#submission-title").press("u"),
+    "back": lambda page: page.go_back(),
+}
+
+
+@pytest.mark.parametrize("way", _ELSEWHERE)
+def test_words_that_are_not_saved_stay(pages: Watched, server: DeskServer, way: str) -> None:
+    page = _open(pages, server)
+    page.locator("tbody a").first.click()
+    _is_open(page, "ann")
+    _press(page, "c")
+    page.keyboard.type("half a thou")
+    _ELSEWHERE[way](page)
+    page.locator("form [role=alert]", has_text="not saved yet").wait_for()
+    _has_focus(page, "textarea")
+    assert page.locator("textarea").input_value() == "half a thou"
+    assert page.url.endswith("#ann")
+    page.keyboard.type("ght")
+    _press(page, "Control+Enter")
+    page.locator(".desk-card", has_text="half a thought").wait_for()
+    _press(page, "c", "Escape", "j")  # a form without words of one's own goes
+    _is_open(page, "bob")
+
+
+def test_a_save_that_is_pressed_twice_saves_once(pages: Watched, server: DeskServer, grades: Path) -> None:
+    page = _open(pages, server, "ann")
+    _press(page, "c")
+    page.keyboard.type("once")
+    page.locator("textarea").evaluate(
+        """field => [1, 2].forEach(() => field.dispatchEvent(
+            new KeyboardEvent("keydown", {key: "Enter", ctrlKey: true, bubbles: true, cancelable: true})))"""
+    )
+    page.locator(".desk-card").wait_for()
+    _press(page, "r")  # answered after both
+    page.locator("#read[aria-pressed=true]").wait_for()
+    assert page.locator(".desk-card").count() == 1
+
+
 def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     pages: Watched, server: DeskServer, grades: Path
 ) -> None:
@@ -227,6 +315,7 @@ def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     _press(page, "j")
     _is_open(page, "eve")
     _press(page, "/")
+    _has_focus(page, "#search")
     page.keyboard.type("ann")
     _shows(page, "Ann")
 
@@ -279,7 +368,7 @@ def test_without_a_name_nothing_is_written(pages: Watched, server: DeskServer) -
     page.keyboard.type("who am I?")
     _press(page, "Control+Enter")
     page.locator("form [role=alert]", has_text="Say who you are").wait_for()
-    assert page.evaluate("document.activeElement.id") == "author"
+    _has_focus(page, "#author")
     page.keyboard.type("Ada")
     page.get_by_role("button", name=re.compile("^Save")).click()
     page.locator(".desk-card", has_text="who am I?").wait_for()

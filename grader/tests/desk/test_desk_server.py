@@ -1,5 +1,6 @@
 """Who may read and write at the desk, and what it does beside others: a second desk, a grade-class."""
 
+import errno
 import http.client
 import json
 import threading
@@ -7,10 +8,12 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import pytest
 from class_fakes import grade_class, write_entry
 
+from raysteps.classroom.annotations import all_annotations
 from raysteps.classroom.class_files import refuse_unwritten
 from raysteps.classroom.database import LOCK, ClassDatabase
 from raysteps.common.errors import UsageError
@@ -158,10 +161,21 @@ def test_only_json_of_a_size_is_read(server: DeskServer, grades: Path) -> None:
 
 
 @pytest.mark.parametrize("place", ["submission/../class.sqlite", "submission/eve", "class.sqlite", "submission/ann/x",
-                                   "submission/%2e%2e", "submission/ann?x", "/etc/passwd", "submission/"])  # fmt: skip
+                                   "submission/%2e%2e", "submission/ann?x", "/etc/passwd", "submission/",
+                                   "submission%2Fann", "submission/..%2Fann", "submission/%ff"])  # fmt: skip
 def test_there_is_nothing_else(server: DeskServer, place: str) -> None:
     assert _ask(server, place).status in (400, 404)
     assert _ask(server, place, _COMMENT).status in (400, 404)
+
+
+def test_a_name_may_have_any_letters(tmp_path: Path) -> None:
+    write_entry(tmp_path / "in", "Jörg_Müller_88_李", _CODE)
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out") == 0
+    with closing(Desk(tmp_path / "out", "Ada")) as desk, closing(DeskServer(desk)) as server:
+        name = server.desk.overview()["rows"][0]["name"]
+        assert name == "Jörg_Müller_88_李"
+        assert _ask(server, f"submission/{quote(name)}").json["row"]["name"] == name
+        assert _ask(server, f"submission/{quote(name)}", _COMMENT).status == 200
 
 
 @pytest.mark.parametrize(
@@ -178,6 +192,8 @@ def test_there_is_nothing_else(server: DeskServer, place: str) -> None:
         ({"kind": "points", "author": "Ada", "text": "x", "step": "10-fog", "points": 1}, "10-fog was not graded"),
         ({"kind": "points", "author": "Ada", "text": "", "step": _STEP, "points": 1}, "expected a reason"),
         ({**_COMMENT, "more": 1}, "unknown key"),
+        ({**_COMMENT, "points": float("nan")}, "points: expected a number, found nan"),
+        ({**_COMMENT, "kind": "read", "points": float("-inf")}, "points: expected a number, found -inf"),
         ([], "expected object"),
     ],
 )  # fmt: skip
@@ -251,6 +267,30 @@ def test_a_grade_class_waits_for_a_desk_that_writes_and_writes_what_was_said(tmp
     refuse_unwritten(grades)
 
 
+def test_a_file_system_without_locks(grades: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_args: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("fcntl.flock", refuse)
+    with closing(Desk(grades, "Ada")) as desk:
+        desk.say("ann", _COMMENT)
+        assert desk.writer.wait(60) == "written"
+    assert _results(grades)["steps"][0]["review"]["comments"][0]["text"] == "why?"
+
+
+def test_what_keeps_files_from_being_written_is_said_and_tried_again(grades: Path) -> None:
+    (grades / "desk.lock").unlink(missing_ok=True)
+    (grades / "desk.lock").mkdir()
+    with closing(Desk(grades, "Ada")) as desk:
+        desk.say("ann", _COMMENT)
+        assert desk.writer.wait(60) == "failed"
+        assert "desk.lock" in desk.files()["trouble"]
+        (grades / "desk.lock").rmdir()
+        desk.say("ann", {**_COMMENT, "text": "and then"})
+        assert desk.writer.wait(60) == "written"
+    assert len(_results(grades)["steps"][0]["review"]["comments"]) == 2
+
+
 def test_a_new_run_is_seen(tmp_path: Path, grades: Path, desk: Desk) -> None:
     assert [row["points"] for row in desk.overview()["rows"]] == ["4", "4"]
     write_entry(tmp_path / "in", "bob", "// points 9\n")
@@ -296,6 +336,10 @@ def test_a_file_carries_all_of_it_to_another_copy(tmp_path: Path, grades: Path) 
         ("submission,kind,text\nann,comment,x\nbob,comment,\n", "3: text: expected a comment"),
         ("submission,kind,text,step\nann,comment,x,77\n", "2: step is '77'"),
         ("submission,kind,text,points\nann,points,x,many\n", "2: points is 'many'"),
+        *((f"submission,kind,text,points\nann,{kind},x,{found}\n", f"2: points is '{found}', expected a number")
+          for kind in ("points", "comment", "request") for found in ("nan", "-inf", "1e999")),
+        *((f"submission,kind,text,step,line\nann,comment,x,1,{found}\n", f"2: line is '{found}', expected a whole")
+          for found in ("nan", "inf", "2.5")),
         ("submission,kind,text,step,line\nann,comment,x,1,77\n", "2: line 77"),
         ("name,text\nann,x\n", "has no column kind"),
         ("\xff", "has no column kind and text"),
@@ -308,6 +352,15 @@ def test_a_table_that_is_wrong_is_refused_as_a_whole(tmp_path: Path, grades: Pat
         import_file(database, path, "Ada")
     assert words in str(told.value)
     assert _amount(grades) == 0
+
+
+def test_a_table_that_two_people_take_in_is_taken_in_once(tmp_path: Path, grades: Path) -> None:
+    path = tmp_path / "asked.csv"
+    path.write_text("submission,kind,text,author\nann,request,why?,\nann,request,why?,Eve\n")
+    with closing(ClassDatabase(grades)) as database:
+        assert import_file(database, path, "Ada") == 2
+        assert import_file(database, path, "Bob") == 0
+        assert {one.author for _, one in all_annotations(database)} == {"Ada", "Eve"}
 
 
 def test_a_folder_without_a_class(tmp_path: Path) -> None:

@@ -101,9 +101,12 @@ def checked(one: Annotation) -> Annotation:
         raise Malformed(f"text: expected {missing}")
     if one.line and not one.step:
         raise Malformed("line: expected the step whose line it is")
+    for name, amount in {"points": one.points, "automatic": one.automatic}.items():
+        if not math.isfinite(amount):
+            raise Malformed(f"{name}: expected a number, found {amount}")
     if one.kind == "points":
         low = 0 if one.step else -_MAX_POINTS
-        if not math.isfinite(one.points) or not low <= one.points <= _MAX_POINTS:
+        if not low <= one.points <= _MAX_POINTS:
             raise Malformed(f"points: expected a number from {low} to {_MAX_POINTS}, found {number(one.points)}")
         if one.part and not one.step:
             raise Malformed("part: expected the step whose part it is")

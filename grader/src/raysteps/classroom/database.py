@@ -213,8 +213,8 @@ def _refuse_emptied(connection: sqlite3.Connection, path: Path) -> None:
                 raise UsageError(f"{path}: is empty, but {name} beside it holds results of a class; {_way_back(path)}")
 
 
-def open_database(path: Path) -> sqlite3.Connection:
-    """Opens the database of a class, and makes it when there is none."""
+def open_database(path: Path, *, check: bool = True) -> sqlite3.Connection:
+    """Opens the database of a class, and makes it when there is none. `check` reads all of it, to find damage."""
     was_there = path.exists()
     with telling_of(path, "opened"):
         # Whoever shares a connection among threads sees to it that one at a time uses it.
@@ -223,7 +223,8 @@ def open_database(path: Path) -> sqlite3.Connection:
             connection.row_factory = sqlite3.Row
             connection.execute("PRAGMA foreign_keys = ON")
             version_of(connection, path)
-            _check_whole(connection)
+            if check:
+                _check_whole(connection)
             # Where the file system has no shared memory this stays as it is; transactions hold all the same.
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = FULL")
@@ -333,7 +334,7 @@ class ClassDatabase:
     """One class. What a method writes is there as a whole or not at all."""
 
     def __init__(self, folder: Path, connection: sqlite3.Connection | None = None) -> None:
-        """`connection` is one that only reads."""
+        """`connection` is one that is open already, such as one that only reads."""
         self.path = folder / FILE
         self.connection = connection or open_database(self.path)
 

@@ -2,11 +2,11 @@
 
 import argparse
 import getpass
+import shlex
 import signal
 import sys
 import threading
-import webbrowser
-from contextlib import closing, suppress
+from contextlib import ExitStack, closing, suppress
 from pathlib import Path
 from types import FrameType
 
@@ -16,6 +16,7 @@ from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.session import undisturbed
 from raysteps.cli.watch import on_a_desktop, port
 from raysteps.common.errors import UsageError
+from raysteps.common.local_server import shown_in_browser
 from raysteps.common.platform import refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.desk.desk import Desk, DeskServer
@@ -49,6 +50,15 @@ def _login() -> str:
         return ""
 
 
+def _anew(out: Path) -> str:
+    return f"./raysteps desk {shlex.quote(str(out))} --write"
+
+
+def _busy(out: Path) -> str:
+    """A grade-class writes what was said at its end; a sending, or a nightly that only looks, does not."""
+    return f"something else is at work there. When it has ended, {_anew(out)} makes the files anew."
+
+
 def _end(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
@@ -58,13 +68,12 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
     try:
         server = DeskServer(desk, arguments.port)
         try:
-            with suppress(KeyboardInterrupt):
+            with suppress(KeyboardInterrupt), ExitStack() as stack:
                 console.print(f"Page: {server.address}", highlight=False, soft_wrap=True, markup=False)
                 console.print("Ctrl-C ends it. All that you say is kept at once.", highlight=False)
                 sys.stdout.flush()
                 if not arguments.no_open and on_a_desktop():
-                    with suppress(webbrowser.Error, OSError):
-                        webbrowser.open(server.address)
+                    stack.enter_context(shown_in_browser(server.address))
                 threading.Event().wait()
         finally:
             with undisturbed():
@@ -73,11 +82,13 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
         with undisturbed():
             desk.close()
     told = {
-        "waiting": "A grade-class is at work there; at its end it writes what you said into the files.",
-        "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; "
-        f"./raysteps desk {out} --write makes them anew.",
+        "written": "All files hold what was said.",
+        "waiting": f"What you said is kept, and the files wait: {_busy(out)}",
+        "writing": f"Some files may not hold what was said last. It is kept; {_anew(out)} makes them anew.",
+        "failed": f"The files could not be written: {desk.writer.trouble}. What you said is kept; {_anew(out)} makes "
+        "them anew.",
     }
-    console.print(told.get(desk.writer.state, "All files hold what was said."), highlight=False, markup=False)
+    console.print(told[desk.writer.state], highlight=False, markup=False, soft_wrap=True)
 
 
 def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int:
@@ -90,7 +101,7 @@ def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int
             amount = export_file(database, arguments.export)
             console.print(f"{arguments.export}: {amount} written", highlight=False, markup=False, soft_wrap=True)
     if arguments.taken and not write_all(out):
-        console.print("A grade-class is at work there; at its end it writes the files.", highlight=False)
+        console.print(f"The files wait: {_busy(out)}", highlight=False, markup=False, soft_wrap=True)
     return 0
 
 
@@ -102,7 +113,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         return _exchange(console, out, arguments)
     if arguments.write:
         if not write_all(out):
-            raise UsageError(f"{out}: a grade-class is at work there, and writes the files at its end")
+            raise UsageError(f"{out}: {_busy(out).removesuffix('.')}")
         console.print(f"Written: {out}", highlight=False, markup=False, soft_wrap=True)
         return 0
     for name in ("SIGTERM", "SIGHUP"):

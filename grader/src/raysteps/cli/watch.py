@@ -5,14 +5,14 @@ import os
 import queue
 import signal
 import sys
-import webbrowser
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from types import FrameType
 
 from rich.console import Console
 
 from raysteps.cli.steps import STEP_NAMES
+from raysteps.common.local_server import shown_in_browser
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.progress.standing import chosen_or_next
@@ -80,8 +80,7 @@ def _watch(
         if why:
             showing.dim(f"Files are polled: {why}.")
         if on_a_desktop() if arguments.browser is None else arguments.browser:
-            with suppress(webbrowser.Error, OSError):
-                webbrowser.open(server.address)
+            stack.enter_context(shown_in_browser(server.address))
         session = Session(
             project, step, events, runner, saves, keyboard, inspection, board, showing, checks=not arguments.quick
         )

@@ -49,7 +49,11 @@ def one_at_a_time(lock: Path, wait: Callable[[], None] = lambda: None) -> Iterat
     """Waits until nobody else holds the lock; before that it calls `wait`."""
     lock.parent.mkdir(parents=True, exist_ok=True)
     with lock.open("a") as file:
-        if not try_lock(file.fileno()):
+        try:
+            is_ours = try_lock(file.fileno())
+        except OSError:
+            is_ours = True  # a file system without locks
+        if not is_ours:
             wait()
             wait_for_lock(file.fileno())
         yield

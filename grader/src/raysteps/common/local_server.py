@@ -1,12 +1,17 @@
 """Serves pages to this machine's own browser, and to nobody else."""
 
+import html
 import secrets
 import socket
 import sys
+import tempfile
 import threading
-from contextlib import suppress
+import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from urllib.parse import urlsplit
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 from raysteps.common.errors import UsageError, reason
 
@@ -64,6 +69,20 @@ class LocalServer(ThreadingHTTPServer):
         self._thread.join(2)
 
 
+@contextmanager
+def shown_in_browser(address: str) -> Iterator[None]:
+    """Opens the page. Everybody on a machine can read with which words a program was started, so the browser is given
+    the name of a file that leads there, which nobody else can read."""
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        path = Path(folder) / "page.html"
+        path.touch(mode=0o600)
+        goal = html.escape(address)
+        path.write_text(f'<!doctype html><meta http-equiv="refresh" content="0; url={goal}">\n', encoding="utf-8")
+        with suppress(webbrowser.Error, OSError):
+            webbrowser.open(path.as_uri())
+        yield
+
+
 class LocalHandler(BaseHTTPRequestHandler):
     """Answers to who knows the word, on this machine, by its own name. What is there, and whether anything can be
     written, says a class of it."""
@@ -96,7 +115,8 @@ class LocalHandler(BaseHTTPRequestHandler):
         return ""
 
     def place(self) -> list[str] | None:
-        """The parts of the address after the word; None where the question was answered already, with a refusal."""
+        """The parts of the address after the word, decoded; None where the question was answered already, with a
+        refusal."""
         if self._host() not in _HOSTS:
             self.answer(403, "This page is for the machine that it is made on.\n")
             return None
@@ -104,7 +124,11 @@ class LocalHandler(BaseHTTPRequestHandler):
         if not secrets.compare_digest(token.encode(), self.server.token.encode()):
             self.answer(404, "There is nothing here. The whole address stands in the terminal.\n")
             return None
-        return rest[:-1]
+        parts = [unquote(part) for part in rest[:-1]]
+        if any("/" in part or part in (".", "..") for part in parts):
+            self.nothing()
+            return None
+        return parts
 
     def is_from_here(self) -> bool:
         """Whether the page that asks is one of this server's: others must not write, whatever they know."""

@@ -9,19 +9,20 @@ from typing import Literal
 from raysteps.classroom.annotations import annotated, latest_serial, written_serial
 from raysteps.classroom.class_document import Standings, class_document, still_true
 from raysteps.classroom.class_files import CLASS_JSON, write_class, write_submission, write_tables
-from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
+from raysteps.classroom.database import FILE, LOCK, ClassDatabase, open_database, telling_of
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, try_lock
 
 _DESK_LOCK = "desk.lock"
-_AGAIN_SECONDS = 2.0  # to ask whether grade-class has ended
+_AGAIN_SECONDS = 2.0  # to ask whether that has ended
 
 State = Literal["written", "writing", "waiting", "failed"]
 
 
 @contextmanager
 def may_write(out: Path) -> Iterator[bool]:
-    """Whether no grade-class writes there. While this lasts none begins, and no other desk writes."""
+    """Whether nothing else is at work there, such as a grade-class or a sending of mail. While this lasts none begins,
+    and no other desk writes."""
     with one_at_a_time(out / _DESK_LOCK), (out / LOCK).open("a") as file:
         try:
             is_free = try_lock(file.fileno(), shared=True)
@@ -37,7 +38,7 @@ def check_folder(out: Path) -> None:
 
 
 def write_all(out: Path) -> bool:
-    """Everything; False where a grade-class is at work, which writes them itself."""
+    """Everything; False where something else is at work."""
     check_folder(out)
     with may_write(out) as is_free:
         if is_free:
@@ -48,7 +49,7 @@ def write_all(out: Path) -> bool:
 
 class FileWriter:
     """The files of a submission are made at once, the tables of the class as soon as nothing else is to be done. While
-    a grade-class is at work, all of it waits."""
+    something else is at work, all of it waits."""
 
     def __init__(self, out: Path) -> None:
         self._out = out
@@ -73,7 +74,7 @@ class FileWriter:
             return self.state
 
     def close(self) -> None:
-        """Writes what is left, unless a grade-class is at work."""
+        """Writes what is left, unless something else is at work."""
         with self._changed:
             self._is_closed = True
             self._changed.notify_all()
@@ -92,15 +93,16 @@ class FileWriter:
                 self._changed.notify_all()
 
     def _write(self) -> State:
-        with may_write(self._out) as is_free:
-            if not is_free:
-                return "waiting"
-            try:
-                with closing(ClassDatabase(self._out)) as database:
+        try:
+            with may_write(self._out) as is_free:
+                if not is_free:
+                    return "waiting"
+                # Whoever made this writer has opened the database, and thereby looked for damage.
+                with closing(ClassDatabase(self._out, open_database(self._out / FILE, check=False))) as database:
                     self._write_with(database)
-            except Exception as error:  # the database has it; the next writing, or --write, tries again
-                self.trouble = str(error)
-                return "failed"
+        except Exception as error:  # the database has it; the next writing, or --write, tries again
+            self.trouble = str(error)
+            return "failed"
         self.trouble = ""
         return "written"
 

@@ -4,6 +4,7 @@ import csv
 import hashlib
 import io
 import json
+import math
 import sqlite3
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
@@ -247,9 +248,12 @@ class _Table:
 
 def _number(text: str, column: str, place: str) -> float:
     try:
-        return float(text or 0)
-    except ValueError as error:
-        raise UsageError(f"{place}: {column} is '{text}', expected a number") from error
+        found = float(text or 0)
+    except ValueError:
+        found = math.nan
+    if not math.isfinite(found) or (column == "line" and not found.is_integer()):
+        raise UsageError(f"{place}: {column} is '{text}', expected a {'whole ' if column == 'line' else ''}number")
+    return found
 
 
 def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) -> Said:
@@ -289,17 +293,19 @@ def _import_csv(database: ClassDatabase, path: Path, data: bytes, author: str) -
                 continue
             place = f"{path}:{line}"
             name = table.name(row, place)
-            new += _add_row(database, name, _said(row, author, place, steps), place)
+            new += _add_row(database, name, _said(row, author, place, steps), row.get("author", ""), place)
     return new
 
 
-def _add_row(database: ClassDatabase, name: str, said: Said, place: str) -> bool:
-    """The same row gives the same name to what it says: a file that is read twice adds nothing."""
+def _add_row(database: ClassDatabase, name: str, said: Said, author: str, place: str) -> bool:
+    """The same row gives the same name to what it says, whoever takes it in: a file that is read twice adds nothing.
+    `author` is whom the row names."""
     try:
         made = Scribe(database, name).annotation(said)
     except UsageError as error:
         raise UsageError(f"{place}: {error}") from error
-    uid = hashlib.sha256(json.dumps([name, asdict(said)], sort_keys=True).encode()).hexdigest()[:32]
+    content = [name, {**asdict(said), "author": author}]
+    uid = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
     (submission,) = database.connection.execute("SELECT id FROM submissions WHERE name = ?", (name,)).fetchone()
     subject = made.subject if made.kind == "points" else uid
     return add_annotation(database, submission, replace(made, uid=uid, subject=subject))

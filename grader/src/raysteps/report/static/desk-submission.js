@@ -56,8 +56,12 @@ class DeskSubmission {
   }
 
   choose(step) {
+    if (this.keeps()) {
+      return;
+    }
     this.step = step;
     this.draw();
+    this.room.querySelector(".desk-tab[aria-pressed=true]").focus();
   }
 
   head() {
@@ -102,10 +106,7 @@ class DeskSubmission {
       makeButton(
         words,
         { class: `desk-tab ${tone}`, "aria-pressed": String(id === this.step), "aria-keyshortcuts": key },
-        () => {
-          this.choose(id);
-          this.room.querySelector(".desk-tab[aria-pressed=true]").focus();
-        },
+        () => this.choose(id),
       );
     const tabs = this.view.steps.map(({ id, number, points, max, status }) =>
       tab(id, `${number} ${status.sign} ${points} of ${max}`, status.tone, String(Number(number))),
@@ -256,7 +257,34 @@ class DeskSubmission {
     );
   }
 
-  // Forms: one is open at a time, below what it is about.
+  // Forms: one is open at a time, below what it is about. What was typed goes only when it is saved or dropped.
+
+  typed() {
+    return JSON.stringify([...new FormData(this.form)]);
+  }
+
+  hasWords() {
+    return Boolean(this.form?.isConnected) && this.typed() !== this.form.before;
+  }
+
+  /** Whether there is a form with words that are not saved; then it says so, and nothing else may take its place. */
+  keeps() {
+    if (!this.hasWords()) {
+      return false;
+    }
+    this.tell(this.form, "This is not saved yet: Ctrl+Enter saves it, Esc drops it.");
+    if (!this.form.contains(document.activeElement)) {
+      this.form.querySelector("[data-first]").focus();
+    }
+    this.form.scrollIntoView({ block: "nearest" });
+    return true;
+  }
+
+  tell(form, words) {
+    const trouble = form.querySelector("[role=alert]");
+    trouble.hidden = false;
+    trouble.textContent = words;
+  }
 
   /**
    * @param {string} title
@@ -279,7 +307,7 @@ class DeskSubmission {
     form.append(make("div", { class: "desk-buttons" }, save, cancel));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      this.send(said(), form, trouble);
+      this.send(said(), form);
     });
     form.addEventListener("keydown", (event) => {
       if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) {
@@ -292,6 +320,7 @@ class DeskSubmission {
     });
     form.from = document.activeElement;
     this.form = form;
+    form.before = this.typed();
     return form;
   }
 
@@ -300,7 +329,11 @@ class DeskSubmission {
       const { from } = this.form;
       this.form.remove();
       this.form = null;
-      if (from?.isConnected) {
+      if (this.faster) {
+        this.faster = "";
+        this.show(this.view); // somebody else was faster: as it is now
+        this.room.querySelector("#submission-title").focus();
+      } else if (from?.isConnected) {
         from.focus();
       }
     }
@@ -318,28 +351,45 @@ class DeskSubmission {
     return deskField(label, field);
   }
 
-  async send(said, form, trouble) {
+  async send(said, form) {
+    const save = form.querySelector("button[type=submit]");
+    if (save.disabled) {
+      return; // it is on its way
+    }
     const at = this.code ? this.code.at : 0;
     const inCode = form.closest(".desk-lines") !== null;
-    const save = form.querySelector("button[type=submit]");
-    save.disabled = true;
+    const hold = (isHeld) => {
+      save.disabled = isHeld;
+      form.querySelectorAll("input, textarea").forEach((field) => {
+        field.readOnly = isHeld;
+      });
+    };
+    hold(true);
     const { view, error, conflict } = await this.desk.say(this.name, said);
-    save.disabled = false;
+    hold(false);
     if (error) {
-      trouble.hidden = false;
-      trouble.textContent = conflict ? `${error}. ${this.told(conflict, said)}` : error;
-      return;
-    }
-    const { step, name } = { step: this.step, name: this.name };
-    if (view.row.name === name) {
-      this.show(view);
-      this.step = step;
+      this.tell(form, conflict ? `${error}. ${this.told(conflict, said)}` : error);
+    } else if (this.renew(view, form)) {
       if (inCode && this.code) {
         this.code.focus(at);
       } else {
         this.room.querySelector("#submission-title").focus();
       }
     }
+  }
+
+  /** After something was said, by this form or by none: draws it, unless somebody went on, or types into a form. */
+  renew(view, form = null) {
+    if (view.row.name !== this.name) {
+      return false;
+    }
+    if (this.form !== form && this.hasWords()) {
+      this.view = view;
+      return false;
+    }
+    this.faster = "";
+    this.show(view);
+    return true;
   }
 
   /** After somebody else was faster: what they wrote; the next Save replaces it. */
@@ -366,6 +416,9 @@ class DeskSubmission {
   }
 
   comment(line) {
+    if (this.keeps()) {
+      return;
+    }
     this.faster = "";
     const where = line
       ? `Comment at line ${line}`
@@ -385,6 +438,9 @@ class DeskSubmission {
   }
 
   request() {
+    if (this.keeps()) {
+      return;
+    }
     this.faster = "";
     const field = this.text("What the student asks", "");
     const form = this.open("Regrade request", [field], () =>
@@ -394,6 +450,9 @@ class DeskSubmission {
   }
 
   edit(thread) {
+    if (this.keeps()) {
+      return;
+    }
     this.faster = "";
     const isRequest = thread.kind === "request";
     const field = this.text(isRequest ? "Answer" : "Comment", isRequest ? thread.answer : thread.text);
@@ -411,6 +470,9 @@ class DeskSubmission {
   }
 
   changePoints(part) {
+    if (this.keeps()) {
+      return;
+    }
     this.faster = "";
     const step = this.current();
     const item = step ? (step.parts.find(({ name }) => name === part) ?? step) : null;
@@ -441,7 +503,7 @@ class DeskSubmission {
     if (isChanged) {
       const back = makeButton("Take the change back", {}, () => {
         if (form.reportValidity()) {
-          this.send(said(true), form, form.querySelector("[role=alert]"));
+          this.send(said(true), form);
         }
       });
       form.lastElementChild.append(back);
@@ -453,24 +515,28 @@ class DeskSubmission {
   }
 
   async withdraw(thread) {
+    if (this.keeps()) {
+      return;
+    }
+    this.faster = "";
     const { subject, after, text, answer, kind } = thread;
     const said = this.said(kind, { subject, after, text, answer, withdrawn: true });
-    const { view, error } = await this.desk.say(this.name, said);
-    if (error) {
-      this.desk.trouble(error);
-    } else {
-      this.show(view);
+    const { view, error, conflict } = await this.desk.say(this.name, said);
+    this.desk.trouble(error ?? "");
+    const now = view ?? conflict;
+    if (now && this.renew(now)) {
       this.room.querySelector("#submission-title").focus();
     }
   }
 
   async toggleRead() {
-    const name = this.name;
-    const { view, error } = await this.desk.say(name, this.said("read", { withdrawn: this.view.row.read }));
+    if (this.keeps()) {
+      return;
+    }
+    const { view, error } = await this.desk.say(this.name, this.said("read", { withdrawn: this.view.row.read }));
     if (error) {
       this.desk.trouble(error);
-    } else if (this.name === name) {
-      this.show(view);
+    } else if (this.renew(view)) {
       this.room.querySelector("#read").focus();
     }
   }
@@ -480,7 +546,6 @@ class DeskSubmission {
     const step = /^[0-9]$/.test(key) ? this.view.steps.find(({ number }) => Number(number) === Number(key)) : null;
     if (key === "0" || step) {
       this.choose(step ? step.id : deskWhole);
-      this.room.querySelector(".desk-tab[aria-pressed=true]").focus();
     } else if (key === "c" && this.code) {
       this.comment(this.code.at + 1);
     } else if (key === "c" || key === "C") {

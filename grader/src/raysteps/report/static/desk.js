@@ -62,7 +62,7 @@ class Desk {
     const words = {
       written: "✓ files written",
       writing: "writing files …",
-      waiting: "files wait for grade-class",
+      waiting: "files wait: something else is at work there",
       failed: `files not written: ${trouble}`,
     };
     const badge = document.getElementById("files");
@@ -227,6 +227,9 @@ class Desk {
   // From one submission to another: the address names it.
 
   go(name, searching = false) {
+    if (this.view.keeps()) {
+      return;
+    }
     this.searching = searching;
     location.hash = name ?? "";
   }
@@ -263,7 +266,20 @@ class Desk {
     }
   }
 
+  /** Whether words that are not saved hold the submission open, whatever address the browser was given. */
+  stays() {
+    const stays = this.view.keeps();
+    if (stays) {
+      this.wanted = this.view.name;
+      history.replaceState(null, "", `#${this.wanted}`);
+    }
+    return stays;
+  }
+
   async follow() {
+    if (this.stays()) {
+      return;
+    }
     const name = decodeURIComponent(location.hash.slice(1));
     this.wanted = name;
     this.trouble("");
@@ -272,7 +288,7 @@ class Desk {
       return;
     }
     const view = await this.ask(`submission/${encodeURIComponent(name)}`);
-    if (this.wanted !== name) {
+    if (this.wanted !== name || this.stays()) {
       return;
     }
     if (view.error) {
@@ -351,6 +367,11 @@ function startDesk() {
     sessionStorage.setItem("desk-author", target.value);
   });
   window.addEventListener("hashchange", () => desk.follow());
+  window.addEventListener("beforeunload", (event) => {
+    if (desk.view.hasWords()) {
+      event.preventDefault();
+    }
+  });
   document.addEventListener("keydown", (event) => desk.key(event));
   desk.start();
 }
