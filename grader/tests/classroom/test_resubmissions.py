@@ -13,6 +13,7 @@ from class_fakes import FIRST, grade_class, write_entry
 from raysteps.classroom.entries import Shard
 from raysteps.report.attempts import history_of, history_words
 from raysteps.results.model import EarlierStep, EarlierSubmission, Results, StepResult
+from raysteps.results.review import Comment, PointsOverride, Review
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -222,6 +223,21 @@ def test_better_and_worse() -> None:
     assert [(row.change, row.tone) for row in history.rows] == [
         ("+3", "good"), ("=", ""), ("\N{MINUS SIGN}4", "bad"), ("\N{MINUS SIGN}1", ""),
     ]  # fmt: skip
+
+
+def test_points_changed_by_hand_are_told_apart() -> None:
+    steps = {f"0{at}-x": EarlierStep(points, "partial") for at, points in ((1, 8), (2, 5), (3, 5))}
+    now = _document([EarlierSubmission("", False, "2026-11-01T10:00:00+00:00", 18, steps, True)])
+    override = PointsOverride("", 5, 7, "why not", "Ada", "2026-11-02T10:00:00+00:00")
+    now.steps[1].points, now.steps[1].review = 7, Review(5, [override])
+    words = history_words(now, _TITLES)
+    assert words == [
+        "You have handed in 2 times: 18 points (2026-11-01 10:00), and 18 now.",
+        "All points here are by the grader, before your instructor changed some.",
+        "No step has other points than the last time.",
+    ]
+    now.steps[1].review = Review(5, comments=[Comment("Ada", "2026-11-02T10:00:00+00:00", "well")])
+    assert len(history_words(now, _TITLES)) == 2
 
 
 def test_a_step_that_was_not_graded_then_is_neither() -> None:

@@ -205,6 +205,11 @@ def _graded_in_all(results: Results) -> float:
     return sum(map(_graded, results.steps))
 
 
+def _changed_by_hand(results: Results) -> bool:
+    reviews = [results.review, *(step.review for step in results.steps)]
+    return any(review.overrides for review in reviews if review is not None)
+
+
 def _when(one: EarlierSubmission) -> str:
     shown = clean(one.submitted_at or one.graded_at, 40).replace("T", " ")[:16]
     return f"{shown}, by the time of the file" if one.submitted_at and one.by_file else shown
@@ -233,6 +238,8 @@ def history_words(results: Results, titles: Mapping[str, str]) -> list[str]:
     times = [f"{tenths(one.points)} points ({_when(one)})" for one in results.earlier[-_MAX_SHOWN:]]
     amount = len(results.earlier) + 1
     lines = [f"You have handed in {amount} times: {', then '.join(times)}, and {tenths(_graded_in_all(results))} now."]
+    if _changed_by_hand(results):
+        lines.append("All points here are by the grader, before your instructor changed some.")
     better, worse = (_moved(results, titles, direction) for direction in (1, -1))
     lines += [f"Better than the last time: {join_and(better)}."] if better else []
     lines += [f"Worse than the last time: {join_and(worse)}."] if worse else []
