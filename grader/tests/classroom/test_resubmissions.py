@@ -64,6 +64,19 @@ def test_what_was_handed_in_before_is_told(tmp_path: Path, capsys: pytest.Captur
     assert '<td class="late">\N{MINUS SIGN}2</td>' in (out / "class.html").read_text()
 
 
+def test_how_often_stays_true_when_the_first_ones_are_told_no_more(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("raysteps.classroom.resubmissions._MAX", 2)
+    for points in range(1, 6):
+        _hand_in(tmp_path, "ann", points, f"2026-11-0{points}T10:00:00+00:00")
+        _grade(tmp_path, "--resume")
+    earlier = _results(tmp_path / "out", "ann")["earlier"]
+    assert [(one["points"], one["number"]) for one in earlier] == [(3, 3), (4, 4)]
+    page = (tmp_path / "out" / "submissions" / "ann" / "report.html").read_text()
+    assert "You have handed in 5 times, most recently: 3 points (2026-11-03 10:00), then 4 points" in page
+
+
 def test_another_kit_or_seed_is_no_resubmission(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

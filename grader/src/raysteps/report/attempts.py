@@ -236,8 +236,10 @@ def history_words(results: Results, titles: Mapping[str, str]) -> list[str]:
     if not results.earlier:
         return []
     times = [f"{tenths(one.points)} points ({_when(one)})" for one in results.earlier[-_MAX_SHOWN:]]
-    amount = len(results.earlier) + 1
-    lines = [f"You have handed in {amount} times: {', then '.join(times)}, and {tenths(_graded_in_all(results))} now."]
+    amount = (results.earlier[-1].number or len(results.earlier)) + 1
+    last = ", most recently" if amount - 1 > len(times) else ""
+    now = tenths(_graded_in_all(results))
+    lines = [f"You have handed in {amount} times{last}: {', then '.join(times)}, and {now} now."]
     if _changed_by_hand(results):
         lines.append("All points here are by the grader, before your instructor changed some.")
     better, worse = (_moved(results, titles, direction) for direction in (1, -1))
