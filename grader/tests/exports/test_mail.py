@@ -234,10 +234,22 @@ def test_a_report_of_another_run_is_refused(graded: Path) -> None:
         export("mail", "--results", graded, "--from", _STAFF)
 
 
-def test_withheld_cases_do_not_travel(tmp_path: Path) -> None:
-    graded = grade(tmp_path, "1,Ann,ann@example.edu,ann\n", "--feedback", "score", ann="// points 7\n")
-    [part] = _written(graded)[0].iter_attachments()
-    assert part.get_payload(decode=True) == (graded / "submissions" / "ann" / "report.html").read_bytes()
+@pytest.mark.parametrize(("feedback", "travels"), [("full", True), ("diagnosis", False), ("score", False)])
+def test_withheld_cases_do_not_travel(tmp_path: Path, feedback: str, travels: bool) -> None:
+    """Neither with the report as it lies there, nor with the smaller one that is made for a message."""
+    roster, code = "1,Ann,ann@example.edu,ann\n", "// points 7\n// hidden secretinput\n"
+    graded = grade(tmp_path, roster, "--feedback", feedback, ann=code)
+    page = graded / "submissions" / "ann" / "report.html"
+    [whole] = _written(graded)
+    page.write_bytes(page.read_bytes() + b"<!--" + b"x" * 3_000_000 + b"-->")
+    [smaller] = _written(graded, "--max-size", "1")
+    for message in (whole, smaller):
+        [part] = message.iter_attachments()
+        data = part.get_payload(decode=True)
+        assert isinstance(data, bytes)
+        assert len(data) < 1_000_000
+        assert (b"secretinput" in data) == travels
+        assert "secretinput" not in _text(message)
 
 
 def test_words_that_make_no_sense(graded: Path) -> None:
