@@ -48,7 +48,7 @@ def test_what_older_kits_did_not_write_or_only_they_did_may_be_missing_inside_to
     assert {name: keys for name, keys in missing.items() if keys} == {
         "GradedSubmission": {"mistakes", "seconds", "earlier", "review", "inconsistent"},
         "EarlierResult": {"resubmitted"},
-        "EarlierSubmission": {"number"},
         "PointsChange": {"resubmitted"},
         "ClassResults": {"course", "inconsistent"},
+        "EarlierSubmission": {"number"},
     }
