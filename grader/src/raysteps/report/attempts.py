@@ -17,7 +17,7 @@ from PIL import Image
 from raysteps.common.documents import Amount, plain
 from raysteps.common.documents import parse as parse_document
 from raysteps.common.files import write_json
-from raysteps.common.text import clean, join_and, tenths
+from raysteps.common.text import clean, join_and, signed, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
 from raysteps.results.model import EarlierSubmission, ImageResult, Results, StepResult
@@ -215,10 +215,8 @@ def _when(one: EarlierSubmission) -> str:
     return f"{shown}, by the time of the file" if one.submitted_at and one.by_file else shown
 
 
-def _signed(change: float) -> str:
-    if abs(change) < _ALIKE:
-        return "="
-    return f"+{tenths(change)}" if change > 0 else f"\N{MINUS SIGN}{tenths(-change)}"
+def _change(change: float) -> str:
+    return "=" if abs(change) < _ALIKE else signed(change, tenths)
 
 
 def _moved(results: Results, titles: Mapping[str, str], direction: int) -> list[str]:
@@ -262,9 +260,9 @@ def history_of(results: Results, titles: Mapping[str, str]) -> History | None:
         points = [tenths(found.points) if found is not None else "" for found in then]
         change = _graded(step) - then[-1].points if then[-1] is not None else 0.0
         tone = "good" if change >= _ALIKE else "bad" if change <= -_ALIKE else ""
-        shown = _signed(change) if then[-1] is not None else ""
+        shown = _change(change) if then[-1] is not None else ""
         rows.append(HistoryRow(titles[step.id], [*points, tenths(_graded(step))], shown, tone))
     now = _graded_in_all(results)
     total = [*(tenths(one.points) for one in earlier), tenths(now)]
-    rows.append(HistoryRow("in all", total, _signed(now - earlier[-1].points), ""))
+    rows.append(HistoryRow("in all", total, _change(now - earlier[-1].points), ""))
     return History(history_words(results, titles), [_when(one) for one in earlier], rows)
