@@ -13,6 +13,7 @@ from class_fakes import FIRST, grade_class, write_entry
 from raysteps.classroom.entries import Shard
 from raysteps.report.attempts import history_of, history_words
 from raysteps.results.model import EarlierStep, EarlierSubmission, Results, StepResult
+from raysteps.results.review import Comment, PointsOverride, Review
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -61,6 +62,19 @@ def test_what_was_handed_in_before_is_told(tmp_path: Path, capsys: pytest.Captur
     assert [earlier["points"] for earlier in one["earlier"]] == [4, 7]
     assert "ann: 7 before, 5 now; handed in again" in capsys.readouterr().out
     assert '<td class="late">\N{MINUS SIGN}2</td>' in (out / "class.html").read_text()
+
+
+def test_how_often_stays_true_when_the_first_ones_are_told_no_more(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("raysteps.classroom.resubmissions._MAX", 2)
+    for points in range(1, 6):
+        _hand_in(tmp_path, "ann", points, f"2026-11-0{points}T10:00:00+00:00")
+        _grade(tmp_path, "--resume")
+    earlier = _results(tmp_path / "out", "ann")["earlier"]
+    assert [(one["points"], one["number"]) for one in earlier] == [(3, 3), (4, 4)]
+    page = (tmp_path / "out" / "submissions" / "ann" / "report.html").read_text()
+    assert "You have handed in 5 times, most recently: 3 points (2026-11-03 10:00), then 4 points" in page
 
 
 def test_another_kit_or_seed_is_no_resubmission(
@@ -222,6 +236,21 @@ def test_better_and_worse() -> None:
     assert [(row.change, row.tone) for row in history.rows] == [
         ("+3", "good"), ("=", ""), ("\N{MINUS SIGN}4", "bad"), ("\N{MINUS SIGN}1", ""),
     ]  # fmt: skip
+
+
+def test_points_changed_by_hand_are_told_apart() -> None:
+    steps = {f"0{at}-x": EarlierStep(points, "partial") for at, points in ((1, 8), (2, 5), (3, 5))}
+    now = _document([EarlierSubmission("", False, "2026-11-01T10:00:00+00:00", 18, steps, True)])
+    override = PointsOverride("", 5, 7, "why not", "Ada", "2026-11-02T10:00:00+00:00")
+    now.steps[1].points, now.steps[1].review = 7, Review(5, [override])
+    words = history_words(now, _TITLES)
+    assert words == [
+        "You have handed in 2 times: 18 points (2026-11-01 10:00), and 18 now.",
+        "All points here are by the grader, before your instructor changed some.",
+        "No step has other points than the last time.",
+    ]
+    now.steps[1].review = Review(5, comments=[Comment("Ada", "2026-11-02T10:00:00+00:00", "well")])
+    assert len(history_words(now, _TITLES)) == 2
 
 
 def test_a_step_that_was_not_graded_then_is_neither() -> None:

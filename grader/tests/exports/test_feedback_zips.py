@@ -118,6 +118,32 @@ def test_no_name_leads_elsewhere_in_moodle(name: str) -> None:
     assert not folder.startswith((".", "~", " "))
 
 
+@pytest.mark.parametrize(
+    ("system", "first", "second", "place"),
+    [
+        ("moodle", "Ann_88_assignsubmission_file", "Ann Lee_88_assignsubmission_file", "participant 88 of Moodle"),
+        ("canvas", "leeann_4711_815_steps", "leeann_LATE_4711_815_my", "upload 815 of student 4711"),
+    ],
+)
+def test_two_for_one_place_are_told_and_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], system: str, first: str, second: str, place: str
+) -> None:
+    other = {"moodle": "Bob_89_assignsubmission_file", "canvas": "leeann_4711_816_steps"}[system]
+    (tmp_path / "made").mkdir()
+    graded = grade(tmp_path / "made", "9,Zed,,\n", **{first: _GOOD, second: "// points 4\n", other: _GOOD})
+    out = tmp_path / "feedback.zip"
+    capsys.readouterr()
+    code, text = export(f"{system}-feedback", "--results", graded, "--out", out)
+    assert code == 0
+    assert "1 report for 1 student" in text
+    with zipfile.ZipFile(out) as members:
+        assert [name.split("_")[1:3] for name in members.namelist()] == [other.split("_")[1:3]]
+    told = capsys.readouterr().err
+    for name in (first, second):
+        assert f"nothing for {name.replace(' ', '_')}: " in told
+    assert told.count(f"would go to one place, {place}: take what does not count out of the folder") == 2
+
+
 def test_headings_of_another_language_are_for_a_worksheet(of_moodle: Path, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="expected --template, too"):
         export("moodle-feedback", "--results", of_moodle, "--out", tmp_path / "z", "--column", "email=E-Mail")

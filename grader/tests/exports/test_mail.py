@@ -4,6 +4,7 @@ import email
 import email.policy
 import mailbox
 import zipfile
+from contextlib import closing
 from email.message import EmailMessage
 from io import BytesIO
 from pathlib import Path
@@ -11,7 +12,10 @@ from pathlib import Path
 import pytest
 from give_back_class import export, grade
 
+from raysteps.classroom.class_files import write_class
+from raysteps.classroom.database import ClassDatabase
 from raysteps.common.errors import UsageError
+from raysteps.desk.said import Said, Scribe
 from raysteps.exports.mail import parse_template, plain_address
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -84,6 +88,30 @@ def test_lateness_is_told_with_the_points_that_count(tmp_path: Path) -> None:
     graded = grade(tmp_path, "1,Ann,ann@example.edu,ann\n", "--late-policy", late, ann="// points 10\n")
     text = _text(_written(graded)[0])
     assert "Late: 0 of 10 points count.\nHanded in " in text
+
+
+def test_what_people_said_and_changed_is_told(tmp_path: Path) -> None:
+    roster, code = "1,Ann,ann@example.edu,ann\n", "int secret_of_the_code = 1;\n"
+    grade(tmp_path, roster, ann=f"// points 4\n{code}")
+    graded = grade(tmp_path, roster, ann=f"// points 7\n{code}")
+    with closing(ClassDatabase(graded)) as database:
+        scribe = Scribe(database, "ann")
+        scribe.write(Said("points", "Ada", text="half is right", step="01-camera-rays", points=9))
+        scribe.write(Said("points", "Ada", text="a nice picture", points=2))
+        scribe.write(Said("comment", "Ada", text="why\ntwo?", step="01-camera-rays", line=2))
+        scribe.write(Said("request", "Ada", text="Was it?", step="01-camera-rays", answer="It was."))
+        write_class(database, graded)
+    text = _text(_written(graded)[0])
+    assert "graded: 11 of 100 points.\n" in text
+    assert "\n01 Camera rays: 9 of 10, partly right\n" in text
+    assert (
+        "\n\n+2 points for the submission as a whole, from your instructor: a nice picture (Ada)\n"
+        "01 Camera rays: Your instructor changed the points from 7 to 9: half is right (Ada)\n"
+        "01 Camera rays: Line 2: why\ntwo? (Ada)\n"
+        "01 Camera rays: You asked: Was it? Answer (Ada): It was.\n\n"
+    ) in text
+    assert "secret_of_the_code" not in text
+    assert "and 7 now.\nAll points here are by the grader, before your instructor changed some.\nBetter than" in text
 
 
 def test_a_template_of_ones_own(graded: Path) -> None:
@@ -206,10 +234,22 @@ def test_a_report_of_another_run_is_refused(graded: Path) -> None:
         export("mail", "--results", graded, "--from", _STAFF)
 
 
-def test_withheld_cases_do_not_travel(tmp_path: Path) -> None:
-    graded = grade(tmp_path, "1,Ann,ann@example.edu,ann\n", "--feedback", "score", ann="// points 7\n")
-    [part] = _written(graded)[0].iter_attachments()
-    assert part.get_payload(decode=True) == (graded / "submissions" / "ann" / "report.html").read_bytes()
+@pytest.mark.parametrize(("feedback", "travels"), [("full", True), ("diagnosis", False), ("score", False)])
+def test_withheld_cases_do_not_travel(tmp_path: Path, feedback: str, travels: bool) -> None:
+    """Neither with the report as it lies there, nor with the smaller one that is made for a message."""
+    roster, code = "1,Ann,ann@example.edu,ann\n", "// points 7\n// hidden secretinput\n"
+    graded = grade(tmp_path, roster, "--feedback", feedback, ann=code)
+    page = graded / "submissions" / "ann" / "report.html"
+    [whole] = _written(graded)
+    page.write_bytes(page.read_bytes() + b"<!--" + b"x" * 3_000_000 + b"-->")
+    [smaller] = _written(graded, "--max-size", "1")
+    for message in (whole, smaller):
+        [part] = message.iter_attachments()
+        data = part.get_payload(decode=True)
+        assert isinstance(data, bytes)
+        assert len(data) < 1_000_000
+        assert (b"secretinput" in data) == travels
+        assert "secretinput" not in _text(message)
 
 
 def test_words_that_make_no_sense(graded: Path) -> None:

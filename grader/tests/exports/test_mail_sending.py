@@ -147,6 +147,18 @@ def test_a_line_that_was_being_written_when_the_power_went(graded: Path) -> None
             _send(graded, server)
 
 
+def test_who_only_looks_leaves_a_line_that_is_being_written(graded: Path) -> None:
+    log = graded / LOG
+    with FakeSmtp() as server:
+        _send(graded, server, "--only", "s1")
+    text = log.read_bytes() + b'{"at": "2026-'
+    log.write_bytes(text)
+    _, shown = export("mail", "--results", graded, "--from", "Staff <staff@example.edu>")
+    assert "s1 (Student 1, 1, s1@example.edu): was sent on " in shown
+    assert "3 messages" in shown
+    assert log.read_bytes() == text
+
+
 def test_a_second_sending_at_the_same_time_is_refused(graded: Path) -> None:
     with FakeSmtp() as server:
         told: list[str] = []

@@ -1,7 +1,8 @@
 """A grader that only reads what it is told in the sources of step 01. Its workers import this and no command line.
 
-`// points 7` gives points, `// wait 0.5` takes time, `// die`, `// die once`, `// fault`, `// oops` go wrong,
-`// program` starts a program that never ends, `// hang` never ends itself."""
+`// points 7` gives points, `// hidden WORD` fails a hidden case of that input, `// wait 0.5` takes time, `// die`,
+`// die once`, `// fault`, `// oops` go wrong, `// program` starts a program that never ends, `// hang` never ends
+itself."""
 
 import os
 import re
@@ -16,7 +17,7 @@ from raysteps.classroom.jobs import ProgressCallback
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
-from raysteps.results.model import ImageResult, Results, StepResult, Timing
+from raysteps.results.model import HiddenResult, ImageResult, Results, StepResult, Timing
 from raysteps.results.settings import Settings
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Isolation
@@ -85,6 +86,10 @@ class FakeGrader:
                 result.points = min(points, step.points)
                 result.images = [
                     ImageResult("a", "a.nff", True, 0.1, mine=mine, reference=reference, seconds=time.time())
+                ]
+                result.hidden = [
+                    HiddenResult("camera", "function", 0.0, message="is wrong", given=word, outcome="wrong")
+                    for word in re.findall(r"// hidden (\w+)", source)
                 ]
                 (out / mine).parent.mkdir(parents=True)
                 (out / mine).write_bytes(source.encode())

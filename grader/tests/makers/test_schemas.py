@@ -50,4 +50,5 @@ def test_what_older_kits_did_not_write_or_only_they_did_may_be_missing_inside_to
         "EarlierResult": {"resubmitted"},
         "PointsChange": {"resubmitted"},
         "ClassResults": {"course", "inconsistent"},
+        "EarlierSubmission": {"number"},
     }

@@ -11,7 +11,7 @@ from raysteps.submission.load import ARCHIVE_ENDINGS
 _MAX_BYTES = 100
 _DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
 # Only the beginning is the platform's; what comes after it may be a file name that a student chose.
-_CANVAS = re.compile(r"([^\W_]+)_(?:LATE_)?([0-9]+)_[0-9]+_")  # leeann_4711_815_steps
+_CANVAS = re.compile(r"([^\W_]+)_(?:LATE_)?([0-9]+)_([0-9]+)_")  # leeann_4711_815_steps
 _MOODLE = re.compile(r"(.+?)_([0-9]+)_assignsubmission_")  # Ann Lee_123_assignsubmission_file
 
 
@@ -37,9 +37,10 @@ def moodle_identity(entry: str) -> tuple[str, str]:
     return (found[1], found[2]) if found else ("", "")
 
 
-def is_of_canvas(entry: str) -> bool:
-    """Whether the name is one that Canvas gives to a download."""
-    return _CANVAS.match(entry) is not None
+def canvas_numbers(entry: str) -> tuple[str, str] | None:
+    """Of the student and the upload, in the name that Canvas gives to a download; None for any other name."""
+    found = _CANVAS.match(entry)
+    return (found[2], found[3]) if found else None
 
 
 def folded(text: str) -> str:

@@ -76,9 +76,11 @@ class Resubmissions:
     def before(self, row: sqlite3.Row, run: int | None) -> list[EarlierSubmission]:
         """What was handed in before the result of this run, the oldest first. `row` is that of the submission."""
         versions = self._versions(row, run) if self._is_known and run is not None else []
-        return [found for one in versions[:-1][-_MAX:] if (found := self._told(one, versions)) is not None]
+        told = [self._told(number, versions) for number in range(max(1, len(versions) - _MAX), len(versions))]
+        return [one for one in told if one is not None]
 
-    def _told(self, one: sqlite3.Row, versions: Sequence[sqlite3.Row]) -> EarlierSubmission | None:
+    def _told(self, number: int, versions: Sequence[sqlite3.Row]) -> EarlierSubmission | None:
+        one = versions[number - 1]
         query = "SELECT document FROM results WHERE submission = ? AND run = ?"
         results = stored_results(self._query(query, (one["submission"], one["run"])).fetchone()["document"])
         if results is None:
@@ -90,4 +92,5 @@ class Resubmissions:
             points=results.total.points,
             steps={step.id: EarlierStep(step.points, step.status) for step in results.steps},
             same_grading=_grading(one) == _grading(versions[-1]),
+            number=number,
         )

@@ -18,6 +18,11 @@ def escape_formula(text: str) -> str:
     return f"'{text}" if controlled or (first and first in FORMULA_SIGNS) else text
 
 
+def unescape_formula(text: str) -> str:
+    """Without the `'` at its beginning that keeps a spreadsheet from taking it for a formula."""
+    return text[1:] if text.startswith("'") and escape_formula(text[1:]) == text else text
+
+
 def delimiter_of(text: str) -> str:
     """The one that the first record has most of, outside of quotes."""
     quoted = False

@@ -3,7 +3,7 @@
 import math
 import re
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 
 _UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
@@ -78,6 +78,12 @@ def number(value: float) -> str:
 def tenths(value: float) -> str:
     """Whole, or with one decimal, and never more than there are: `10`, `7.5`."""
     return number(math.floor(value * 10 + 1e-6) / 10)
+
+
+def signed(change: float, told: Callable[[float], str] = number) -> str:
+    """`+2`, `0`, or 2 after a minus sign that is as wide as the plus. `told`: how its size is written."""
+    sign = "+" if change > 0 else "\N{MINUS SIGN}" if change < 0 else ""
+    return f"{sign}{told(abs(change))}"
 
 
 def apportion(total: int, weights: Sequence[float]) -> list[int]:

@@ -28,7 +28,7 @@ from raysteps.classroom.class_files import Cell, csv_bytes
 from raysteps.classroom.database import ClassDatabase, Source, transaction
 from raysteps.classroom.entry_names import folded
 from raysteps.classroom.review import item_words
-from raysteps.common.csv_safety import delimiter_of, escape_formula
+from raysteps.common.csv_safety import delimiter_of, unescape_formula
 from raysteps.common.documents import Malformed, as_text, convert, parse
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_out
@@ -215,11 +215,6 @@ def _csv_rows(database: ClassDatabase, rows: list[tuple[str, Annotation]]) -> It
                 ]
 
 
-def _unmarked(text: str) -> str:
-    """Without the sign that keeps a spreadsheet from taking a text for a formula."""
-    return text[1:] if text.startswith("'") and escape_formula(text[1:]) == text else text
-
-
 class _Table:
     """Finds the submission that a row is about."""
 
@@ -288,7 +283,7 @@ def _import_csv(database: ClassDatabase, path: Path, data: bytes, author: str) -
     table, steps, new = _Table(database.connection), manifests_of(database), 0
     with transaction(database.connection):
         for line, cells in rows:
-            row = {key: _unmarked((value or "").strip()) for key, value in cells.items() if isinstance(key, str)}
+            row = {key: unescape_formula((value or "").strip()) for key, value in cells.items() if isinstance(key, str)}
             if not any(row.values()):
                 continue
             place = f"{path}:{line}"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from raysteps.classroom.class_files import refuse_unwritten
 from raysteps.classroom.entry_names import folded, platform_identity
-from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula
+from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula, unescape_formula
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, number, tenths
 from raysteps.course.manifest import Step
@@ -71,16 +71,11 @@ def _number(path: Path, line: int, column: str, text: str) -> float | None:
     return value
 
 
-def _unmarked(text: str) -> str:
-    """Without the sign that keeps a spreadsheet from taking a text for a formula."""
-    return text[1:] if text.startswith("'") and escape_formula(text[1:]) == text else text
-
-
 def _graded(path: Path, line: int, row: dict[str, str]) -> GradedStudent:
     points = _number(path, line, "points", row["points"])
     late = _number(path, line, "late_points", row.get("late_points") or "")
     most = _number(path, line, "max", row["max"])
-    who = {name: _unmarked((row.get(name) or "").strip()) for name in (*_WHO, "entry", "status")}
+    who = {name: unescape_formula((row.get(name) or "").strip()) for name in (*_WHO, "entry", "status")}
     return GradedStudent(**who, in_time=points, points=points if late is None else late, most=most or 0.0)
 
 

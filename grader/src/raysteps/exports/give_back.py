@@ -10,7 +10,7 @@ from pathlib import Path
 
 from raysteps.classroom.class_document import read_class_document, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS
-from raysteps.classroom.entry_names import folded, is_of_canvas, moodle_identity, stem
+from raysteps.classroom.entry_names import canvas_numbers, folded, moodle_identity, stem
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import clean, did_you_mean, join_and
 from raysteps.course.manifest import Step
@@ -120,6 +120,20 @@ def read_deliveries(folder: Path, only: Sequence[str] = ()) -> Deliveries:
     return found
 
 
+def _rivals(deliveries: Deliveries, places: Mapping[int, str]) -> dict[int, str]:
+    """By delivery, why it is left out: where a platform would put the reports of two submissions in one place, nobody
+    knows which one counts. `places` by delivery."""
+    at_place: dict[str, dict[str, None]] = defaultdict(dict)
+    for at, place in places.items():
+        at_place[place][deliveries.given[at].student.submission] = None
+    return {
+        at: f"{join_and(list(at_place[place]))} would go to one place, {place}: take what does not count out of the "
+        "folder of the submissions, and run grade-class with --resume"
+        for at, place in places.items()
+        if len(at_place[place]) > 1
+    }
+
+
 # What Moodle takes under "Upload multiple feedback files in a zip": a folder for each participant, whose name holds the
 # number that Moodle counts this one by in the assignment.
 
@@ -154,8 +168,8 @@ def _participants(deliveries: Deliveries) -> dict[int, str]:
 
 
 def moodle_zip(deliveries: Deliveries, people: Sequence[Person] | None) -> bytes:
-    """`people` are the rows of a grading worksheet, whose numbers count where there is one. Whom no number is known of
-    goes over to the others."""
+    """`people` are the rows of a grading worksheet, whose numbers count where there is one. Whom no number is known of,
+    or one that is another's as well, goes over to the others."""
     if people is not None:
         rows = match([one.student for one in deliveries.given], people)
         found = {at: number_at_end(min(people[row].numbers, key=len)) for at, row in rows.found.items()}
@@ -163,12 +177,13 @@ def moodle_zip(deliveries: Deliveries, people: Sequence[Person] | None) -> bytes
     else:
         found = _participants(deliveries)
         why = "no participant number in the name of what was handed in: name the grading worksheet with --template"
+    rivals = _rivals(deliveries, {at: f"participant {number} of Moodle" for at, number in found.items() if number})
     members: dict[str, Member] = {}
     given = []
     for at, one in enumerate(deliveries.given):
         participant = found.get(at, "")
-        if not participant:
-            deliveries.leave_out(one, why)
+        if not participant or at in rivals:
+            deliveries.leave_out(one, rivals.get(at, why))
             continue
         folder = moodle_folder(one.student.name or one.student.submission, participant)
         members[participant] = Member(f"{folder}/{REPORT}", one.report_bytes())
@@ -201,14 +216,17 @@ def packed(entry: str, members: Sequence[Member]) -> bytes:
 
 
 def canvas_zip(deliveries: Deliveries) -> bytes:
-    """One file for each submission: of a team Canvas itself tells the others. What Canvas did not name goes over to the
-    others."""
+    """One file for each submission: of a team Canvas itself tells the others. What Canvas did not name, or named
+    once for two, goes over to the others."""
+    uploads = {at: found for at, one in enumerate(deliveries.given) if (found := canvas_numbers(one.student.entry))}
+    rivals = _rivals(deliveries, {at: f"upload {file} of student {number}" for at, (number, file) in uploads.items()})
     members: dict[str, Member] = {}
     given = []
-    for one in deliveries.given:
+    for at, one in enumerate(deliveries.given):
         entry = one.student.entry
-        if not is_of_canvas(entry):
-            deliveries.leave_out(one, f"{entry or one.student.submission}: is no name of a download of Canvas")
+        if at not in uploads or at in rivals:
+            why = f"{entry or one.student.submission}: is no name of a download of Canvas"
+            deliveries.leave_out(one, rivals.get(at, why))
             continue
         name = entry if stem(entry) != entry else f"{entry}.zip"
         members[entry] = Member(name, packed(name, [Member(REPORT, one.report_bytes())]))

@@ -26,7 +26,7 @@ from raysteps.exports.give_back import Deliveries, Delivery
 from raysteps.exports.items import one_line, title
 from raysteps.report.attempts import history_words
 from raysteps.report.student import REPORT, next_step, student_page
-from raysteps.report.wording import hand_in_words, total_words
+from raysteps.report.wording import hand_in_words, review_lines, total_words
 from raysteps.results.model import Results, StepResult
 from raysteps.results.statuses import in_words
 
@@ -80,6 +80,8 @@ your work has been graded: {points}
 
 {steps}
 
+{review}
+
 {next}
 
 {history}
@@ -87,9 +89,10 @@ your work has been graded: {points}
 The report is attached. Save {file} and open it in a browser; it needs no network.
 """
 _WORD = re.compile(r"\{([a-z]+)\}")
-_WORDS = ("course", "submission", "name", "points", "lateness", "counts", "steps", "next", "history", "file")
+_WORDS = ("course", "submission", "name", "points", "lateness", "counts", "steps", "review", "next", "history", "file")
 _SUBJECT = "Subject:"
 _MAX_TEMPLATE = 64 << 10
+_MAX_REVIEW = 20_000  # characters: the rest of the message is to be read, too
 
 
 @dataclass(frozen=True)
@@ -132,6 +135,14 @@ def _step_line(result: StepResult, known: Mapping[str, str]) -> str:
     return f"{known[result.id]}: {tenths(result.points)} of {tenths(result.max)}, {in_words(result.status)}"
 
 
+def _review_words(results: Results, known: Mapping[str, str]) -> str:
+    """What people said, of the submission and then of each step; the report shows the code beside it."""
+    lines = review_lines(results.review, whole=True, code=False)
+    for step in results.steps:
+        lines += [f"{known[step.id]}: {line}" for line in review_lines(step.review, code=False)]
+    return clean("\n".join(lines), _MAX_REVIEW)
+
+
 def _next_words(results: Results, known: Mapping[str, str]) -> str:
     """What to do first, and what is known to be wrong there."""
     following = next_step(results.steps)
@@ -161,6 +172,7 @@ def values(delivery: Delivery, deliveries: Deliveries, file: str) -> dict[str, s
         "lateness": "\n".join(clean(line, 1000) for line in late),
         "counts": number(student.points) if student.points is not None else "",
         "steps": "\n".join(_step_line(result, known) for result in results.steps),
+        "review": _review_words(results, known),
         "next": _next_words(results, known),
         "history": "\n".join(history_words(results, known)),
         "file": file,

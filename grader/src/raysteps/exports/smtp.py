@@ -60,14 +60,14 @@ class MailLog:
         self.last[message.key] = one
 
 
-def read_log(path: Path) -> MailLog:
+def read_log(path: Path, *, is_ours: bool = False) -> MailLog:
     """A last line of which only a part is there was being written when the power went: nothing was sent before it was
-    whole."""
+    whole. It goes where the log `is_ours`; else somebody may be writing the rest of it right now."""
     log = MailLog(path)
     try:
         data = path.read_bytes() if path.exists() else b""
         whole = data[: data.rfind(b"\n") + 1]
-        if whole != data:
+        if is_ours and whole != data:
             os.truncate(path, len(whole))
     except OSError as error:
         raise UsageError(f"{path}: what was sent cannot be read: {reason(error)}") from error
@@ -97,7 +97,7 @@ def open_log(path: Path) -> Iterator[MailLog]:
             is_ours = True  # a file system without locks
         if not is_ours:
             raise UsageError(f"{path.parent}: this class is being graded or sent right now; wait for the end of that")
-        yield read_log(path)
+        yield read_log(path, is_ours=True)
 
 
 def why_not_again(log: MailLog, key: tuple[str, str], digest: str, *, again: bool) -> str:

@@ -17,7 +17,7 @@ from PIL import Image
 from raysteps.common.documents import Amount, plain
 from raysteps.common.documents import parse as parse_document
 from raysteps.common.files import write_json
-from raysteps.common.text import clean, join_and, tenths
+from raysteps.common.text import clean, join_and, signed, tenths
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_png
 from raysteps.results.model import EarlierSubmission, ImageResult, Results, StepResult
@@ -205,15 +205,18 @@ def _graded_in_all(results: Results) -> float:
     return sum(map(_graded, results.steps))
 
 
+def _changed_by_hand(results: Results) -> bool:
+    reviews = [results.review, *(step.review for step in results.steps)]
+    return any(review.overrides for review in reviews if review is not None)
+
+
 def _when(one: EarlierSubmission) -> str:
     shown = clean(one.submitted_at or one.graded_at, 40).replace("T", " ")[:16]
     return f"{shown}, by the time of the file" if one.submitted_at and one.by_file else shown
 
 
-def _signed(change: float) -> str:
-    if abs(change) < _ALIKE:
-        return "="
-    return f"+{tenths(change)}" if change > 0 else f"\N{MINUS SIGN}{tenths(-change)}"
+def _change(change: float) -> str:
+    return "=" if abs(change) < _ALIKE else signed(change, tenths)
 
 
 def _moved(results: Results, titles: Mapping[str, str], direction: int) -> list[str]:
@@ -231,8 +234,12 @@ def history_words(results: Results, titles: Mapping[str, str]) -> list[str]:
     if not results.earlier:
         return []
     times = [f"{tenths(one.points)} points ({_when(one)})" for one in results.earlier[-_MAX_SHOWN:]]
-    amount = len(results.earlier) + 1
-    lines = [f"You have handed in {amount} times: {', then '.join(times)}, and {tenths(_graded_in_all(results))} now."]
+    amount = (results.earlier[-1].number or len(results.earlier)) + 1
+    last = ", most recently" if amount - 1 > len(times) else ""
+    now = tenths(_graded_in_all(results))
+    lines = [f"You have handed in {amount} times{last}: {', then '.join(times)}, and {now} now."]
+    if _changed_by_hand(results):
+        lines.append("All points here are by the grader, before your instructor changed some.")
     better, worse = (_moved(results, titles, direction) for direction in (1, -1))
     lines += [f"Better than the last time: {join_and(better)}."] if better else []
     lines += [f"Worse than the last time: {join_and(worse)}."] if worse else []
@@ -253,9 +260,9 @@ def history_of(results: Results, titles: Mapping[str, str]) -> History | None:
         points = [tenths(found.points) if found is not None else "" for found in then]
         change = _graded(step) - then[-1].points if then[-1] is not None else 0.0
         tone = "good" if change >= _ALIKE else "bad" if change <= -_ALIKE else ""
-        shown = _signed(change) if then[-1] is not None else ""
+        shown = _change(change) if then[-1] is not None else ""
         rows.append(HistoryRow(titles[step.id], [*points, tenths(_graded(step))], shown, tone))
     now = _graded_in_all(results)
     total = [*(tenths(one.points) for one in earlier), tenths(now)]
-    rows.append(HistoryRow("in all", total, _signed(now - earlier[-1].points), ""))
+    rows.append(HistoryRow("in all", total, _change(now - earlier[-1].points), ""))
     return History(history_words(results, titles), [_when(one) for one in earlier], rows)

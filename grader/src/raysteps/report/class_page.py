@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from raysteps.common.files import write_bytes
-from raysteps.common.text import number, plain_letters, printable, searchable, tenths
+from raysteps.common.text import number, plain_letters, printable, searchable, signed, tenths
 from raysteps.report.class_attention import CommonMistake, common_mistakes, groups, marks
 from raysteps.report.class_statistics import (
     StepFigures,
@@ -99,12 +99,6 @@ def _change(one: GradedSubmission) -> float | None:
     return round(now - one.earlier[-1].points, 2) if one.earlier and now is not None else None
 
 
-def _signed(change: float | None) -> str:
-    return (
-        "" if change is None else f"+{number(change)}" if change > 0 else number(change).replace("-", "\N{MINUS SIGN}")
-    )
-
-
 def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link: Link) -> list[Row]:
     """One for each submission, in the order of class.json."""
     submissions = document.submissions
@@ -127,7 +121,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
                 days=days,
                 final="" if one.final is None else number(one.final),
                 seconds="" if seconds is None else f"{seconds:.1f}",
-                change=_signed(change),
+                change=signed(change) if change is not None else "",
                 marks=marks.get(index, []),
                 changed=bool(one.review.changes),
                 words=found_by(one),

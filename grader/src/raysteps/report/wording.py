@@ -131,15 +131,15 @@ def since_words(found: Comment) -> str:
     return _SINCE_THEN[found.since_then]
 
 
-def review_lines(review: Review | None, *, whole: bool = False) -> list[str]:
-    """All that people added to a step, or to a whole submission, a line each."""
+def review_lines(review: Review | None, *, whole: bool = False, code: bool = True) -> list[str]:
+    """All that people added to a step, or to a whole submission, a line each; `code`: with the lines they are about."""
     if review is None:
         return []
     lines = [f"{override_words(found, whole=whole)} ({found.author})" for found in review.overrides]
     for found in review.comments:
         where = f"Line {found.line}: " if found.line else ""
-        code = f"`{found.excerpt[found.line - found.first].strip()}`: " if _has_line(found) else ""
-        lines.append(" ".join(filter(None, [f"{where}{code}{found.text} ({found.author})", since_words(found)])))
+        what = f"`{found.excerpt[found.line - found.first].strip()}`: " if code and _has_line(found) else ""
+        lines.append(" ".join(filter(None, [f"{where}{what}{found.text} ({found.author})", since_words(found)])))
     for asked in review.requests:
         said = (
             f"Answer ({asked.answered_by}): {asked.answer}" if asked.state == "answered" else "It is not answered yet."

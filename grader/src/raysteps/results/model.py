@@ -268,6 +268,7 @@ class EarlierSubmission:
     points: Amount
     steps: dict[str, EarlierStep]
     same_grading: bool  # by the same kit, hidden cases and options as the submission of these results
+    number: Count = field(default=0, metadata=OPTIONAL)  # of all that were handed in, from 1; only the last are kept
 
 
 @dataclass(kw_only=True)
