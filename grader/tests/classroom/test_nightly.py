@@ -385,6 +385,20 @@ def test_grade_class_grades_what_waits(course: Course) -> None:
     assert course.report("ann") != page
 
 
+def test_a_merge_keeps_the_account(course: Course, tmp_path: Path) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    first, course.out = course.out, tmp_path / "merged"
+    for _ in range(2):  # again is harmless
+        assert grade_class("--merge", first, "--out", course.out) == 0
+    course.hand_in("ann", "// points 2\n")
+    course.look()
+    assert "waiting until" in course.said
+    assert course.points("ann") == 1.0
+    assert "Feedback today: 1 of 1." in course.status("ann")
+
+
 def test_an_empty_inbox_is_no_mistake(course: Course) -> None:
     assert course.look() == 0
     assert "holds no submission" in course.said

@@ -144,7 +144,19 @@ CREATE TABLE IF NOT EXISTS arrivals (     -- of what was handed in when a result
     FOREIGN KEY (submission, run) REFERENCES results (submission, run)
 )
 """
-_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN, _ARRIVALS)  # an earlier kit did not have them
+_FEEDBACK_GIVEN = """
+CREATE TABLE IF NOT EXISTS feedback_given ( -- what `nightly` gave to whom
+    submission INTEGER NOT NULL REFERENCES submissions (id),
+    run INTEGER NOT NULL REFERENCES runs (number),
+    student TEXT NOT NULL,                -- the id, else the email address, else the name; without a roster the entry's
+    work TEXT NOT NULL,                   -- digest of what was handed in
+    counts INTEGER NOT NULL,              -- whether it took one of the day's
+    given_at TEXT NOT NULL,               -- in UTC
+    PRIMARY KEY (submission, run, student)
+)
+"""
+# An earlier kit did not have them.
+_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN, _ARRIVALS, _FEEDBACK_GIVEN)
 _COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
 
 

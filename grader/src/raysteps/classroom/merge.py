@@ -100,6 +100,10 @@ def _arrivals_of(source: sqlite3.Connection, result: dict[str, Any]) -> list[dic
     return rows_of(source, query, result["submission"], result["run"])
 
 
+# What is kept of each run and submission beside the results. An earlier kit did not have all of it.
+_OF_RUNS = ("reused", "feedback_given")
+
+
 class _Merge:
     """Adds runs and results that the target does not hold yet; those that it holds stay."""
 
@@ -175,10 +179,10 @@ class _Merge:
             for kept in _arrivals_of(source, result):
                 insert(self._target, "arrivals", {**kept, **place})
         self._sources(source, row["number"], number, ids)
-        if has_table(source, "reused"):
-            for kept in rows_of(source, "SELECT submission FROM reused WHERE run = ?", row["number"]):
+        for table in filter(lambda name: has_table(source, name), _OF_RUNS):
+            for kept in rows_of(source, f"SELECT * FROM {table} WHERE run = ?", row["number"]):  # noqa: S608
                 place = {"submission": ids[kept["submission"]], "run": number}
-                insert(self._target, "reused", place, "ON CONFLICT DO NOTHING")
+                insert(self._target, table, {**kept, **place}, "ON CONFLICT DO NOTHING")
 
     def _sources(self, source: sqlite3.Connection, theirs: int, ours: int, ids: dict[int, int]) -> None:
         """The code of results, also where an earlier kit had not kept it when they were merged."""

@@ -50,17 +50,6 @@ class Allowance:
 
 # What was given, in the database of the class.
 
-_TABLE = """
-CREATE TABLE IF NOT EXISTS feedback_given (
-    submission INTEGER NOT NULL REFERENCES submissions (id),
-    run INTEGER NOT NULL REFERENCES runs (number),
-    student TEXT NOT NULL,   -- the id, else the email address, else the name; without a roster the submission's name
-    work TEXT NOT NULL,      -- digest of what was handed in
-    counts INTEGER NOT NULL, -- whether it took one of the day's
-    given_at TEXT NOT NULL,  -- in UTC
-    PRIMARY KEY (submission, run, student)
-)
-"""
 _A_DAY = timedelta(days=1)
 
 
@@ -82,7 +71,6 @@ class FeedbackLog:
 
     def __init__(self, database: ClassDatabase) -> None:
         self._connection = database.connection
-        self._connection.execute(_TABLE)
 
     def last(self, name: str) -> Given | None:
         row = self._connection.execute(
