@@ -9,6 +9,7 @@ from collections.abc import Callable
 from contextlib import closing
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from typing import Any
 from zoneinfo import ZoneInfo
 
 import pytest
@@ -20,6 +21,7 @@ import raysteps.classroom.database
 import raysteps.classroom.nightly
 from raysteps.classroom.class_files import write_submission
 from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.entries import load_entry
 from raysteps.classroom.nightly import STATUS, Allowance, FeedbackLog, signature
 from raysteps.cli.nightly import add_arguments, run
 from raysteps.common.errors import UsageError
@@ -75,10 +77,15 @@ class Course:
     def status(self, name: str) -> str:
         return (self.out / "feedback" / name / STATUS).read_text("utf-8")
 
+    def document(self) -> dict[str, Any]:
+        document: dict[str, Any] = json.loads((self.out / "class.json").read_text("utf-8"))
+        return document
+
+    def one(self, name: str) -> dict[str, Any]:
+        return next(one for one in self.document()["submissions"] if one["name"] == name)
+
     def points(self, name: str) -> float | None:
-        document = json.loads((self.out / "class.json").read_text("utf-8"))
-        found = next(one for one in document["submissions"] if one["name"] == name)
-        points: float | None = found["points"]
+        points: float | None = self.one(name)["points"]
         return points
 
     def runs(self) -> int:
@@ -369,6 +376,80 @@ def test_no_hidden_case_is_given_whatever_grade_class_was_told(course: Course, m
     assert "Feedback today: 1 of 2." in course.status("ann")
 
 
+_FIRST_TIME, _SECOND = "2026-11-03T07:00:00+00:00", "2026-11-03T09:00:00+00:00"
+
+
+def _roster(course: Course, tmp_path: Path, when: str) -> None:
+    (tmp_path / "roster.csv").write_text(f"id,submitted_at\nann,{when}\nbob,{_FIRST_TIME}\n")
+    course.words = [course.inbox, "--per-day", "1", "--roster", tmp_path / "roster.csv"]
+
+
+def _standing(course: Course) -> tuple[object, ...]:
+    one = course.one("ann")
+    return one["points"], one["submitted_at"], one["outdated"], course.document()["outdated"]
+
+
+def test_who_waits_keeps_the_time_of_the_result_that_stands(course: Course, tmp_path: Path) -> None:
+    _roster(course, tmp_path, _FIRST_TIME)
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    _roster(course, tmp_path, _SECOND)
+    course.hand_in("ann", "// points 2\n")
+    course.look()
+    assert _standing(course) == (1.0, _FIRST_TIME, True, ["ann"]), "also when nothing is graded"
+    course.hand_in("bob", "// points 3\n")
+    course.look()
+    assert course.points("bob") == 3.0
+    assert _standing(course) == (1.0, _FIRST_TIME, True, ["ann"])
+    course.now += timedelta(days=1)
+    course.look()
+    assert _standing(course) == (2.0, _SECOND, False, [])
+
+
+def test_who_takes_a_change_back_waits_for_nothing(course: Course, tmp_path: Path) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    for points, outdated in ((1, []), (2, ["ann"]), (1, [])):
+        course.hand_in("ann", f"// points {points}\n")
+        course.look()
+        assert course.document()["outdated"] == outdated
+    assert course.runs() == 1
+
+
+@pytest.mark.parametrize("when", ["before the look", "while its turn comes"])
+def test_what_is_being_uploaded_keeps_the_time_of_its_result(
+    course: Course, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, when: str
+) -> None:
+    _roster(course, tmp_path, _FIRST_TIME)
+    course.words += ["--per-day", "2"]
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    _roster(course, tmp_path, _SECOND)
+    course.words += ["--per-day", "2"]
+    course.hand_in("ann", "// points 2\n")
+    course.hand_in("bob", "// points 3\n")
+
+    def upload() -> None:
+        course.hand_in("ann", "// points 2\n// and more\n")
+
+    with monkeypatch.context() as patch:
+        if when == "before the look":
+            course.meanwhile = upload
+        else:
+
+            def load(name: str, *rest: Any) -> Any:
+                if name == "ann":
+                    upload()
+                return load_entry(name, *rest)
+
+            patch.setattr("raysteps.classroom.session.load_entry", load)
+        course.look()
+    assert course.points("bob") == 3.0
+    assert _standing(course) == (1.0, _FIRST_TIME, True, ["ann"])
+    course.meanwhile = lambda: None
+    course.look()
+    assert _standing(course) == (2.0, _SECOND, False, [])
+
+
 def test_grade_class_grades_what_waits(course: Course) -> None:
     course.words = [course.inbox, "--per-day", "1"]
     course.hand_in("ann", "// points 1\n")
@@ -377,9 +458,11 @@ def test_grade_class_grades_what_waits(course: Course) -> None:
     course.look()
     assert grade_class(course.inbox, "--out", course.out, "--resume") == 0
     assert course.points("ann") == 2.0
+    assert course.document()["outdated"] == []
     page = course.report("ann")
     course.look()
     assert course.report("ann") == page, "it is graded, but not given before tomorrow"
+    assert course.document()["outdated"] == []
     course.now += timedelta(days=1)
     course.look()
     assert course.report("ann") != page
@@ -389,10 +472,12 @@ def test_a_merge_keeps_the_account(course: Course, tmp_path: Path) -> None:
     course.words = [course.inbox, "--per-day", "1"]
     course.hand_in("ann", "// points 1\n")
     course.look()
+    course.hand_in("ann", "// points 2\n")
+    course.look()
     first, course.out = course.out, tmp_path / "merged"
     for _ in range(2):  # again is harmless
         assert grade_class("--merge", first, "--out", course.out) == 0
-    course.hand_in("ann", "// points 2\n")
+        assert course.document()["outdated"] == ["ann"]
     course.look()
     assert "waiting until" in course.said
     assert course.points("ann") == 1.0

@@ -137,9 +137,13 @@ class _Merge:
         self._target.execute("DELETE FROM students")
         for row in part.students:
             insert(self._target, "students", row)
-        entries = {row["id"]: row["entry"] for row in part.submissions}
+        ids = {row["id"]: self._id(row["entry"]) for row in part.submissions}
         for row in part.handed_in:
-            insert(self._target, "handed_in", {**row, "submission": self._id(entries[row["submission"]])})
+            insert(self._target, "handed_in", {**row, "submission": ids[row["submission"]]})
+        self._target.execute("DELETE FROM left_out")
+        if has_table(part.connection, "left_out"):
+            for row in rows_of(part.connection, "SELECT submission FROM left_out"):
+                insert(self._target, "left_out", {"submission": ids[row["submission"]]})
 
     def _run(self, row: dict[str, Any]) -> int:
         columns = {key: value for key, value in row.items() if key != "number"}

@@ -150,6 +150,7 @@ class Look:
     students: tuple[str, ...] = ()
     work: str = ""
     counts: bool = False
+    is_graded: bool = False  # as it is now, although it waits
     seconds: float = 0.0  # that it took the last time
 
 
@@ -193,6 +194,17 @@ class Round:
         """Those to be graded that took long the last time come last: nobody else waits for them."""
         return sorted(map(self._look, self.plan.mine()), key=lambda look: look.seconds)
 
+    @cached_property
+    def left_out(self) -> set[str]:
+        """Names of those that have an earlier result than what is there now."""
+        return {
+            look.name
+            for look in self.looks
+            if look.state in ("waiting", "changing")
+            and not look.is_graded
+            and self.database.current(look.name) is not None
+        }
+
     def _look(self, entry: Entry) -> Look:
         name = self.names[entry.label]
         students = self._owners.get(entry.label, () if self.plan.students else (name,))
@@ -230,9 +242,9 @@ class Round:
         if counts:
             had = self.log.used(students, self.allowance.day_began(self.now)) + self._reserved
             if any(had[student] >= self.allowance.per_day for student in students):
-                return Look(entry, name, "waiting", students, work)
+                return Look(entry, name, "waiting", students, work, is_graded=done)
             self._reserved.update(students)
-        return Look(entry, name, state, students, work, counts, seconds)
+        return Look(entry, name, state, students, work, counts, seconds=seconds)
 
     def _faults(self, name: str, key: str) -> int:
         since = self.allowance.day_began(self.now).astimezone(UTC).isoformat(timespec="seconds")

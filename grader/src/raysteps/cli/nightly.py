@@ -12,7 +12,7 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from rich.console import Console
 
-from raysteps.classroom.class_files import write_class
+from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.entries import NoSubmission
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
@@ -154,7 +154,7 @@ class _Night:
         due = [one for one in look.looks if one.state == "grade"]
         complete, failed = True, [one.name for one in look.looks if one.state == "failed"]
         if due or _is_unfinished(database, self.options.out):
-            run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
+            run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations(), look.left_out)
             meter = ProgressMeter(self.console, len(due))
             session = Session(
                 *(plan, grader.fingerprint, database, meter, run, names),
@@ -165,7 +165,13 @@ class _Night:
             )
             with meter:
                 complete = session.grade(LocalPool(self.options.jobs))
+            skipped = {one.name for one in due} - session.recorded - set(session.reused)
+            database.leave_out(look.left_out | skipped, skipped)
             failed = write_class(database, self.options.out, session.recorded).faults
+        elif look.left_out != database.left_out():
+            withdraw_tables(self.options.out)  # whoever is killed in between writes them anew
+            database.leave_out(look.left_out)
+            write_class(database, self.options.out, names.values())
         look.write_statuses()
         self._tell(look, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0
