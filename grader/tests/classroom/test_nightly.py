@@ -19,13 +19,14 @@ from rich.console import Console
 
 import raysteps.classroom.database
 import raysteps.classroom.nightly
-from raysteps.classroom.class_files import write_submission
+from raysteps.classroom.class_files import refuse_unwritten, write_submission
 from raysteps.classroom.database import ClassDatabase
 from raysteps.classroom.entries import load_entry
 from raysteps.classroom.nightly import STATUS, Allowance, FeedbackLog, signature
 from raysteps.cli.nightly import add_arguments, run
 from raysteps.common.errors import UsageError
 from raysteps.course.project import here
+from raysteps.desk.said import Said, Scribe
 
 pytestmark = [
     pytest.mark.usefixtures("fake_grader"),
@@ -448,6 +449,26 @@ def test_what_is_being_uploaded_keeps_the_time_of_its_result(
     course.meanwhile = lambda: None
     course.look()
     assert _standing(course) == (2.0, _SECOND, False, [])
+
+
+def _say(course: Course, name: str, text: str, points: float) -> None:
+    """As a desk that a look keeps from writing the files."""
+    with closing(ClassDatabase(course.out)) as database:
+        Scribe(database, name).write(Said("points", "Ada", text=text, step="01-camera-rays", points=points))
+
+
+def test_a_look_writes_what_was_said_at_the_desk(course: Course) -> None:
+    course.hand_in("ann", "// points 1\n")
+    course.hand_in("bob", "// points 2\n")
+    course.look()
+    _say(course, "ann", "a good idea", 6.5)
+    with pytest.raises(UsageError, match="changed after its files were made"):
+        refuse_unwritten(course.out)
+    assert course.look() == 0
+    refuse_unwritten(course.out)
+    assert course.points("ann") == 6.5
+    assert "a good idea" in (course.out / "submissions" / "ann" / "report.html").read_text("utf-8")
+    assert course.runs() == 1
 
 
 def test_grade_class_grades_what_waits(course: Course) -> None:

@@ -215,6 +215,11 @@ def written_serial(connection: sqlite3.Connection) -> int:
     return int(connection.execute("SELECT coalesce(max(serial), 0) FROM written").fetchone()[0])
 
 
+def is_unwritten(connection: sqlite3.Connection) -> bool:
+    """Whether anything was said since results.csv and the rest were made."""
+    return written_serial(connection) < latest_serial(connection)
+
+
 def note_written(database: ClassDatabase, serial: int) -> None:
     """Says that results.csv and the rest hold everything up to this one."""
     with transaction(database.connection):

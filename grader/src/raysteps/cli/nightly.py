@@ -12,6 +12,7 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from rich.console import Console
 
+from raysteps.classroom.annotations import is_unwritten
 from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.entries import NoSubmission
@@ -168,13 +169,20 @@ class _Night:
             skipped = {one.name for one in due} - session.recorded - set(session.reused)
             database.leave_out(look.left_out | skipped, skipped)
             failed = write_class(database, self.options.out, session.recorded).faults
-        elif look.left_out != database.left_out():
-            withdraw_tables(self.options.out)  # whoever is killed in between writes them anew
-            database.leave_out(look.left_out)
-            write_class(database, self.options.out, names.values())
+        else:
+            self._write_what_changed(look, database)
         look.write_statuses()
         self._tell(look, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0
+
+    def _write_what_changed(self, look: Round, database: ClassDatabase) -> None:
+        """After a look that graded nothing: who waits now, and what was said at a desk that could not write it."""
+        is_new = look.left_out != database.left_out()
+        if is_new:
+            withdraw_tables(self.options.out)  # whoever is killed in between writes them anew
+            database.leave_out(look.left_out)
+        if is_new or is_unwritten(database.connection):
+            write_class(database, self.options.out, database.names().values())
 
     def _tell(self, look: Round, allowance: Allowance, failed: list[str]) -> None:
         """One line for each look that found something else than the one before."""
