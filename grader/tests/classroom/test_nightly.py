@@ -471,6 +471,45 @@ def test_a_look_writes_what_was_said_at_the_desk(course: Course) -> None:
     assert course.runs() == 1
 
 
+def test_what_was_said_at_the_desk_reaches_the_student_and_takes_nothing(course: Course) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    for name in ("ann", "bob"):
+        course.hand_in(name, "// points 1\n")
+    course.look()
+    others = course.report("bob")
+    course.hand_in("ann", "// points 2\n")  # waits: the page is of the result that stands
+    _say(course, "ann", "a good idea", 6.5)
+    assert course.look() == 0
+    assert "a good idea" in course.report("ann")
+    assert "0 feedbacks given" in course.said
+    assert "with new comments or points: ann" in course.said
+    assert "Feedback today: 1 of 1." in course.status("ann")
+    assert course.report("bob") == others
+    course.look()
+    assert "with new comments" not in course.said
+    _say(course, "bob", "so is this", 7)
+    course.look()
+    assert "so is this" in course.report("bob")
+    assert course.runs() == 1
+
+
+def test_what_is_said_of_a_result_that_is_not_given_waits_with_it(course: Course) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    course.hand_in("ann", "// points 2\n")
+    assert grade_class(course.inbox, "--out", course.out, "--resume") == 0
+    page = course.report("ann")
+    _say(course, "ann", "a good idea", 6.5)
+    course.look()
+    assert course.report("ann") == page
+    course.now += timedelta(days=1)
+    course.look()
+    assert "a good idea" in course.report("ann")
+    course.look()
+    assert "with new comments" not in course.said, "the page was given with it"
+
+
 def test_grade_class_grades_what_waits(course: Course) -> None:
     course.words = [course.inbox, "--per-day", "1"]
     course.hand_in("ann", "// points 1\n")
@@ -564,3 +603,13 @@ def test_the_account_is_kept_for_each_student(tmp_path: Path) -> None:
         log = FeedbackLog(database)
         assert log.last("ann") is None
         assert log.used(["ann"], _MORNING) == {}
+
+
+def test_an_account_of_before_pages_told_what_people_say(course: Course) -> None:
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    with closing(sqlite3.connect(course.out / "class.sqlite")) as connection:
+        connection.execute("ALTER TABLE feedback_given DROP COLUMN said")
+    _say(course, "ann", "a good idea", 6.5)
+    course.look()
+    assert "a good idea" in course.report("ann")

@@ -151,6 +151,16 @@ def annotated(database: ClassDatabase, since: int = 0) -> set[str]:
     return {row["name"] for row in rows}
 
 
+def last_said(database: ClassDatabase, name: str) -> str:
+    """Which was the last one that a student is told; empty where nothing was said of a submission."""
+    row = database.connection.execute(
+        "SELECT uid FROM annotations JOIN submissions ON submissions.id = annotations.submission "
+        "WHERE name = ? AND kind <> 'read' ORDER BY serial DESC LIMIT 1",
+        (name,),
+    ).fetchone()
+    return str(row["uid"]) if row is not None else ""
+
+
 def code_mark(sources: Mapping[str, Source], run: int | None) -> str:
     """Tells one state of a submission's code from another; where no code is kept, one result from another."""
     if not sources:

@@ -152,6 +152,7 @@ CREATE TABLE IF NOT EXISTS feedback_given ( -- what `nightly` gave to whom
     work TEXT NOT NULL,                   -- digest of what was handed in
     counts INTEGER NOT NULL,              -- whether it took one of the day's
     given_at TEXT NOT NULL,               -- in UTC
+    said TEXT NOT NULL DEFAULT '',        -- uid of the last annotation that its page tells of
     PRIMARY KEY (submission, run, student)
 )
 """
@@ -162,7 +163,7 @@ CREATE TABLE IF NOT EXISTS left_out (     -- what `nightly` found changed, but d
 """
 # An earlier kit did not have them.
 _LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN, _ARRIVALS, _FEEDBACK_GIVEN, _LEFT_OUT)
-_COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
+_LATER_COLUMNS = (("runs", "course"), ("feedback_given", "said"))
 
 
 @contextmanager
@@ -252,8 +253,9 @@ def open_database(path: Path) -> sqlite3.Connection:
                     connection.execute(f"PRAGMA user_version = {VERSION}")
                 for statement in _LATER_TABLES:
                     connection.execute(statement)
-                if all(column["name"] != "course" for column in connection.execute("PRAGMA table_info(runs)")):
-                    connection.execute(_COURSE)
+                for table, column in _LATER_COLUMNS:
+                    if all(known["name"] != column for known in connection.execute(f"PRAGMA table_info({table})")):
+                        connection.execute(f"ALTER TABLE {table} ADD COLUMN {column} TEXT NOT NULL DEFAULT ''")
             if was_there:
                 _refuse_emptied(connection, path)
         except BaseException:

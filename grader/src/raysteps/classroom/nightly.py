@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
+from raysteps.classroom.annotations import annotated, last_said
 from raysteps.classroom.class_document import Standings, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS, write_submission
 from raysteps.classroom.database import ClassDatabase, insert, transaction
@@ -64,6 +65,7 @@ class Given:
     run: int
     work: str
     at: datetime
+    said: str
 
 
 class FeedbackLog:
@@ -74,11 +76,13 @@ class FeedbackLog:
 
     def last(self, name: str) -> Given | None:
         row = self._connection.execute(
-            "SELECT run, work, given_at FROM feedback_given JOIN submissions ON submissions.id = submission "
+            "SELECT run, work, given_at, said FROM feedback_given JOIN submissions ON submissions.id = submission "
             "WHERE name = ? ORDER BY run DESC LIMIT 1",
             (name,),
         ).fetchone()
-        return Given(row["run"], row["work"], datetime.fromisoformat(row["given_at"])) if row is not None else None
+        if row is None:
+            return None
+        return Given(row["run"], row["work"], datetime.fromisoformat(row["given_at"]), row["said"])
 
     def used(self, students: Collection[str], since: datetime) -> Counter[str]:
         """How many each has had. What a clock that was set back since has dated later counts as well."""
@@ -88,12 +92,22 @@ class FeedbackLog:
         )
         return Counter({row["student"]: row["amount"] for row in rows if row["student"] in students})
 
-    def add(self, name: str, run: int, students: Collection[str], work: str, now: datetime, *, counts: bool) -> None:
+    def add(self, look: "Look", run: int, said: str, now: datetime) -> None:
         with transaction(self._connection):
-            (submission,) = self._connection.execute("SELECT id FROM submissions WHERE name = ?", (name,)).fetchone()
-            row = {"submission": submission, "run": run, "work": work, "counts": counts, "given_at": _stamp(now)}
-            for student in students:
-                insert(self._connection, "feedback_given", {**row, "student": student}, "ON CONFLICT DO NOTHING")
+            query = "SELECT id FROM submissions WHERE name = ?"
+            (submission,) = self._connection.execute(query, (look.name,)).fetchone()
+            row = {"submission": submission, "run": run, "work": look.work, "counts": look.counts, "said": said}
+            for student in look.students:
+                mine = {**row, "student": student, "given_at": _stamp(now)}
+                insert(self._connection, "feedback_given", mine, "ON CONFLICT DO NOTHING")
+
+    def tells_now(self, name: str, run: int, said: str) -> None:
+        """The page of that feedback was written again: it stays one feedback."""
+        self._connection.execute(
+            "UPDATE feedback_given SET said = ? WHERE run = ? AND submission = "
+            "(SELECT id FROM submissions WHERE name = ?)",
+            (said, run, name),
+        )
 
     def mend_clock(self, now: datetime) -> None:
         """What is dated more than a day ahead, by a clock that was wrong, counts from now: else it would count for as
@@ -169,6 +183,7 @@ class Round:
     feedback: Feedback
     say: Callable[[str], None]
     given: list[str] = field(default_factory=list)
+    told_again: list[str] = field(default_factory=list)
     _reserved: Counter[str] = field(default_factory=Counter)
 
     def __post_init__(self) -> None:
@@ -263,18 +278,37 @@ class Round:
 
     def give(self, look: Look) -> None:
         """The page is there before it counts: whoever is killed in between gives it again."""
+        said = last_said(self.database, look.name)
+        run = self._write_page(look.name)
+        if run is None:
+            self.say(f"{look.name}: there is no page to give")
+            return
+        self.log.add(look, run, said, self.now)
+        self.given.append(look.name)
+
+    def tell_again(self) -> None:
+        """What people said of a result since its page was given takes no feedback. A result that is not given yet
+        stays untold."""
+        for name in sorted(annotated(self.database) & {look.name for look in self.looks if look.students}):
+            current, last, said = self.database.current(name), self.log.last(name), last_said(self.database, name)
+            if current is None or last is None or last.run != current["run"] or last.said == said:
+                continue
+            if self._write_page(name) is not None:
+                self.log.tells_now(name, last.run, said)
+                self.told_again.append(name)
+
+    def _write_page(self, name: str) -> int | None:
+        """As the result that counts is now, with all that people said of it. Gives its run."""
         standings = Standings(self.database)
-        one = standings.named(look.name)
+        one = standings.named(name)
         with tempfile.TemporaryDirectory(prefix="raysteps-class-") as place:
             steps = steps_of(standings.steps)
             write_submission(self.database, Path(place), one, standings.course, steps, self.feedback)
-            page = Path(place) / SUBMISSIONS / look.name / REPORT
-            if not page.is_file() or one.run is None:
-                self.say(f"{look.name}: there is no page to give")
-                return
-            write_if_changed(self.folder / look.name / REPORT, page.read_bytes())
-        self.log.add(look.name, one.run, look.students, look.work, self.now, counts=look.counts)
-        self.given.append(look.name)
+            page = Path(place) / SUBMISSIONS / name / REPORT
+            if not page.is_file():
+                return None
+            write_if_changed(self.folder / name / REPORT, page.read_bytes())
+        return one.run
 
     def write_statuses(self) -> None:
         """Beside each page what may be expected next."""

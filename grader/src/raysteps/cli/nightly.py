@@ -171,6 +171,7 @@ class _Night:
             failed = write_class(database, self.options.out, session.recorded).faults
         else:
             self._write_what_changed(look, database)
+        look.tell_again()
         look.write_statuses()
         self._tell(look, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0
@@ -193,10 +194,11 @@ class _Night:
             ("still being uploaded", _named(look.looks, "changing")),
             ("of nobody on the roster", _named(look.looks, "nobody")),
             ("the grader failed", failed),
+            ("with new comments or points", sorted(look.told_again)),
         ):
             parts += [f"{what}: {', '.join(names)}"] if names else []
         line = "; ".join(parts)
-        if look.given or line != self._line:
+        if look.given or look.told_again or line != self._line:
             self._print(f"{shown(look.now.astimezone(allowance.zone))}  {line}")
         self._line = line
 
