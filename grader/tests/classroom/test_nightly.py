@@ -1,8 +1,10 @@
 """Feedback a few times a day: by a clock of the test's own, and with a grader that only reads."""
 
 import argparse
+import errno
 import io
 import json
+import os
 import sqlite3
 import sys
 from collections.abc import Callable
@@ -25,6 +27,7 @@ from raysteps.classroom.entries import load_entry
 from raysteps.classroom.nightly import STATUS, Allowance, FeedbackLog, signature
 from raysteps.cli.nightly import add_arguments, run
 from raysteps.common.errors import UsageError
+from raysteps.common.files import write_if_changed
 from raysteps.course.project import here
 from raysteps.desk.said import Said, Scribe
 
@@ -567,6 +570,40 @@ def test_goes_on_until_it_is_interrupted(course: Course) -> None:
     assert run(here(), arguments, Console(file=io.StringIO()), grader=FAKE, clock=lambda: course.now, wait=wait) == 0
     assert waited == [1.0, 90.0, 1.0, 90.0]
     assert course.report("bob")
+
+
+def test_a_look_that_finds_the_disk_full_ends_no_others(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
+    course.hand_in("ann", "// points 1\n")
+    printed = io.StringIO()
+    looks = 0
+
+    def write(path: Path, data: bytes) -> bool:
+        if looks == 1 and path.name == "report.html":
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        return write_if_changed(path, data)
+
+    def wait(seconds: float) -> None:
+        nonlocal looks
+        if seconds != 90.0:
+            return
+        looks += 1
+        if looks == 1:
+            course.hand_in("bob", "// points 1\n")
+        if looks == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("raysteps.classroom.nightly.write_if_changed", write)
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    words = [course.inbox, "--out", course.out, "--every", "90s", "--settle", "1s", "--jobs", "1"]
+    arguments = parser.parse_args([str(word) for word in words])
+    console = Console(file=printed, width=300)
+    assert run(here(), arguments, console, grader=FAKE, clock=lambda: course.now, wait=wait) == 0
+    place = course.out / "feedback" / "bob" / "report.html"
+    assert f"this look did not come to its end: {place}: " in printed.getvalue()
+    assert course.report("bob")
+    assert "Feedback today: 1 of 2." in course.status("bob")
+    assert course.document()["run"]["state"] == "complete"
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan, read_run_
 from raysteps.classroom.session import Session, terminated_as_interrupted
 from raysteps.classroom.summary import ProgressMeter
 from raysteps.cli.grade_class import add_grading_arguments, only_one, read_options
-from raysteps.common.errors import GraderFault, RaystepsError, UsageError
+from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason_and_place
 from raysteps.common.files import usable_folder
 from raysteps.common.platform import refuse_on_windows
 from raysteps.common.text import count
@@ -267,4 +267,7 @@ def run(
                 code = night.round()
             except RaystepsError as error:  # a roster that is being edited, a grade-class beside it: the next may do
                 console.print(f"raysteps: {error}", markup=False, highlight=False, soft_wrap=True)
+            except OSError as error:  # a disk that is full, a share that is away
+                told = f"raysteps: this look did not come to its end: {reason_and_place(error)}; the next one goes on"
+                console.print(told, markup=False, highlight=False, soft_wrap=True)
     return code
