@@ -218,11 +218,14 @@ def test_a_process_that_dies_stalls_nobody_else(course: Course) -> None:
 
 
 def test_who_took_long_comes_last(course: Course, tmp_path: Path) -> None:
-    course.words += ["--jobs", "1"]
-    course.hand_in("ann", "// wait 0.5\n")
+    course.hand_in("ann", "// points 1\n")
     course.hand_in("bob", "// points 1\n")
     course.look("--jobs", "1")
-    course.hand_in("ann", "// wait 0.5\n// more\n")
+    with closing(sqlite3.connect(course.out / "class.sqlite", isolation_level=None)) as connection:
+        for name, seconds in (("ann", 9.0), ("bob", 1.0)):
+            query = "UPDATE results SET seconds = ? WHERE submission = (SELECT id FROM submissions WHERE name = ?)"
+            connection.execute(query, (seconds, name))
+    course.hand_in("ann", "// points 2\n")
     course.hand_in("bob", "// points 2\n")
     course.look("--jobs", "1")
     assert _graded(tmp_path)[2:] == ["bob", "ann"]
