@@ -161,10 +161,12 @@ def last_said(database: ClassDatabase, name: str) -> str:
     return str(row["uid"]) if row is not None else ""
 
 
-def code_mark(sources: Mapping[str, Source], run: int | None) -> str:
-    """Tells one state of a submission's code from another; where no code is kept, one result from another."""
+def code_mark(database: ClassDatabase, sources: Mapping[str, Source], run: int | None) -> str:
+    """Tells one state of a submission's code from another; where no code is kept, one result from another, also after
+    a merge has given its run another number."""
     if not sources:
-        return f"run {run}"
+        row = database.connection.execute("SELECT uid FROM runs WHERE number = ?", (run,)).fetchone()
+        return f"run {row['uid'] if row is not None else None}"
     return hashlib.sha256(json.dumps({step: one.sha256 for step, one in sources.items()}).encode()).hexdigest()
 
 
