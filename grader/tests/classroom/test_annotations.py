@@ -292,6 +292,21 @@ def test_copies_that_several_people_worked_on_come_together(tmp_path: Path, hand
     refuse_unwritten(grades)
 
 
+def test_what_was_read_without_code_stays_read_in_a_merge(tmp_path: Path, handed_in: Path) -> None:
+    (handed_in / "cy").mkdir()
+    places = [tmp_path / name for name in ("first", "second")]
+    for place in places:
+        assert grade_class(handed_in, "--out", place) == 0
+    assert _class(places[1], "cy")["review"]["read"] is False
+    _say(places[1], "read", name="cy")
+    assert _class(places[1], "cy")["review"]["read"] is True
+    assert grade_class("--merge", *places, "--out", tmp_path / "all") == 0
+    assert (_class(places[1], "cy")["run"], _class(tmp_path / "all", "cy")["run"]) == (1, 2)
+    assert _class(tmp_path / "all", "cy")["review"]["read"] is True
+    assert grade_class(handed_in, "--out", tmp_path / "all") == 0
+    assert _class(tmp_path / "all", "cy")["review"]["read"] is False, "another result is not read yet"
+
+
 def test_merged_shards_keep_code_and_comments(tmp_path: Path, handed_in: Path) -> None:
     for number in range(6):
         write_entry(handed_in, f"s{number}", _CODE)

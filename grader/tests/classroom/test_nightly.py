@@ -1,14 +1,17 @@
 """Feedback a few times a day: by a clock of the test's own, and with a grader that only reads."""
 
 import argparse
+import errno
 import io
 import json
+import os
 import sqlite3
 import sys
 from collections.abc import Callable
 from contextlib import closing
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from typing import Any
 from zoneinfo import ZoneInfo
 
 import pytest
@@ -18,12 +21,15 @@ from rich.console import Console
 
 import raysteps.classroom.database
 import raysteps.classroom.nightly
-from raysteps.classroom.class_files import write_submission
+from raysteps.classroom.class_files import refuse_unwritten, write_submission
 from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.entries import load_entry
 from raysteps.classroom.nightly import STATUS, Allowance, FeedbackLog, signature
 from raysteps.cli.nightly import add_arguments, run
 from raysteps.common.errors import UsageError
+from raysteps.common.files import write_if_changed
 from raysteps.course.project import here
+from raysteps.desk.said import Said, Scribe
 
 pytestmark = [
     pytest.mark.usefixtures("fake_grader"),
@@ -75,10 +81,15 @@ class Course:
     def status(self, name: str) -> str:
         return (self.out / "feedback" / name / STATUS).read_text("utf-8")
 
+    def document(self) -> dict[str, Any]:
+        document: dict[str, Any] = json.loads((self.out / "class.json").read_text("utf-8"))
+        return document
+
+    def one(self, name: str) -> dict[str, Any]:
+        return next(one for one in self.document()["submissions"] if one["name"] == name)
+
     def points(self, name: str) -> float | None:
-        document = json.loads((self.out / "class.json").read_text("utf-8"))
-        found = next(one for one in document["submissions"] if one["name"] == name)
-        points: float | None = found["points"]
+        points: float | None = self.one(name)["points"]
         return points
 
     def runs(self) -> int:
@@ -207,11 +218,14 @@ def test_a_process_that_dies_stalls_nobody_else(course: Course) -> None:
 
 
 def test_who_took_long_comes_last(course: Course, tmp_path: Path) -> None:
-    course.words += ["--jobs", "1"]
-    course.hand_in("ann", "// wait 0.5\n")
+    course.hand_in("ann", "// points 1\n")
     course.hand_in("bob", "// points 1\n")
     course.look("--jobs", "1")
-    course.hand_in("ann", "// wait 0.5\n// more\n")
+    with closing(sqlite3.connect(course.out / "class.sqlite", isolation_level=None)) as connection:
+        for name, seconds in (("ann", 9.0), ("bob", 1.0)):
+            query = "UPDATE results SET seconds = ? WHERE submission = (SELECT id FROM submissions WHERE name = ?)"
+            connection.execute(query, (seconds, name))
+    course.hand_in("ann", "// points 2\n")
     course.hand_in("bob", "// points 2\n")
     course.look("--jobs", "1")
     assert _graded(tmp_path)[2:] == ["bob", "ann"]
@@ -369,6 +383,139 @@ def test_no_hidden_case_is_given_whatever_grade_class_was_told(course: Course, m
     assert "Feedback today: 1 of 2." in course.status("ann")
 
 
+_FIRST_TIME, _SECOND = "2026-11-03T07:00:00+00:00", "2026-11-03T09:00:00+00:00"
+
+
+def _roster(course: Course, tmp_path: Path, when: str) -> None:
+    (tmp_path / "roster.csv").write_text(f"id,submitted_at\nann,{when}\nbob,{_FIRST_TIME}\n")
+    course.words = [course.inbox, "--per-day", "1", "--roster", tmp_path / "roster.csv"]
+
+
+def _standing(course: Course) -> tuple[object, ...]:
+    one = course.one("ann")
+    return one["points"], one["submitted_at"], one["outdated"], course.document()["outdated"]
+
+
+def test_who_waits_keeps_the_time_of_the_result_that_stands(course: Course, tmp_path: Path) -> None:
+    _roster(course, tmp_path, _FIRST_TIME)
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    _roster(course, tmp_path, _SECOND)
+    course.hand_in("ann", "// points 2\n")
+    course.look()
+    assert _standing(course) == (1.0, _FIRST_TIME, True, ["ann"]), "also when nothing is graded"
+    course.hand_in("bob", "// points 3\n")
+    course.look()
+    assert course.points("bob") == 3.0
+    assert _standing(course) == (1.0, _FIRST_TIME, True, ["ann"])
+    course.now += timedelta(days=1)
+    course.look()
+    assert _standing(course) == (2.0, _SECOND, False, [])
+
+
+def test_who_takes_a_change_back_waits_for_nothing(course: Course, tmp_path: Path) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    for points, outdated in ((1, []), (2, ["ann"]), (1, [])):
+        course.hand_in("ann", f"// points {points}\n")
+        course.look()
+        assert course.document()["outdated"] == outdated
+    assert course.runs() == 1
+
+
+@pytest.mark.parametrize("when", ["before the look", "while its turn comes"])
+def test_what_is_being_uploaded_keeps_the_time_of_its_result(
+    course: Course, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, when: str
+) -> None:
+    _roster(course, tmp_path, _FIRST_TIME)
+    course.words += ["--per-day", "2"]
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    _roster(course, tmp_path, _SECOND)
+    course.words += ["--per-day", "2"]
+    course.hand_in("ann", "// points 2\n")
+    course.hand_in("bob", "// points 3\n")
+
+    def upload() -> None:
+        course.hand_in("ann", "// points 2\n// and more\n")
+
+    with monkeypatch.context() as patch:
+        if when == "before the look":
+            course.meanwhile = upload
+        else:
+
+            def load(name: str, *rest: Any) -> Any:
+                if name == "ann":
+                    upload()
+                return load_entry(name, *rest)
+
+            patch.setattr("raysteps.classroom.session.load_entry", load)
+        course.look()
+    assert course.points("bob") == 3.0
+    assert _standing(course) == (1.0, _FIRST_TIME, True, ["ann"])
+    course.meanwhile = lambda: None
+    course.look()
+    assert _standing(course) == (2.0, _SECOND, False, [])
+
+
+def _say(course: Course, name: str, text: str, points: float) -> None:
+    """As a desk that a look keeps from writing the files."""
+    with closing(ClassDatabase(course.out)) as database:
+        Scribe(database, name).write(Said("points", "Ada", text=text, step="01-camera-rays", points=points))
+
+
+def test_a_look_writes_what_was_said_at_the_desk(course: Course) -> None:
+    course.hand_in("ann", "// points 1\n")
+    course.hand_in("bob", "// points 2\n")
+    course.look()
+    _say(course, "ann", "a good idea", 6.5)
+    with pytest.raises(UsageError, match="changed after its files were made"):
+        refuse_unwritten(course.out)
+    assert course.look() == 0
+    refuse_unwritten(course.out)
+    assert course.points("ann") == 6.5
+    assert "a good idea" in (course.out / "submissions" / "ann" / "report.html").read_text("utf-8")
+    assert course.runs() == 1
+
+
+def test_what_was_said_at_the_desk_reaches_the_student_and_takes_nothing(course: Course) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    for name in ("ann", "bob"):
+        course.hand_in(name, "// points 1\n")
+    course.look()
+    others = course.report("bob")
+    course.hand_in("ann", "// points 2\n")  # waits: the page is of the result that stands
+    _say(course, "ann", "a good idea", 6.5)
+    assert course.look() == 0
+    assert "a good idea" in course.report("ann")
+    assert "0 feedbacks given" in course.said
+    assert "with new comments or points: ann" in course.said
+    assert "Feedback today: 1 of 1." in course.status("ann")
+    assert course.report("bob") == others
+    course.look()
+    assert "with new comments" not in course.said
+    _say(course, "bob", "so is this", 7)
+    course.look()
+    assert "so is this" in course.report("bob")
+    assert course.runs() == 1
+
+
+def test_what_is_said_of_a_result_that_is_not_given_waits_with_it(course: Course) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    course.hand_in("ann", "// points 2\n")
+    assert grade_class(course.inbox, "--out", course.out, "--resume") == 0
+    page = course.report("ann")
+    _say(course, "ann", "a good idea", 6.5)
+    course.look()
+    assert course.report("ann") == page
+    course.now += timedelta(days=1)
+    course.look()
+    assert "a good idea" in course.report("ann")
+    course.look()
+    assert "with new comments" not in course.said, "the page was given with it"
+
+
 def test_grade_class_grades_what_waits(course: Course) -> None:
     course.words = [course.inbox, "--per-day", "1"]
     course.hand_in("ann", "// points 1\n")
@@ -377,12 +524,30 @@ def test_grade_class_grades_what_waits(course: Course) -> None:
     course.look()
     assert grade_class(course.inbox, "--out", course.out, "--resume") == 0
     assert course.points("ann") == 2.0
+    assert course.document()["outdated"] == []
     page = course.report("ann")
     course.look()
     assert course.report("ann") == page, "it is graded, but not given before tomorrow"
+    assert course.document()["outdated"] == []
     course.now += timedelta(days=1)
     course.look()
     assert course.report("ann") != page
+
+
+def test_a_merge_keeps_the_account(course: Course, tmp_path: Path) -> None:
+    course.words = [course.inbox, "--per-day", "1"]
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    course.hand_in("ann", "// points 2\n")
+    course.look()
+    first, course.out = course.out, tmp_path / "merged"
+    for _ in range(2):  # again is harmless
+        assert grade_class("--merge", first, "--out", course.out) == 0
+        assert course.document()["outdated"] == ["ann"]
+    course.look()
+    assert "waiting until" in course.said
+    assert course.points("ann") == 1.0
+    assert "Feedback today: 1 of 1." in course.status("ann")
 
 
 def test_an_empty_inbox_is_no_mistake(course: Course) -> None:
@@ -408,6 +573,40 @@ def test_goes_on_until_it_is_interrupted(course: Course) -> None:
     assert run(here(), arguments, Console(file=io.StringIO()), grader=FAKE, clock=lambda: course.now, wait=wait) == 0
     assert waited == [1.0, 90.0, 1.0, 90.0]
     assert course.report("bob")
+
+
+def test_a_look_that_finds_the_disk_full_ends_no_others(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
+    course.hand_in("ann", "// points 1\n")
+    printed = io.StringIO()
+    looks = 0
+
+    def write(path: Path, data: bytes) -> bool:
+        if looks == 1 and path.name == "report.html":
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        return write_if_changed(path, data)
+
+    def wait(seconds: float) -> None:
+        nonlocal looks
+        if seconds != 90.0:
+            return
+        looks += 1
+        if looks == 1:
+            course.hand_in("bob", "// points 1\n")
+        if looks == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("raysteps.classroom.nightly.write_if_changed", write)
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    words = [course.inbox, "--out", course.out, "--every", "90s", "--settle", "1s", "--jobs", "1"]
+    arguments = parser.parse_args([str(word) for word in words])
+    console = Console(file=printed, width=300)
+    assert run(here(), arguments, console, grader=FAKE, clock=lambda: course.now, wait=wait) == 0
+    place = course.out / "feedback" / "bob" / "report.html"
+    assert f"this look did not come to its end: {place}: " in printed.getvalue()
+    assert course.report("bob")
+    assert "Feedback today: 1 of 2." in course.status("bob")
+    assert course.document()["run"]["state"] == "complete"
 
 
 @pytest.mark.parametrize(
@@ -444,3 +643,13 @@ def test_the_account_is_kept_for_each_student(tmp_path: Path) -> None:
         log = FeedbackLog(database)
         assert log.last("ann") is None
         assert log.used(["ann"], _MORNING) == {}
+
+
+def test_an_account_of_before_pages_told_what_people_say(course: Course) -> None:
+    course.hand_in("ann", "// points 1\n")
+    course.look()
+    with closing(sqlite3.connect(course.out / "class.sqlite")) as connection:
+        connection.execute("ALTER TABLE feedback_given DROP COLUMN said")
+    _say(course, "ann", "a good idea", 6.5)
+    course.look()
+    assert "a good idea" in course.report("ann")

@@ -212,6 +212,21 @@ def test_a_result_that_still_holds_is_known_from_then_on(tmp_path: Path) -> None
     assert _times(out, "ann") == [(_SECOND, 4)]
 
 
+def test_what_a_merge_did_not_know_yet_comes_with_the_next_one(tmp_path: Path) -> None:
+    out, merged = tmp_path / "out", tmp_path / "merged"
+    _hand_in(tmp_path, "ann", 4, _FIRST_TIME)
+    _grade(tmp_path)
+    with closing(sqlite3.connect(out / "class.sqlite")) as database:
+        database.execute("DROP TABLE arrivals")
+    grade_class("--merge", out, "--out", merged)
+    for points, when in ((4, _FIRST_TIME), (7, _SECOND)):
+        _hand_in(tmp_path, "ann", points, when)
+        _grade(tmp_path, "--resume")
+    for _ in range(2):
+        assert grade_class("--merge", out, "--out", merged) == 0
+        assert _times(merged, "ann") == [(_FIRST_TIME, 4)]
+
+
 def _document(earlier: list[EarlierSubmission]) -> Results:
     steps = [StepResult(f"0{at}-x", "partial", points, 10, False) for at, points in ((1, 8), (2, 5), (3, 5))]
     results = Results.of("ann", steps)

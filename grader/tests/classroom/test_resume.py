@@ -66,7 +66,7 @@ def test_results_of_before_an_interruption_are_listed(
     document = _document(out)
     assert document["run"]["reused"] == 1
     assert document["outdated"] == ["s3", "s4"]  # s1 was found to hold, and s2 is graded
-    assert "With an earlier result, because the last run was interrupted\n  s3\n  s4" in capsys.readouterr().out
+    assert "With an earlier result, because what is there now is not graded yet\n  s3\n  s4" in capsys.readouterr().out
     assert grade_class(handed_in, "--out", out, "--resume") == 0
     assert _document(out)["outdated"] == []
 

@@ -172,7 +172,10 @@ def test_a_second_sending_at_the_same_time_is_refused(graded: Path) -> None:
 
         server.on_taken = again
         assert _send(graded, server)[0] == 0
-        assert told == [f"{graded}: this class is being graded or sent right now; wait for the end of that"]
+        assert told == [
+            f"{graded}: this class is in use right now: grade-class or `nightly` grades it, another `export mail` "
+            "sends it, or a desk writes its files; wait for the end of that"
+        ]
         assert _to(server) == _ALL
 
 
@@ -219,10 +222,11 @@ def test_lines_that_are_a_dot_and_large_reports_arrive_whole(graded: Path, tmp_p
     assert part.get_payload(decode=True) == page.read_bytes()
 
 
-def test_a_class_that_is_being_graded_is_not_sent(graded: Path) -> None:
+@pytest.mark.parametrize("by_desk", [False, True])
+def test_a_class_that_is_being_graded_or_written_is_not_sent(graded: Path, by_desk: bool) -> None:
     with FakeSmtp() as server, (graded / LOCK).open("a") as file:
-        assert try_lock(file.fileno())
-        with pytest.raises(UsageError, match="this class is being graded or sent right now"):
+        assert try_lock(file.fileno(), shared=by_desk)
+        with pytest.raises(UsageError, match=r"this class is in use right now: .*`nightly` .* desk writes its files"):
             _send(graded, server)
         assert server.connections == 0
 

@@ -154,10 +154,22 @@ def annotated(database: ClassDatabase, since: int = 0) -> set[str]:
     return {row["name"] for row in rows}
 
 
-def code_mark(sources: Mapping[str, Source], run: int | None) -> str:
-    """Tells one state of a submission's code from another; where no code is kept, one result from another."""
+def last_said(database: ClassDatabase, name: str) -> str:
+    """Which was the last one that a student is told; empty where nothing was said of a submission."""
+    row = database.connection.execute(
+        "SELECT uid FROM annotations JOIN submissions ON submissions.id = annotations.submission "
+        "WHERE name = ? AND kind <> 'read' ORDER BY serial DESC LIMIT 1",
+        (name,),
+    ).fetchone()
+    return str(row["uid"]) if row is not None else ""
+
+
+def code_mark(database: ClassDatabase, sources: Mapping[str, Source], run: int | None) -> str:
+    """Tells one state of a submission's code from another; where no code is kept, one result from another, also after
+    a merge has given its run another number."""
     if not sources:
-        return f"run {run}"
+        row = database.connection.execute("SELECT uid FROM runs WHERE number = ?", (run,)).fetchone()
+        return f"run {row['uid'] if row is not None else None}"
     return hashlib.sha256(json.dumps({step: one.sha256 for step, one in sources.items()}).encode()).hexdigest()
 
 
@@ -216,6 +228,11 @@ def written_serial(connection: sqlite3.Connection) -> int:
     if not has_table(connection, "written"):
         return 0
     return int(connection.execute("SELECT coalesce(max(serial), 0) FROM written").fetchone()[0])
+
+
+def is_unwritten(connection: sqlite3.Connection) -> bool:
+    """Whether anything was said since results.csv and the rest were made."""
+    return written_serial(connection) < latest_serial(connection)
 
 
 def note_written(database: ClassDatabase, serial: int) -> None:

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
-from raysteps.classroom.database import ClassDatabase
+from raysteps.classroom.database import ClassDatabase, has_table
 from raysteps.classroom.entries import read_shard
 from raysteps.classroom.entry_names import folded, stem
 from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
@@ -74,6 +74,7 @@ class Standings:
         self._runs = {row["number"]: row for row in _last_runs(self.all_runs)}
         people = self._query("SELECT id, email FROM students").fetchall()
         self._resubmissions = Resubmissions(database.connection)
+        self._left_out = database.left_out() if has_table(database.connection, "left_out") else set()
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
         self._students: dict[int, list[Student]] = defaultdict(list)  # by submission
         for row in self._query(
@@ -102,7 +103,10 @@ class Standings:
         return words + [name for name in names if folded(name) not in self._people]
 
     def _is_outdated(self, row: sqlite3.Row, run: int | None) -> bool:
-        """Whether the last run was broken off before it came to this submission, so that an earlier result stands."""
+        """Whether the last run was broken off before it came to this submission, or `nightly` saw that it has changed
+        and waits, so that an earlier result stands."""
+        if row["name"] in self._left_out:
+            return run is not None
         mine = [number for number, last in self._runs.items() if read_shard(last["shard"]).holds(row["entry"])]
         if run is None or run in mine or (mine and self._runs[mine[-1]]["state"] == "complete"):
             return False

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.classroom.annotations import annotated, latest_serial, note_written, written_serial
+from raysteps.classroom.annotations import annotated, is_unwritten, latest_serial, note_written
 from raysteps.classroom.class_document import class_document, hand_in, read_class_document, steps_of
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
@@ -201,7 +201,7 @@ def refuse_unwritten(out: Path) -> None:
     if not path.is_file():
         return
     with open_readonly(path) as connection:
-        if written_serial(connection) < latest_serial(connection):
+        if is_unwritten(connection):
             raise UsageError(
                 f"{out}: comments or points were changed after its files were made; "
                 f"`./raysteps desk {out} --write` makes them anew"

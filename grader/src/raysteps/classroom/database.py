@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
@@ -144,8 +144,26 @@ CREATE TABLE IF NOT EXISTS arrivals (     -- of what was handed in when a result
     FOREIGN KEY (submission, run) REFERENCES results (submission, run)
 )
 """
-_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN, _ARRIVALS)  # an earlier kit did not have them
-_COURSE = "ALTER TABLE runs ADD COLUMN course TEXT NOT NULL DEFAULT ''"  # an earlier kit did not keep it
+_FEEDBACK_GIVEN = """
+CREATE TABLE IF NOT EXISTS feedback_given ( -- what `nightly` gave to whom
+    submission INTEGER NOT NULL REFERENCES submissions (id),
+    run INTEGER NOT NULL REFERENCES runs (number),
+    student TEXT NOT NULL,                -- the id, else the email address, else the name; without a roster the entry's
+    work TEXT NOT NULL,                   -- digest of what was handed in
+    counts INTEGER NOT NULL,              -- whether it took one of the day's
+    given_at TEXT NOT NULL,               -- in UTC
+    said TEXT NOT NULL DEFAULT '',        -- uid of the last annotation that its page tells of
+    PRIMARY KEY (submission, run, student)
+)
+"""
+_LEFT_OUT = """
+CREATE TABLE IF NOT EXISTS left_out (     -- what `nightly` found changed, but does not grade yet
+    submission INTEGER PRIMARY KEY REFERENCES submissions (id)
+)
+"""
+# An earlier kit did not have them.
+_LATER_TABLES = (_REUSED, _GIVEN, _ANNOTATIONS, _SOURCES, _WRITTEN, _ARRIVALS, _FEEDBACK_GIVEN, _LEFT_OUT)
+_LATER_COLUMNS = (("runs", "course"), ("feedback_given", "said"))
 
 
 @contextmanager
@@ -236,8 +254,9 @@ def open_database(path: Path, *, check: bool = True) -> sqlite3.Connection:
                     connection.execute(f"PRAGMA user_version = {VERSION}")
                 for statement in _LATER_TABLES:
                     connection.execute(statement)
-                if all(column["name"] != "course" for column in connection.execute("PRAGMA table_info(runs)")):
-                    connection.execute(_COURSE)
+                for table, column in _LATER_COLUMNS:
+                    if all(known["name"] != column for known in connection.execute(f"PRAGMA table_info({table})")):
+                        connection.execute(f"ALTER TABLE {table} ADD COLUMN {column} TEXT NOT NULL DEFAULT ''")
             if was_there:
                 _refuse_emptied(connection, path)
         except BaseException:
@@ -345,8 +364,15 @@ class ClassDatabase:
         """Entry -> name of all entries that were ever seen."""
         return {row["entry"]: row["name"] for row in self.connection.execute("SELECT entry, name FROM submissions")}
 
-    def begin_run(self, facts: RunFacts, entries: Iterable[Registered], students: Iterable[Registration]) -> int:
-        """Registers who and what is there now, and gives the number of the new run."""
+    def begin_run(
+        self,
+        facts: RunFacts,
+        entries: Iterable[Registered],
+        students: Iterable[Registration],
+        left_out: Collection[str] = (),
+    ) -> int:
+        """Registers who and what is there now, and gives the number of the new run. `left_out` are the names of those
+        that it will not grade although they may have changed: their earlier result stands, with its time."""
         with transaction(self.connection):
             self.connection.execute("UPDATE runs SET state = 'interrupted' WHERE state = 'running'")
             row = {
@@ -369,19 +395,50 @@ class ClassDatabase:
             self.connection.execute("UPDATE submissions SET scope = 'gone'")
             self.connection.execute("DELETE FROM students")
             for entry in entries:
-                self._register(entry)
+                self._register(entry, with_time=entry.name not in left_out)
             for student in students:
                 self._enrol(student)
+            self._mark_left_out(left_out)
         return int(number)
 
-    def _register(self, entry: Registered) -> None:
+    def _register(self, entry: Registered, *, with_time: bool) -> None:
         row = dict(vars(entry))
         insert(self.connection, "submissions", row, "ON CONFLICT (entry) DO NOTHING")
-        self.connection.execute(
-            "UPDATE submissions SET scope = :scope, submitted_at = :submitted_at, submitted_from = :submitted_from, "
-            "note = :note WHERE entry = :entry",
-            row,
+        self.connection.execute("UPDATE submissions SET scope = :scope, note = :note WHERE entry = :entry", row)
+        if with_time:
+            self.connection.execute(
+                "UPDATE submissions SET submitted_at = :submitted_at, submitted_from = :submitted_from "
+                "WHERE entry = :entry",
+                row,
+            )
+
+    def _mark_left_out(self, names: Iterable[str]) -> None:
+        self.connection.execute("DELETE FROM left_out")
+        self.connection.executemany(
+            "INSERT INTO left_out SELECT id FROM submissions WHERE name = ? "
+            "AND EXISTS (SELECT 1 FROM results WHERE results.submission = submissions.id)",
+            [(name,) for name in set(names)],
         )
+
+    def left_out(self) -> set[str]:
+        """Names of those whose result is of an earlier state than the one that was seen last."""
+        query = "SELECT name FROM submissions JOIN left_out ON left_out.submission = submissions.id"
+        return {row["name"] for row in self.connection.execute(query)}
+
+    def leave_out(self, names: Collection[str], skipped: Collection[str] = ()) -> None:
+        """`skipped` are those among them that the run had begun with: the time of their result is put back."""
+        with transaction(self.connection):
+            self._mark_left_out(names)
+            for current in filter(None, map(self.current, skipped)):
+                kept = self.connection.execute(
+                    "SELECT submission, submitted_at, submitted_from FROM arrivals WHERE submission = ? AND run = ?",
+                    (current["submission"], current["run"]),
+                ).fetchone()
+                if kept is not None:
+                    self.connection.execute(
+                        "UPDATE submissions SET submitted_at = ?, submitted_from = ? WHERE id = ?",
+                        (kept["submitted_at"], kept["submitted_from"], kept["submission"]),
+                    )
 
     def _enrol(self, student: Registration) -> None:
         row = {"id": student.id, "name": student.name, "email": student.email, "note": student.note}

@@ -78,26 +78,22 @@ def missing_shards(target: sqlite3.Connection) -> list[str]:
     return [f"{index}/{count}" for index in range(1, count + 1) if (index, count) not in shards]
 
 
+# What is kept of each run and submission beside the results. An earlier kit did not have all of it.
+_OF_RUNS = ("reused", "arrivals", "feedback_given")
+
+
 def put_in_order(target: sqlite3.Connection) -> None:
     """The number of a run tells when it began, also when its shard was merged later than others."""
     numbers = [row["number"] for row in target.execute("SELECT number FROM runs ORDER BY started_at, number")]
     if numbers == sorted(numbers):
         return
     target.execute("PRAGMA defer_foreign_keys = ON")
-    tables = ("results", "pictures", "reused", "sources", "arrivals", "feedback_given")
+    tables = ("results", "pictures", "sources", *_OF_RUNS)
     places = [("runs", "number"), *((table, "run") for table in tables if has_table(target, table))]
     for table, column in places:  # the names are those above
         target.execute(f"UPDATE {table} SET {column} = -{column}")  # noqa: S608
         for new, old in enumerate(numbers, start=1):
             target.execute(f"UPDATE {table} SET {column} = ? WHERE {column} = ?", (new, -old))  # noqa: S608
-
-
-def _arrivals_of(source: sqlite3.Connection, result: dict[str, Any]) -> list[dict[str, Any]]:
-    """An earlier kit kept none."""
-    if not has_table(source, "arrivals"):
-        return []
-    query = "SELECT * FROM arrivals WHERE submission = ? AND run = ?"
-    return rows_of(source, query, result["submission"], result["run"])
 
 
 class _Merge:
@@ -141,9 +137,13 @@ class _Merge:
         self._target.execute("DELETE FROM students")
         for row in part.students:
             insert(self._target, "students", row)
-        entries = {row["id"]: row["entry"] for row in part.submissions}
+        ids = {row["id"]: self._id(row["entry"]) for row in part.submissions}
         for row in part.handed_in:
-            insert(self._target, "handed_in", {**row, "submission": self._id(entries[row["submission"]])})
+            insert(self._target, "handed_in", {**row, "submission": ids[row["submission"]]})
+        self._target.execute("DELETE FROM left_out")
+        if has_table(part.connection, "left_out"):
+            for row in rows_of(part.connection, "SELECT submission FROM left_out"):
+                insert(self._target, "left_out", {"submission": ids[row["submission"]]})
 
     def _run(self, row: dict[str, Any]) -> int:
         columns = {key: value for key, value in row.items() if key != "number"}
@@ -172,13 +172,11 @@ class _Merge:
                 blob = {"sha256": picture["sha256"], "data": picture["data"]}
                 insert(self._target, "blobs", blob, "ON CONFLICT (sha256) DO NOTHING")
                 insert(self._target, "pictures", {**place, "path": picture["path"], "sha256": picture["sha256"]})
-            for kept in _arrivals_of(source, result):
-                insert(self._target, "arrivals", {**kept, **place})
         self._sources(source, row["number"], number, ids)
-        if has_table(source, "reused"):
-            for kept in rows_of(source, "SELECT submission FROM reused WHERE run = ?", row["number"]):
+        for table in filter(lambda name: has_table(source, name), _OF_RUNS):
+            for kept in rows_of(source, f"SELECT * FROM {table} WHERE run = ?", row["number"]):  # noqa: S608
                 place = {"submission": ids[kept["submission"]], "run": number}
-                insert(self._target, "reused", place, "ON CONFLICT DO NOTHING")
+                insert(self._target, table, {**kept, **place}, "ON CONFLICT DO NOTHING")
 
     def _sources(self, source: sqlite3.Connection, theirs: int, ours: int, ids: dict[int, int]) -> None:
         """The code of results, also where an earlier kit had not kept it when they were merged."""

@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
+from raysteps.classroom.annotations import annotated, last_said
 from raysteps.classroom.class_document import Standings, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS, write_submission
 from raysteps.classroom.database import ClassDatabase, insert, transaction
@@ -50,17 +51,6 @@ class Allowance:
 
 # What was given, in the database of the class.
 
-_TABLE = """
-CREATE TABLE IF NOT EXISTS feedback_given (
-    submission INTEGER NOT NULL REFERENCES submissions (id),
-    run INTEGER NOT NULL REFERENCES runs (number),
-    student TEXT NOT NULL,   -- the id, else the email address, else the name; without a roster the submission's name
-    work TEXT NOT NULL,      -- digest of what was handed in
-    counts INTEGER NOT NULL, -- whether it took one of the day's
-    given_at TEXT NOT NULL,  -- in UTC
-    PRIMARY KEY (submission, run, student)
-)
-"""
 _A_DAY = timedelta(days=1)
 
 
@@ -75,6 +65,7 @@ class Given:
     run: int
     work: str
     at: datetime
+    said: str
 
 
 class FeedbackLog:
@@ -82,15 +73,16 @@ class FeedbackLog:
 
     def __init__(self, database: ClassDatabase) -> None:
         self._connection = database.connection
-        self._connection.execute(_TABLE)
 
     def last(self, name: str) -> Given | None:
         row = self._connection.execute(
-            "SELECT run, work, given_at FROM feedback_given JOIN submissions ON submissions.id = submission "
+            "SELECT run, work, given_at, said FROM feedback_given JOIN submissions ON submissions.id = submission "
             "WHERE name = ? ORDER BY run DESC LIMIT 1",
             (name,),
         ).fetchone()
-        return Given(row["run"], row["work"], datetime.fromisoformat(row["given_at"])) if row is not None else None
+        if row is None:
+            return None
+        return Given(row["run"], row["work"], datetime.fromisoformat(row["given_at"]), row["said"])
 
     def used(self, students: Collection[str], since: datetime) -> Counter[str]:
         """How many each has had. What a clock that was set back since has dated later counts as well."""
@@ -100,12 +92,22 @@ class FeedbackLog:
         )
         return Counter({row["student"]: row["amount"] for row in rows if row["student"] in students})
 
-    def add(self, name: str, run: int, students: Collection[str], work: str, now: datetime, *, counts: bool) -> None:
+    def add(self, look: "Look", run: int, said: str, now: datetime) -> None:
         with transaction(self._connection):
-            (submission,) = self._connection.execute("SELECT id FROM submissions WHERE name = ?", (name,)).fetchone()
-            row = {"submission": submission, "run": run, "work": work, "counts": counts, "given_at": _stamp(now)}
-            for student in students:
-                insert(self._connection, "feedback_given", {**row, "student": student}, "ON CONFLICT DO NOTHING")
+            query = "SELECT id FROM submissions WHERE name = ?"
+            (submission,) = self._connection.execute(query, (look.name,)).fetchone()
+            row = {"submission": submission, "run": run, "work": look.work, "counts": look.counts, "said": said}
+            for student in look.students:
+                mine = {**row, "student": student, "given_at": _stamp(now)}
+                insert(self._connection, "feedback_given", mine, "ON CONFLICT DO NOTHING")
+
+    def tells_now(self, name: str, run: int, said: str) -> None:
+        """The page of that feedback was written again: it stays one feedback."""
+        self._connection.execute(
+            "UPDATE feedback_given SET said = ? WHERE run = ? AND submission = "
+            "(SELECT id FROM submissions WHERE name = ?)",
+            (said, run, name),
+        )
 
     def mend_clock(self, now: datetime) -> None:
         """What is dated more than a day ahead, by a clock that was wrong, counts from now: else it would count for as
@@ -162,6 +164,7 @@ class Look:
     students: tuple[str, ...] = ()
     work: str = ""
     counts: bool = False
+    is_graded: bool = False  # as it is now, although it waits
     seconds: float = 0.0  # that it took the last time
 
 
@@ -180,6 +183,7 @@ class Round:
     feedback: Feedback
     say: Callable[[str], None]
     given: list[str] = field(default_factory=list)
+    told_again: list[str] = field(default_factory=list)
     _reserved: Counter[str] = field(default_factory=Counter)
 
     def __post_init__(self) -> None:
@@ -204,6 +208,17 @@ class Round:
     def looks(self) -> list[Look]:
         """Those to be graded that took long the last time come last: nobody else waits for them."""
         return sorted(map(self._look, self.plan.mine()), key=lambda look: look.seconds)
+
+    @cached_property
+    def left_out(self) -> set[str]:
+        """Names of those that have an earlier result than what is there now."""
+        return {
+            look.name
+            for look in self.looks
+            if look.state in ("waiting", "changing")
+            and not look.is_graded
+            and self.database.current(look.name) is not None
+        }
 
     def _look(self, entry: Entry) -> Look:
         name = self.names[entry.label]
@@ -242,9 +257,9 @@ class Round:
         if counts:
             had = self.log.used(students, self.allowance.day_began(self.now)) + self._reserved
             if any(had[student] >= self.allowance.per_day for student in students):
-                return Look(entry, name, "waiting", students, work)
+                return Look(entry, name, "waiting", students, work, is_graded=done)
             self._reserved.update(students)
-        return Look(entry, name, state, students, work, counts, seconds)
+        return Look(entry, name, state, students, work, counts, seconds=seconds)
 
     def _faults(self, name: str, key: str) -> int:
         since = self.allowance.day_began(self.now).astimezone(UTC).isoformat(timespec="seconds")
@@ -263,18 +278,37 @@ class Round:
 
     def give(self, look: Look) -> None:
         """The page is there before it counts: whoever is killed in between gives it again."""
+        said = last_said(self.database, look.name)
+        run = self._write_page(look.name)
+        if run is None:
+            self.say(f"{look.name}: there is no page to give")
+            return
+        self.log.add(look, run, said, self.now)
+        self.given.append(look.name)
+
+    def tell_again(self) -> None:
+        """What people said of a result since its page was given takes no feedback. A result that is not given yet
+        stays untold."""
+        for name in sorted(annotated(self.database) & {look.name for look in self.looks if look.students}):
+            current, last, said = self.database.current(name), self.log.last(name), last_said(self.database, name)
+            if current is None or last is None or last.run != current["run"] or last.said == said:
+                continue
+            if self._write_page(name) is not None:
+                self.log.tells_now(name, last.run, said)
+                self.told_again.append(name)
+
+    def _write_page(self, name: str) -> int | None:
+        """As the result that counts is now, with all that people said of it. Gives its run."""
         standings = Standings(self.database)
-        one = standings.named(look.name)
+        one = standings.named(name)
         with tempfile.TemporaryDirectory(prefix="raysteps-class-") as place:
             steps = steps_of(standings.steps)
             write_submission(self.database, Path(place), one, standings.course, steps, self.feedback)
-            page = Path(place) / SUBMISSIONS / look.name / REPORT
-            if not page.is_file() or one.run is None:
-                self.say(f"{look.name}: there is no page to give")
-                return
-            write_if_changed(self.folder / look.name / REPORT, page.read_bytes())
-        self.log.add(look.name, one.run, look.students, look.work, self.now, counts=look.counts)
-        self.given.append(look.name)
+            page = Path(place) / SUBMISSIONS / name / REPORT
+            if not page.is_file():
+                return None
+            write_if_changed(self.folder / name / REPORT, page.read_bytes())
+        return one.run
 
     def write_statuses(self) -> None:
         """Beside each page what may be expected next."""

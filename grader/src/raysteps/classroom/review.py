@@ -228,13 +228,13 @@ def reviewed(database: ClassDatabase, submission: int, run: int, results: Result
     """The result with all that people added to it until now."""
     sources = database.sources(submission, run)
     annotations = annotations_of(database, submission)
-    return review_results(results, steps, annotations, sources, code_mark(sources, run), database)
+    return review_results(results, steps, annotations, sources, code_mark(database, sources, run), database)
 
 
 def review_of_nothing(database: ClassDatabase, submission: int, run: int | None) -> HumanReview:
     """Of a submission without results: what was said stays, and points wait until there are some."""
     found = threads(annotations_of(database, submission))
-    mark = code_mark(database.sources(submission, run) if run is not None else {}, run)
+    mark = code_mark(database, database.sources(submission, run) if run is not None else {}, run)
     waiting = [
         f"{item_words(one.step, one.part)}: was changed, but there is no result that it could count in"
         for one in _points(found)

@@ -195,7 +195,7 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     _print_list(console, "Not graded because of a fault of the grader; --resume tries again unless it gave up", faults)
     missing = ", or a shard is missing" if any(run.shard != "1/1" for run in document.runs) else ""
     _print_list(console, f"Not graded yet; --resume goes on{missing}", document.not_graded)
-    _print_list(console, "With an earlier result, because the last run was interrupted", document.outdated)
+    _print_list(console, "With an earlier result, because what is there now is not graded yet", document.outdated)
     unread = [f"{name} (results.json says why)" for name in document.unreadable]
     _print_list(console, "Nothing could be taken from these", unread)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))

@@ -164,8 +164,8 @@ def only_one(out: Path) -> Iterator[None]:
             is_ours = True  # a file system without locks
         if not is_ours:
             raise UsageError(
-                f"{out}: another grade-class is writing there, or `export mail` sends from there; wait for it, or name "
-                "another --out"
+                f"{out}: another grade-class or a look of `nightly` is writing there, or `export mail` sends from "
+                "there; wait for it, or name another --out"
             )
         yield
 

@@ -12,7 +12,8 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from rich.console import Console
 
-from raysteps.classroom.class_files import write_class
+from raysteps.classroom.annotations import is_unwritten
+from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.entries import NoSubmission
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
@@ -24,7 +25,7 @@ from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan, read_run_
 from raysteps.classroom.session import Session, terminated_as_interrupted
 from raysteps.classroom.summary import ProgressMeter
 from raysteps.cli.grade_class import add_grading_arguments, only_one, read_options
-from raysteps.common.errors import GraderFault, RaystepsError, UsageError
+from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason_and_place
 from raysteps.common.files import usable_folder
 from raysteps.common.platform import refuse_on_windows
 from raysteps.common.text import count
@@ -154,7 +155,7 @@ class _Night:
         due = [one for one in look.looks if one.state == "grade"]
         complete, failed = True, [one.name for one in look.looks if one.state == "failed"]
         if due or _is_unfinished(database, self.options.out):
-            run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
+            run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations(), look.left_out)
             meter = ProgressMeter(self.console, len(due))
             session = Session(
                 *(plan, grader.fingerprint, database, meter, run, names),
@@ -165,10 +166,24 @@ class _Night:
             )
             with meter:
                 complete = session.grade(LocalPool(self.options.jobs))
+            skipped = {one.name for one in due} - session.recorded - set(session.reused)
+            database.leave_out(look.left_out | skipped, skipped)
             failed = write_class(database, self.options.out, session.recorded).faults
+        else:
+            self._write_what_changed(look, database)
+        look.tell_again()
         look.write_statuses()
         self._tell(look, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0
+
+    def _write_what_changed(self, look: Round, database: ClassDatabase) -> None:
+        """After a look that graded nothing: who waits now, and what was said at a desk that could not write it."""
+        is_new = look.left_out != database.left_out()
+        if is_new:
+            withdraw_tables(self.options.out)  # whoever is killed in between writes them anew
+            database.leave_out(look.left_out)
+        if is_new or is_unwritten(database.connection):
+            write_class(database, self.options.out, database.names().values())
 
     def _tell(self, look: Round, allowance: Allowance, failed: list[str]) -> None:
         """One line for each look that found something else than the one before."""
@@ -179,10 +194,11 @@ class _Night:
             ("still being uploaded", _named(look.looks, "changing")),
             ("of nobody on the roster", _named(look.looks, "nobody")),
             ("the grader failed", failed),
+            ("with new comments or points", sorted(look.told_again)),
         ):
             parts += [f"{what}: {', '.join(names)}"] if names else []
         line = "; ".join(parts)
-        if look.given or line != self._line:
+        if look.given or look.told_again or line != self._line:
             self._print(f"{shown(look.now.astimezone(allowance.zone))}  {line}")
         self._line = line
 
@@ -251,4 +267,7 @@ def run(
                 code = night.round()
             except RaystepsError as error:  # a roster that is being edited, a grade-class beside it: the next may do
                 console.print(f"raysteps: {error}", markup=False, highlight=False, soft_wrap=True)
+            except OSError as error:  # a disk that is full, a share that is away
+                told = f"raysteps: this look did not come to its end: {reason_and_place(error)}; the next one goes on"
+                console.print(told, markup=False, highlight=False, soft_wrap=True)
     return code

@@ -235,7 +235,7 @@ class Desk:
             pictures = self._database.pictures(submission, run) if run is not None else {}
             annotations = annotations_of(self._database, submission)
             one = self._current().named(name)
-            mark = code_mark(sources, run)
+            mark = code_mark(self._database, sources, run)
             view: View = {
                 "row": row,
                 "late": one.late.words if one.late is not None else "",

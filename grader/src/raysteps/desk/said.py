@@ -89,7 +89,8 @@ class Scribe:
         if before is not None and said.kind in ("comment", "request"):  # it stays where it is
             more |= {key: getattr(before, key) for key in ("step", "line", "line_text", "source")}
         elif said.kind == "read":
-            more["source"] = code_mark(self._sources, self._current["run"] if self._current is not None else None)
+            run = self._current["run"] if self._current is not None else None
+            more["source"] = code_mark(self._database, self._sources, run)
         elif said.kind == "comment" and said.line:
             more |= self._line(source, said)
         elif said.kind == "comment" and source is not None:

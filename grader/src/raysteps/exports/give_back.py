@@ -92,7 +92,7 @@ def _why_not(one: GradedStudent, outdated: Collection[str], handed_in: Mapping[t
     if one.status in _WITHOUT_REPORT:
         return _WITHOUT_REPORT[one.status]
     if one.submission in outdated:
-        return "has an earlier result, because the last run was interrupted: go on with grade-class --resume"
+        return "has an earlier result, because what is there now is not graded yet: go on with grade-class --resume"
     if one.known and handed_in[_identity(one)] > 1:
         return "handed in more than once: say in the column `submission` of the roster which one counts, and --resume"
     return ""

@@ -96,7 +96,10 @@ def open_log(path: Path) -> Iterator[MailLog]:
         except OSError:
             is_ours = True  # a file system without locks
         if not is_ours:
-            raise UsageError(f"{path.parent}: this class is being graded or sent right now; wait for the end of that")
+            raise UsageError(
+                f"{path.parent}: this class is in use right now: grade-class or `nightly` grades it, another `export "
+                "mail` sends it, or a desk writes its files; wait for the end of that"
+            )
         yield read_log(path, is_ours=True)
 
 

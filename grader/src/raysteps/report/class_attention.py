@@ -117,7 +117,7 @@ def groups(document: ClassResults) -> list[Group]:
             "earlier result",
             "warn",
             "With an earlier result",
-            "The last run was interrupted before it came to these.",
+            "What is there now is not graded yet: the last run was interrupted, or nightly waits.",
             find.plain(document.outdated),
         ),
         Group(

@@ -80,7 +80,7 @@ class GradedSubmission:
     late: Lateness | None
     submitted_at: str  # with a time zone; empty when it is not known
     submitted_from: Literal["", "roster", "files"]
-    outdated: bool  # the last run was interrupted before it came to this one
+    outdated: bool  # has an earlier result: what is there now is not graded yet
     before: EarlierResult | None
     earlier: list[EarlierSubmission] = field(default_factory=list, metadata=OPTIONAL)  # the oldest first
     isolation: str  # what kept the code apart from the machine
@@ -185,7 +185,7 @@ class ClassResults:
     faults: list[str]
     unreadable: list[str]
     changed: list[PointsChange]
-    outdated: list[str]  # with an earlier result, because the last run was interrupted before it came to them
+    outdated: list[str]  # with an earlier result: what is there now is not graded yet
     mistakes: list[MistakeCount]  # the most common first
     gone: list[str]  # graded earlier, but no longer in the folder
     ignored: list[str]  # in the folder, but no submissions
