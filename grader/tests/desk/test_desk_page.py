@@ -318,6 +318,8 @@ def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     _has_focus(page, "#search")
     page.keyboard.type("ann")
     _shows(page, "Ann")
+    _press(page, "Enter", "Enter")
+    _is_open(page, "ann")
 
 
 def _with_mistakes(out: Path, titles: dict[str, str]) -> None:

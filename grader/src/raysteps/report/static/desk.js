@@ -14,7 +14,7 @@ const deskKeys = [
   ["a", "answers the next open request"],
   ["Ctrl + Enter", "saves what you type; Esc drops it"],
   ["u", "back to the table"],
-  ["/", "searches the table"],
+  ["/", "searches the table; Enter or Esc goes on to its first row"],
   ["?", "this help"],
 ];
 
@@ -327,6 +327,11 @@ class Desk {
 
   key(event) {
     const { key, target } = event;
+    if (target.id === "search" && (key === "Enter" || key === "Escape")) {
+      this.move(1);
+      event.preventDefault();
+      return;
+    }
     if (
       event.ctrlKey ||
       event.altKey ||
