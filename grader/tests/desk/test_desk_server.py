@@ -237,6 +237,7 @@ def test_many_at_once_lose_nothing(grades: Path) -> None:
 
 
 def test_while_a_class_is_graded_words_are_kept_and_files_wait(tmp_path: Path, grades: Path, desk: Desk) -> None:
+    assert desk.writer.wait() == "written"  # of what may have been said before
     with (grades / LOCK).open("a") as file:
         assert try_lock(file.fileno())  # as a grade-class has it
         desk.say("ann", _COMMENT)

@@ -18,6 +18,7 @@ from rich.console import Console
 
 import raysteps.cli.image
 import raysteps.sandbox.detect
+from raysteps.cli import release
 from raysteps.cli.grade import _room
 from raysteps.cli.image import add_arguments, run
 from raysteps.common.errors import GraderFault, UsageError
@@ -143,11 +144,10 @@ def test_an_image_that_grades_has_the_whole_kit_and_the_course(
         grader_image(project)
 
 
-@pytest.mark.xdist_group("students_kit")
-def test_students_get_nothing_of_the_solutions(project: Project, students_kit: Path, tmp_path: Path) -> None:
+def test_students_get_nothing_of_the_solutions(project: Project, tmp_path: Path) -> None:
     folder = tmp_path / "context"
     into_folder(students_image(project), folder)
-    shutil.copytree(students_kit, folder / "kit", ignore=shutil.ignore_patterns("build", ".venv", "__pycache__"))
+    assert release.write(project, [], None, folder / "kit", Console(quiet=True))
     secrets = gather(project)
     assert find_leaks(secrets, folder) == []
     source = folder / "kit" / "grader" / "src"

@@ -27,6 +27,9 @@ COMMANDS = {
     "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
         "shows a mistake that somebody made; test_divergence makes such"
     ),
+    "./raysteps grade-class --merge grades-ada grades-bob --out grades": (
+        "needs copies that two people worked on; test_annotations merges such"
+    ),
     "./raysteps desk grades": "ends when somebody ends it; test_desk_command does",
     "./raysteps image --tag raysteps-grader": _IMAGE,
     "./raysteps image --tag raysteps-students --without-solutions --steps 1-4": _IMAGE,
