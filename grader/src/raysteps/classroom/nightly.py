@@ -18,12 +18,13 @@ from raysteps.classroom.database import ClassDatabase, insert, transaction
 from raysteps.classroom.entries import Entry, load_entry
 from raysteps.classroom.entry_names import folded
 from raysteps.classroom.jobs import Answer
+from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.session import holds, submission_key
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
 from raysteps.report.student import REPORT
-from raysteps.results.settings import Feedback, Settings
+from raysteps.results.settings import Feedback
 
 # How many feedbacks a day has, and when it begins.
 
@@ -232,7 +233,7 @@ class Round:
         try:
             taken = load_entry(name, entry.path, self.plan.steps)
             key = submission_key(taken.submission, self.kit, self.plan.grading)
-            work = submission_key(taken.submission, "", Settings())
+            work = sources_digest(taken.submission)
             unreadable = taken.unreadable
         except GraderFault:
             pass  # the session meets it again, and keeps it as a fault

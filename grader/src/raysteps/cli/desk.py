@@ -3,12 +3,10 @@
 import argparse
 import getpass
 import shlex
-import signal
 import sys
 import threading
 from contextlib import ExitStack, closing, suppress
 from pathlib import Path
-from types import FrameType
 
 from rich.console import Console
 
@@ -16,7 +14,7 @@ from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.session import undisturbed
 from raysteps.cli.watch import on_a_desktop, port
 from raysteps.common.errors import UsageError
-from raysteps.common.local_server import shown_in_browser
+from raysteps.common.local_server import end_as_interrupted, shown_in_browser
 from raysteps.common.platform import refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.desk.desk import Desk, DeskServer
@@ -57,10 +55,6 @@ def _anew(out: Path) -> str:
 def _busy(out: Path) -> str:
     """A grade-class writes what was said at its end; a sending, or a nightly that only looks, does not."""
     return f"something else is at work there. When it has ended, {_anew(out)} makes the files anew."
-
-
-def _end(_number: int, _frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
 
 
 def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
@@ -116,8 +110,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             raise UsageError(f"{out}: {_busy(out).removesuffix('.')}")
         console.print(f"Written: {out}", highlight=False, markup=False, soft_wrap=True)
         return 0
-    for name in ("SIGTERM", "SIGHUP"):
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), _end)
+    end_as_interrupted()
     _serve(console, out, arguments)
     return 0

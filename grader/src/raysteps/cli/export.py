@@ -13,7 +13,7 @@ from rich.markup import escape
 
 from raysteps.classroom.class_files import SUBMISSIONS, refuse_unwritten
 from raysteps.cli.give_back import SYSTEMS as WAYS_BACK
-from raysteps.cli.give_back import add_give_back_arguments, give_back, renamed_column
+from raysteps.cli.give_back import add_give_back_arguments, add_renamed_columns, give_back
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
@@ -33,7 +33,7 @@ from raysteps.exports.autolab import as_lines, to_autolab
 from raysteps.exports.class_results import GradedStudent, moodle_cell, read_class, results_of
 from raysteps.exports.formats import validate, write
 from raysteps.exports.github import release_assets
-from raysteps.exports.gradebook import MOODLE_COLUMNS, canvas, fill, moodle, read_sheet
+from raysteps.exports.gradebook import canvas, fill, moodle, read_sheet
 from raysteps.exports.gradescope import VISIBILITIES, submitters, to_gradescope
 from raysteps.exports.hosted import Options, by_id
 from raysteps.exports.prairielearn import SECONDS, to_prairielearn
@@ -58,14 +58,7 @@ def add_gradebook_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
         if system == "canvas":
             add.add_argument("--assignment", metavar="NAME", help="its name or number, when there are several")
         else:
-            add.add_argument(
-                "--column",
-                type=renamed_column,
-                action="append",
-                default=[],
-                metavar="KIND=HEADING",
-                help=f"a heading in another language; KIND is one of {', '.join(MOODLE_COLUMNS)}",
-            )
+            add_renamed_columns(add)
 
 
 def _is_same_file(one: Path, other: Path) -> bool:

@@ -46,7 +46,7 @@ _CHECKS_FAILED = 1
 # The words after `export`.
 
 
-def renamed_column(text: str) -> tuple[str, str]:
+def _renamed_column(text: str) -> tuple[str, str]:
     """A heading of a worksheet in another language."""
     kind, _, name = text.partition("=")
     if kind not in MOODLE_COLUMNS or not name.strip():
@@ -54,6 +54,18 @@ def renamed_column(text: str) -> tuple[str, str]:
             f"'{text}': expected KIND=HEADING with KIND one of {', '.join(MOODLE_COLUMNS)}"
         )
     return kind, name.strip()
+
+
+def add_renamed_columns(parser: argparse.ArgumentParser) -> None:
+    """Of a worksheet in another language."""
+    parser.add_argument(
+        "--column",
+        type=_renamed_column,
+        action="append",
+        default=[],
+        metavar="KIND=HEADING",
+        help=f"a heading in another language; KIND is one of {', '.join(MOODLE_COLUMNS)}",
+    )
 
 
 def _megabytes(text: str) -> int:
@@ -114,14 +126,7 @@ def add_give_back_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
     _add_class(add)
     add.add_argument("--out", type=Path, required=True, metavar="FILE", help="the zip")
     add.add_argument("--template", type=Path, metavar="FILE", help="the grading worksheet, for the participant numbers")
-    add.add_argument(
-        "--column",
-        type=renamed_column,
-        action="append",
-        default=[],
-        metavar="KIND=HEADING",
-        help="a heading of the worksheet in another language, as for `export moodle`",
-    )
+    add_renamed_columns(add)
     add = systems.add_parser("canvas-feedback", help="the reports as a zip that Canvas takes as comments")
     _add_class(add)
     add.add_argument("--out", type=Path, required=True, metavar="FILE", help="the zip")

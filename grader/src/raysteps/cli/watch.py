@@ -3,16 +3,14 @@
 import argparse
 import os
 import queue
-import signal
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
-from types import FrameType
 
 from rich.console import Console
 
 from raysteps.cli.steps import STEP_NAMES
-from raysteps.common.local_server import shown_in_browser
+from raysteps.common.local_server import end_as_interrupted, shown_in_browser
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.progress.standing import chosen_or_next
@@ -50,10 +48,6 @@ def on_a_desktop(environment: Mapping[str, str] = os.environ, platform: str = sy
     if "SSH_CONNECTION" in environment or "CI" in environment:
         return False
     return platform in ("darwin", "win32") or any(environment.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
-
-
-def _end(_number: int, _frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
 
 
 def _watch(
@@ -97,9 +91,7 @@ def run(
     if step is None:
         showing.line("All steps are done. Name the one that you want to watch, such as: ./raysteps watch 03")
         return 0
-    for name in ("SIGTERM", "SIGHUP"):
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), _end)
+    end_as_interrupted()
     try:
         _watch(project, step, arguments, showing, worker, program)
     except KeyboardInterrupt:

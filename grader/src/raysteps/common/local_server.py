@@ -2,6 +2,7 @@
 
 import html
 import secrets
+import signal
 import socket
 import sys
 import tempfile
@@ -11,6 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from types import FrameType
 from urllib.parse import unquote, urlsplit
 
 from raysteps.common.errors import UsageError, reason
@@ -67,6 +69,17 @@ class LocalServer(ThreadingHTTPServer):
             self.socket.shutdown(socket.SHUT_RDWR)
         self.server_close()
         self._thread.join(2)
+
+
+def end_as_interrupted() -> None:
+    """From here on, whoever ends this process, or closes its terminal, ends it as Ctrl-C does."""
+
+    def end(_number: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), end)
 
 
 @contextmanager
