@@ -213,17 +213,22 @@ def test_strangers_words_are_only_words(pages: Watched, server: DeskServer, grad
     assert report.locator(".by-hand img").count() == 0
 
 
-def test_who_was_slower_sees_what_was_written_and_may_replace_it(
-    pages: Watched, server: DeskServer, grades: Path
-) -> None:
-    pages.expected = "409"
-    page = _open(pages, server, "ann")
+def _say_after_bob(page: "Page", server: DeskServer) -> None:
+    """Ada saves 8 points; while she was typing, Bob gave 5."""
     _press(page, "p")
     server.desk.say("ann", {"kind": "points", "author": "Bob", "step": _STEP, "points": 5, "text": "from bob"})
     page.keyboard.type("8")
     _press(page, "Tab")
     page.keyboard.type("from ada")
     _press(page, "Control+Enter")
+
+
+def test_who_was_slower_sees_what_was_written_and_may_replace_it(
+    pages: Watched, server: DeskServer, grades: Path
+) -> None:
+    pages.expected = "409"
+    page = _open(pages, server, "ann")
+    _say_after_bob(page, server)
     trouble = page.locator("form [role=alert]", has_text="Bob has changed this meanwhile")
     trouble.wait_for()
     assert "5 from bob" in trouble.inner_text()
@@ -238,12 +243,7 @@ def test_a_change_by_somebody_else_stops_no_later_one(pages: Watched, server: De
     pages.expected = "409"
     server.desk.say("ann", {"kind": "comment", "author": "Ada", "step": _STEP, "text": "first"})
     page = _open(pages, server, "ann")
-    _press(page, "p")
-    server.desk.say("ann", {"kind": "points", "author": "Bob", "step": _STEP, "points": 5, "text": "from bob"})
-    page.keyboard.type("8")
-    _press(page, "Tab")
-    page.keyboard.type("from ada")
-    _press(page, "Control+Enter")
+    _say_after_bob(page, server)
     page.locator("form [role=alert]", has_text="Bob has changed this meanwhile").wait_for()
     _press(page, "Escape")
     page.locator(".desk-reason", has_text="Bob: from bob").wait_for()  # as it is now
