@@ -53,7 +53,11 @@ private:
         }
         if (hit.fill.transmittance > 0.0F) {
             ++thread_stats().refract;
-            follow(transmitted_ray(hit), depth + 1);
+            const Ray ray = transmitted_ray(hit);
+            const bool passes_through = glm::dot(ray.direction, hit.normal) < 0.0F;
+            if (passes_through) {  // else it is the mirrored ray once more
+                follow(ray, depth + 1);
+            }
         }
     }
 

@@ -31,6 +31,7 @@ inline constexpr std::array<SpdCounts, 7> k_spd_published{{
 /// Counts the rays of 513 x 513 pixel corners to depth 5, on the given number of threads:
 /// - the corner rays cover 512/511 of the angle in tangent space
 /// - a reflection ray wherever Ks > 0 or T > 0, a refraction ray wherever T > 0
+/// - total internal reflection counts as a refraction ray, too, but only the reflection ray is followed
 /// - shadow rays only towards lights in front of the surface
 [[nodiscard]] Stats count_spd_rays(const Scene& scene, const Accelerator& accelerator, int threads);
 
