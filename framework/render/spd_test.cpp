@@ -22,7 +22,8 @@ std::unique_ptr<Triangle> level_plane(float height, const Fill& fill) {
 }
 
 /// The camera is within glass and looks at the glass's surface above it, at this slant. Matte planes below it and above
-/// the glass tell where the rays go on to: each hit anywhere sends one shadow ray, as the light is on the camera's side.
+/// the glass tell where the rays go on to: each hit anywhere sends one shadow ray, as the light is on the camera's
+/// side.
 Stats count_from_within_glass(float degrees_from_upright) {
     const float slant = glm::radians(degrees_from_upright);
     Scene scene;

@@ -199,12 +199,14 @@ def clang_checks(project: Project, inputs: Inputs) -> list[Check]:
     ]
 
 
-# What was compiled for one copy of the kit is taken for the next: tests build many, and a fresh clone is one, too.
+# What was compiled once is not compiled again: tests build many copies of the kit, a fresh clone is one, too, and they
+# start Python thousands of times.
 
 
-def use_compiler_cache() -> None:
-    """From here on, in this process and in those that it starts; in the user's own cache. Without ccache nothing is
-    different but the time. Another launcher that somebody chose stays."""
+def use_caches() -> None:
+    """From here on, in this process and in those that it starts; ccache in the user's own cache. Nothing is different
+    but the time. Another launcher that somebody chose stays."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if shutil.which("ccache"):
         os.environ.setdefault("CMAKE_CXX_COMPILER_LAUNCHER", "ccache")
         os.environ["CCACHE_NOHASHDIR"] = "1"

@@ -32,7 +32,7 @@ from tools.selftest.programs import (
     install,
     program_checks,
     same_pictures_check,
-    use_compiler_cache,
+    use_caches,
     windows_checks,
 )
 from tools.selftest.stamps import Belongs, Sources, Stamps
@@ -154,7 +154,7 @@ def _packages() -> Report:
     wanted = (*PAGES, *WINDOW)
     installed = install(wanted)
     install(CACHE)  # by itself: apt-get installs nothing of a list with an unknown package; it only saves time
-    use_compiler_cache()
+    use_caches()
     return Report("passed") if installed else Report("skipped", f"install: {' '.join(wanted)}")
 
 

@@ -11,7 +11,7 @@ import pytest
 from raysteps.course.project import Project
 from raysteps.toolchain import kit_artifacts
 from raysteps.toolchain.cmake import BuildTree, _HowFar, release_tree
-from tools.selftest.programs import use_compiler_cache
+from tools.selftest.programs import use_caches
 
 
 def test_a_build_folder_of_another_clone_is_configured_anew(tmp_path: Path) -> None:
@@ -79,13 +79,13 @@ def test_a_launcher_that_is_gone_is_forgotten(tmp_path: Path, monkeypatch: pytes
 @pytest.mark.skipif(not (shutil.which("ccache") and shutil.which("ninja")), reason="needs ccache and ninja")
 def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own = [name for name in os.environ if name.startswith("CCACHE_")]
-    for name in (*own, "CMAKE_CXX_COMPILER_LAUNCHER", "CCACHE_DIR", "CCACHE_NOHASHDIR"):
+    for name in (*own, "CMAKE_CXX_COMPILER_LAUNCHER", "CCACHE_DIR", "CCACHE_NOHASHDIR", "PYTHONDONTWRITEBYTECODE"):
         monkeypatch.setenv(name, "")  # so that what is set now is forgotten again
         monkeypatch.delenv(name)
     (tmp_path / "ccache.conf").touch()
     monkeypatch.setenv("CCACHE_CONFIGPATH", str(tmp_path / "ccache.conf"))
     monkeypatch.setenv("CCACHE_DIR", str(tmp_path / "cache"))
-    use_compiler_cache()
+    use_caches()
     for name, hits in (("one", 0), ("far/the other", 1)):
         tree = release_tree(_tiny(tmp_path / name))
         tree.configure()
