@@ -14,6 +14,7 @@ from raysteps.common.documents import as_text
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.exports.gradebook import gathered
 from raysteps.results.model import HandIn, Lateness, Results, StepResult
 
 CANVAS = (
@@ -220,6 +221,13 @@ def test_who_has_no_points_keeps_the_cell(case: Case, capsys: pytest.CaptureFixt
     said = capsys.readouterr().err
     assert "José 102 (line 5) has no points in results.csv" in said
     assert "Bob 104 (line 7) handed nothing in" in said
+
+
+def test_many_with_one_reason_fill_one_line() -> None:
+    absent = [(f"student {at}", "handed nothing in") for at in range(4)]
+    few = [("Ann", "is excused"), ("Bob", "is excused")]
+    together = "4 people: student 0; student 1; student 2; student 3"
+    assert gathered([*absent[:2], *few, *absent[2:]]) == [(together, "handed nothing in"), *few]
 
 
 @pytest.mark.parametrize("points", ["nan", "-1", "inf", "many"])

@@ -65,6 +65,9 @@ def _is_same_file(one: Path, other: Path) -> bool:
     return one.resolve() == other.resolve()
 
 
+_ALL_NAMES = 1_000_000  # characters: one line may name a whole class
+
+
 def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Writes the filled file, and says on stderr whom it could not grade."""
     if _is_same_file(arguments.template, arguments.out):
@@ -84,7 +87,7 @@ def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Con
     # Moodle leaves a grade above the maximum out without a word.
     filled = fill(sheet, book, graded, feedback, points=arguments.points, clip=is_moodle)
     for note in (*book.notes, *filled.notes):
-        print(f"raysteps: {clean(note)}", file=sys.stderr)
+        print(f"raysteps: {clean(note, _ALL_NAMES)}", file=sys.stderr)
     if not filled.graded:
         raise UsageError(
             f"{arguments.template}: no student in it is in {arguments.results / 'results.csv'}; nothing was written. "

@@ -23,7 +23,7 @@ from raysteps.exports.give_back import (
     read_deliveries,
     refuse_nobody,
 )
-from raysteps.exports.gradebook import MOODLE_COLUMNS, moodle, read_sheet
+from raysteps.exports.gradebook import MOODLE_COLUMNS, gathered, moodle, read_sheet
 from raysteps.exports.mail import (
     MailOptions,
     Message,
@@ -135,9 +135,13 @@ def add_give_back_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
 # Zips.
 
 
+def _lines(others: list[Undelivered]) -> list[str]:
+    return [f"{who}: {clean(why)}" for who, why in gathered((other.label, other.why) for other in others)]
+
+
 def _tell_others(others: list[Undelivered]) -> None:
-    for other in others:
-        print(f"raysteps: nothing for {clean(other.label)}: {clean(other.why)}", file=sys.stderr)
+    for line in _lines(others):
+        print(f"raysteps: nothing for {line}", file=sys.stderr)
 
 
 def _write_zip(arguments: argparse.Namespace, console: Console) -> int:
@@ -190,10 +194,8 @@ def _leave_out_sent(deliveries: Deliveries, log: MailLog, *, again: bool) -> lis
 def _print_others(console: Console, heading: str, others: list[Undelivered]) -> None:
     if others:
         console.print(f"\n[bold]{heading}[/bold]")
-        for other in others:
-            console.print(
-                f"  {escape(clean(other.label))}: {escape(clean(other.why))}", soft_wrap=True, highlight=False
-            )
+        for line in _lines(others):
+            console.print(f"  {escape(line)}", soft_wrap=True, highlight=False)
 
 
 def _dry_run(arguments: argparse.Namespace, console: Console, deliveries: Deliveries, options: MailOptions) -> int:

@@ -1,7 +1,7 @@
 """Fills an exported gradebook with the grades of a class."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -9,7 +9,7 @@ from typing import Literal
 from raysteps.classroom.entry_names import folded
 from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import number
+from raysteps.common.text import clean, number
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, spoken_name
 
 # A CSV file in which single cells can be replaced while every other byte stays as it is.
@@ -290,6 +290,22 @@ _THOUSANDS = re.compile(r"^[1-9][0-9]{0,2}[.,][0-9]{3}$")  # or a fraction with 
 _COMMA = re.compile(r"^[0-9]+,[0-9]{1,5}$")
 
 
+_SINGLY = 3  # people with one reason who are named in a line each
+
+
+def gathered(people: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Labels and reasons, of which many with the same reason stand together: hundreds who handed nothing in would hide
+    whatever else is said."""
+    labels: dict[str, list[str]] = {}
+    for label, why in people:
+        labels.setdefault(why, []).append(clean(label))
+    return [
+        (text, why)
+        for why, some in labels.items()
+        for text in (some if len(some) <= _SINGLY else [f"{len(some)} people: {'; '.join(some)}"])
+    ]
+
+
 @dataclass
 class FilledGradebook:
     """The new cells, and what the person at the keyboard must know."""
@@ -354,6 +370,7 @@ def fill(
     """Grades and feedback for whom a row was found; everybody else is only talked about."""
     rows = match(graded, [student.person for student in book.students])
     filled = FilledGradebook()
+    left: list[tuple[str, str]] = []
     comma = _has_decimal_comma(book)
     for at, one in enumerate(graded):
         if at not in rows.found:
@@ -362,7 +379,7 @@ def fill(
         student = book.students[rows.found[at]]
         if one.points is None or student.kept:
             why = student.kept or ("has no points in results.csv" if one.submission else "handed nothing in")
-            filled.notes.append(f"left as it is: {student.person.label} {why}")
+            left.append((student.person.label, why))
             continue
         last = max(book.grade, book.feedback or 0)
         if len(student.row.cells) <= last:
@@ -383,5 +400,6 @@ def fill(
         filled.graded += 1
     graded_rows = set(rows.found.values())
     missing = [student.person.label for at, student in enumerate(book.students) if at not in graded_rows]
-    filled.notes += [f"no submission for {label}" for label in missing]
+    filled.notes += [f"left as it is: {who} {why}" for who, why in gathered(left)]
+    filled.notes += [f"no submission for {who}" for who, _ in gathered((label, "") for label in missing)]
     return filled
