@@ -262,7 +262,7 @@ _RARELY = 50_000  # new objects, until Python looks for circles that nobody need
 
 def run_process(argv: Sequence[str] | None = None) -> int:
     """The same for a process that does nothing else: a command that says how long it may take is ended after that."""
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # to start more takes numpy longer than all that it computes here
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts others for longer than it computes here
     gc.set_threshold(_RARELY)
     words = list(sys.argv[1:] if argv is None else argv)
     project = here()

@@ -67,7 +67,7 @@ class AsUser:
     def before_start(self, limits: Limits, user: int | None) -> list[str]:
         if user is None:
             return []
-        # A program does it: Python itself can become another user in a copy of its own process only, which takes longer.
+        # By a program: Python becomes another user in a copy of its own process only, which takes longer.
         return [processes_word(limits.processes + _OWN_PROCESSES), tool("setpriv"), *_become(user)]
 
     def before_command(self, limits: Limits, user: int | None) -> tuple[list[str], list[str]]:
