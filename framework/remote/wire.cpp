@@ -83,7 +83,7 @@ Message Wire::receive() {
     while (true) {
         Fiber* fiber = nullptr;
         {
-            const std::scoped_lock lock(mutex_);
+            const std::unique_lock lock = guard();
             Conversation& talk = conversation(current());
             if (talk.received) {
                 Message message = std::move(*talk.received);

@@ -68,7 +68,7 @@ public:
     /// somebody waits.
     template <typename Write>
     void send(Kind kind, const Write& write) {
-        const std::scoped_lock lock(mutex_);
+        const std::unique_lock lock = guard();
         const std::size_t start = begin_message(kind);
         try {
             write(outgoing_);
@@ -117,6 +117,10 @@ private:
         bool serves = false;              ///< the other end began it
     };
 
+    /// A student may have threads of its own; a program asks and answers from one.
+    [[nodiscard]] std::unique_lock<std::recursive_mutex> guard() {
+        return end_ == End::box ? std::unique_lock(mutex_) : std::unique_lock<std::recursive_mutex>();
+    }
     [[nodiscard]] std::size_t begin_message(Kind kind);
     void end_message(std::size_t start);
     [[nodiscard]] Message receive();
@@ -135,7 +139,7 @@ private:
     Pipes pipes_;
     Service service_;
     Farewell farewell_;
-    std::recursive_mutex mutex_;  ///< a student may have threads of its own
+    std::recursive_mutex mutex_;
     std::array<std::unique_ptr<Conversation>, k_max_conversations> conversations_;
     std::deque<std::size_t> ready_;  ///< fibers that something came for, in that order
     std::uint64_t together_ = 0;

@@ -1,8 +1,10 @@
 #pragma once
 // How failures print the kit's types. Include it before the first assertion that compares them.
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "core/box.hpp"
@@ -12,19 +14,20 @@
 
 namespace raysteps::testing {
 
-/// As few digits as tell it from every other float, and at most so many: 0.1, and not 0.100000001.
+/// As few digits as tell it from every other float, and at most so many: 0.1, and not 0.100000001. Tests make words for
+/// thousands of rays, of which most are right.
 inline std::string text(float value, int most = std::numeric_limits<float>::max_digits10) {
-    std::string shown;
-    for (int digits = 1; digits <= most; ++digits) {
-        std::ostringstream out;
-        out.precision(digits);
-        out << value;
-        shown = out.str();
-        if (std::strtof(shown.c_str(), nullptr) == value) {
-            break;
-        }
+    std::array<char, 32> shown{};
+    const auto tells = [&](int digits) {
+        std::snprintf(shown.data(), shown.size(), "%.*g", digits, static_cast<double>(value));
+        return std::strtof(shown.data(), nullptr) == value;
+    };
+    constexpr int k_few = std::numeric_limits<float>::digits10;
+    int digits = tells(std::min(k_few, most)) ? 1 : std::min(k_few + 1, most);
+    while (!tells(digits) && digits < most) {
+        ++digits;
     }
-    return shown;
+    return shown.data();
 }
 
 inline std::string text(const glm::vec3& v) { return '(' + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ')'; }

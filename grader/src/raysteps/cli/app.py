@@ -1,6 +1,7 @@
 """The commands of ./raysteps, and how they end. Each has a module of its own, imported when the command is typed."""
 
 import argparse
+import gc
 import os
 import re
 import sys
@@ -256,8 +257,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         return exit_code_of(error)
 
 
+_RARELY = 50_000  # new objects, until Python looks for circles that nobody needs: most live as long as the command
+
+
 def run_process(argv: Sequence[str] | None = None) -> int:
     """The same for a process that does nothing else: a command that says how long it may take is ended after that."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts others for longer than it computes here
+    gc.set_threshold(_RARELY)
     words = list(sys.argv[1:] if argv is None else argv)
     project = here()
     command = next((one for one in _commands(project) if words[:1] == [one.name] and one.supervised), None)

@@ -72,13 +72,16 @@ class Answer(Generic[T]):
     def verdict(self, name: str, inputs: Inputs, expected_line: str, actual_line: str) -> Verdict:
         """Compares; whatever the student's line holds, it is an answer, and perhaps a wrong one."""
         expected = self.reference(name, inputs, expected_line)
-        constant = (self.constant or self.words)(expected)
+        shown = self.words(expected)
+        constant = shown if self.constant is None else self.constant(expected)
         right = self.near(expected) if self.near is not None else None
+        if actual_line == expected_line:  # as most are, and this one was measured
+            return Verdict("", shown, shown, 1.0, constant, right, right)
         if actual_line.startswith("threw"):
             said = printable(actual_line.removeprefix("threw").strip())
             return Verdict(
                 "an exception left the function",
-                self.words(expected),
+                shown,
                 f"an exception: {shorten(said, 200)}",
                 constant=constant,
                 right=right,
@@ -88,12 +91,12 @@ class Answer(Generic[T]):
             problem = self.problem(inputs, expected, actual)
             credit = self.credit(inputs, expected, actual) if problem else 1.0
             given = self.near(actual) if self.near is not None else None
-            return Verdict(problem, self.words(expected), self.words(actual), credit, constant, right, given)
+            return Verdict(problem, shown, self.words(actual), credit, constant, right, given)
         except GraderFault:
             raise
         except Exception as error:  # the reference's answer was read just so: this is about the student's
             said = shorten(str(error), 200)
-            return Verdict("no proper answer came", self.words(expected), said, constant=constant, right=right)
+            return Verdict("no proper answer came", shown, said, constant=constant, right=right)
 
 
 def read_vector(tokens: TokenReader) -> Vector:

@@ -4,10 +4,9 @@ guarantees, such as unit vectors and a distance from edges, still holds.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import permutations, product
-from typing import TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 from raysteps.common.vectors import Vector, dot
 from raysteps.judge.protocol import Inputs, Number, rounded, text
@@ -103,8 +102,7 @@ _MAX = 5000  # choices of one case
 _AHEAD: Vector = (0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True)
-class Choice:
+class Choice(NamedTuple):
     """What was chosen, and between which bounds; the type of the value tells what kind of choice it was."""
 
     value: Chosen

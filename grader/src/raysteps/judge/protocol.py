@@ -6,7 +6,9 @@ The order of the numbers is that of framework/worker/protocol.hpp.
 import math
 import struct
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol, TypeAlias
 
 import numpy as np
@@ -18,29 +20,32 @@ from raysteps.common.vectors import Vector, add, dot
 
 Number: TypeAlias = float | int
 
-_FLOAT = struct.Struct("f")
+_pack, _unpack = struct.Struct("f").pack, struct.Struct("f").unpack
+_pack_vector, _unpack_vector = struct.Struct("3f").pack, struct.Struct("3f").unpack
 
 
 def f32(value: float) -> float:
     """The nearest float32."""
-    rounded: float = _FLOAT.unpack(_FLOAT.pack(value))[0]
-    return rounded
+    nearest: float = _unpack(_pack(value))[0]
+    return nearest
 
 
 def text(value: Number) -> str:
     """Read back by the worker it is the same float32."""
-    if isinstance(value, int):
-        return str(value)
-    if math.isnan(value):
-        return "nan"
-    if value == 0:
+    if value == 0:  # which equals the zero of the other sign
         return "-0" if math.copysign(1, value) < 0 else "0"
-    return str(np.float32(value)).removesuffix(".0")
+    return _text(value)
+
+
+@lru_cache(maxsize=1 << 14, typed=True)  # most numbers of scenes are multiples of 1 / 64
+def _text(value: Number) -> str:
+    return str(value) if isinstance(value, int) else str(np.float32(value)).removesuffix(".0")
 
 
 def rounded(v: Vector) -> Vector:
     """Each component as the nearest float32."""
-    return f32(v[0]), f32(v[1]), f32(v[2])
+    x, y, z = _unpack_vector(_pack_vector(*v))
+    return x, y, z
 
 
 def mirrored(direction: Vector, normal: Vector) -> Vector:
@@ -292,7 +297,13 @@ class TokenReader:
         return self.whole(0, 1) == 1
 
     def vector(self) -> Vector:
-        return self.real(), self.real(), self.real()
+        found = self._words[self._next : self._next + 3]
+        if len(found) == 3 and max(map(len, found)) <= _MAX_DIGITS:
+            with suppress(ValueError, OverflowError):
+                vector = rounded((float(found[0]), float(found[1]), float(found[2])))
+                self._next += 3
+                return vector
+        return self.real(), self.real(), self.real()  # one of which says what is wrong
 
     def at_end(self) -> bool:
         return self._next == len(self._words)

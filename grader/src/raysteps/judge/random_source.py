@@ -70,7 +70,10 @@ class RandomSource:
         return self.whole(math.ceil(low * 8), math.floor(high * 8)) / 8
 
     def point(self, reach: float) -> Vector:
-        return self.real(-reach, reach), self.real(-reach, reach), self.real(-reach, reach)
+        return self._reals(-reach, reach)
+
+    def _reals(self, low: float, high: float) -> Vector:
+        return rounded((self.fine(low, high), self.fine(low, high), self.fine(low, high)))
 
     def simple_point(self, reach: float) -> Vector:
         return self.eighths(-reach, reach), self.eighths(-reach, reach), self.eighths(-reach, reach)
@@ -103,7 +106,7 @@ class RandomSource:
         return Ray(rounded(add(target, direction, -distance)), direction)
 
     def color(self, low: float = 0.1, high: float = 1.0) -> Vector:
-        return self.real(low, high), self.real(low, high), self.real(low, high)
+        return self._reals(low, high)
 
     def light(self, position: Vector) -> Light:
         return Light(position, self.color(0.3, 1.6))

@@ -5,7 +5,9 @@ import hashlib
 import io
 import json
 import re
+import sys
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -13,21 +15,40 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, PackageLoader, StrictUndefined
+from jinja2.bccache import Bucket
 from markupsafe import Markup
 from PIL import Image
 
 from raysteps import __version__
 from raysteps.common.errors import reason
+from raysteps.common.files import write_bytes
 
 _UNSAFE = {ord(sign): f"\\u{ord(sign):04x}" for sign in "<>&\u2028\u2029"}
 _ENDING = re.compile(r"</|<!--", re.IGNORECASE)
+
+
+class _Compiled(BytecodeCache):
+    """Templates are kept as Python keeps its modules: compiled, beside them, where that can be written to."""
+
+    def _place(self, bucket: Bucket) -> Path:
+        return Path(__file__).parent / "templates" / "__pycache__" / f"{bucket.key}.jinja"
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        with suppress(OSError), self._place(bucket).open("rb") as file:
+            bucket.load_bytecode(file)  # unless the template has changed since
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        with suppress(OSError):
+            if not sys.dont_write_bytecode:
+                write_bytes(self._place(bucket), bucket.bytecode_to_string())
 
 
 @cache
 def _environment() -> Environment:
     return Environment(
         loader=PackageLoader("raysteps.report"),
+        bytecode_cache=_Compiled(),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -138,7 +138,7 @@ class Bubblewrap:
             raise GraderFault("bubblewrap is not installed (the program bwrap was not found).")
         self._program = program
         self._options = _options_of(program)
-        self._secrets = list(secrets)
+        self._secrets = secrets
         self._mode = mode or AsUser()
         self._lends_users = can_lend_users()
         if not (self._mode.starts_as_user or self._lends_users):
@@ -182,12 +182,12 @@ class Bubblewrap:
     def _words(
         self, task: Task, inside: PathMap, words_inside: list[str], user: int | None
     ) -> tuple[list[str], list[str], list[str]]:
-        """What sets the limits, bubblewrap's options, and the command inside."""
+        """What sets the limits and becomes the user, bubblewrap's options, and the command inside."""
         limits = task.limits
         first = task.command[0]
         compiler = compiler_command(first if isinstance(first, str) else "c++") if task.tools else None
         mounts, before = self._mode.before_command(limits, user)
-        start = limit_words(limits, memory=self._parents is None) + self._mode.limits(limits, user)
+        start = limit_words(limits, memory=self._parents is None) + self._mode.before_start(limits, user)
         words = [*self._mode.namespaces(self._options), "--die-with-parent", "--new-session"]
         words += ["--hostname", "sandbox", "--clearenv", "--setenv", "LC_ALL", "C", "--setenv", "HOME", _HOME]
         if compiler is not None:
@@ -235,23 +235,19 @@ class Bubblewrap:
             stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
             fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
             words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
-            changed = user if self._mode.starts_as_user else None
-            limits, options, command = self._words(task, inside, words, user)
+            start_words, options, command = self._words(task, inside, words, user)
             # As a file, since the first process inside shows its words to the task.
             options_fd = nameless_file("".join(f"{word}\0" for word in options).encode(), stack)
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    [*limits, self._program, "--args", str(options_fd), "--", *command],
+                    [*start_words, self._program, "--args", str(options_fd), "--", *command],
                     env={},  # of the first process inside, whatever --clearenv does for the command
                     stdin=stdin,
                     stdout=subprocess.PIPE if wire is None else wire.stdout,
                     stderr=subprocess.PIPE,
                     pass_fds=(control.status_fd, control.gate_fd, options_fd, *inside.fds, *fences),
                     cwd="/",
-                    user=changed,
-                    group=changed,
-                    extra_groups=None if changed is None else [],
                 )
             )
             stack.callback(process.kill)

@@ -1,6 +1,8 @@
 """The two ways in which bubblewrap can work: as an ordinary user, or as root where user namespaces are refused."""
 
 import shutil
+from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Protocol
 
@@ -13,11 +15,17 @@ _SETUP = "/setup"
 _BINDS = ("--ro-bind", "--ro-bind-try", "--bind")
 
 
+@cache
 def tool(name: str) -> str:
     path = shutil.which(name)
     if path is None:
         raise GraderFault(f"The program {name} was not found; it is part of util-linux.")
     return path
+
+
+def _become(user: int | None) -> list[str]:
+    """Words for setpriv."""
+    return [f"--reuid={user}", f"--regid={user}", "--clear-groups", "--"]
 
 
 class NamespaceMode(Protocol):
@@ -35,8 +43,8 @@ class NamespaceMode(Protocol):
     def folders(self, mounts: list[str]) -> list[str]:
         """Words before those that mount, for the folders that the mounts are in."""
 
-    def limits(self, limits: Limits, user: int | None) -> list[str]:
-        """Further words for prlimit."""
+    def before_start(self, limits: Limits, user: int | None) -> list[str]:
+        """Words behind those of prlimit, before bubblewrap."""
 
     def before_command(self, limits: Limits, user: int | None) -> tuple[list[str], list[str]]:
         """Mounts, and words that go before the command, inside."""
@@ -56,8 +64,11 @@ class AsUser:
     def folders(self, mounts: list[str]) -> list[str]:
         return []
 
-    def limits(self, limits: Limits, user: int | None) -> list[str]:
-        return [] if user is None else [processes_word(limits.processes + _OWN_PROCESSES)]
+    def before_start(self, limits: Limits, user: int | None) -> list[str]:
+        if user is None:
+            return []
+        # By a program: Python becomes another user in a copy of its own process only, which takes longer.
+        return [processes_word(limits.processes + _OWN_PROCESSES), tool("setpriv"), *_become(user)]
 
     def before_command(self, limits: Limits, user: int | None) -> tuple[list[str], list[str]]:
         return [], []
@@ -82,7 +93,7 @@ class AsRoot:
         above = {folder for place in places for folder in place.parents if folder.name}
         return [word for folder in sorted(above) for word in ("--perms", "0755", "--dir", str(folder))]
 
-    def limits(self, limits: Limits, user: int | None) -> list[str]:
+    def before_start(self, limits: Limits, user: int | None) -> list[str]:
         return []
 
     def before_command(self, limits: Limits, user: int | None) -> tuple[list[str], list[str]]:
@@ -90,8 +101,7 @@ class AsRoot:
         for name in ("prlimit", "setpriv"):
             mounts += ["--ro-bind", str(Path(tool(name)).resolve()), f"{_SETUP}/{name}"]
         limit = [f"{_SETUP}/prlimit", processes_word(limits.processes)]
-        become = [f"{_SETUP}/setpriv", f"--reuid={user}", f"--regid={user}", "--clear-groups", "--no-new-privs", "--"]
-        return mounts, [*limit, *become]
+        return mounts, [*limit, f"{_SETUP}/setpriv", "--no-new-privs", *_become(user)]
 
 
 # The little of the host's file system that a task sees.
@@ -146,14 +156,15 @@ def top_folders(compiler: Path | None) -> list[Path]:
     return _folders(Path("/"), _LIBRARIES + (() if compiler is None else ("bin",)))
 
 
-def hidden_folders(seen: list[Path], secrets: list[Path]) -> list[Path]:
+def hidden_folders(seen: list[Path], secrets: Sequence[Path]) -> list[Path]:
     """What lies in the visible folders and is not meant to be seen."""
     frameworks = [folder / name for folder in seen if folder.name == "include" for name in _TEST_FRAMEWORKS]
     inside = [secret.resolve() for secret in secrets if any(secret.resolve().is_relative_to(place) for place in seen)]
     return [path for path in (*frameworks, *inside) if path.is_dir()]
 
 
-def root_words(compiler: Path | None, secrets: list[Path]) -> list[str]:
+@cache  # a grade has a hundred tasks
+def root_words(compiler: Path | None, secrets: tuple[Path, ...]) -> tuple[str, ...]:
     """The words for bubblewrap that make this root."""
     words: list[str] = []
     seen = [*visible_folders(compiler), *top_folders(compiler)]
@@ -168,4 +179,4 @@ def root_words(compiler: Path | None, secrets: list[Path]) -> list[str]:
     words += ["--ro-bind-try", "/etc/ld.so.cache", "/etc/ld.so.cache"]
     # The first process is bubblewrap's and may be of the task's user, who could write to its memory there.
     words += ["--proc", "/proc", "--tmpfs", _FIRST_PROCESS, "--remount-ro", _FIRST_PROCESS]
-    return [*words, "--dev", "/dev", "--remount-ro", "/dev"]
+    return (*words, "--dev", "/dev", "--remount-ro", "/dev")

@@ -265,9 +265,10 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
     for _ in range(3):
         mark = fingerprint(project)
         folder = project.build / "kit" / mark
-        if not (folder / "kit.json").is_file():
+        is_built = (folder / "kit.json").is_file()
+        if not is_built:
             _build(project, steps, folder, say)
-        if fingerprint(project) == mark:
+        if is_built or fingerprint(project) == mark:
             with suppress(OSError):  # of a kit that may only be read, as in an image
                 os.utime(folder)
             _forget_old(folder.parent)
