@@ -4,6 +4,7 @@
 //   turn away one that reaches for them.
 // - Programs that inspect pixels link inspect/recording_intersect.cpp in its place and hear of every test; raytrace
 // pays nothing.
+#include "core/box_tests.hpp"
 #include "core/stats.hpp"
 #include "core/surface.hpp"
 
@@ -18,5 +19,9 @@ std::optional<Interval> Box::hit(const Ray& ray) const {
     ++thread_stats().box_tests;
     return clip(ray);
 }
+
+bool BoxTests::are_shown() { return false; }
+void BoxTests::show(const Box& /*box*/, const Ray& /*ray*/) {}
+void BoxTests::count(std::uint32_t tests) { thread_stats().box_tests += tests; }
 
 }  // namespace raysteps
