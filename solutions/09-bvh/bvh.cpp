@@ -339,28 +339,24 @@ bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     Slabs slabs(ray);
     std::array<const BvhNode*, k_max_bvh_levels> open;
     std::size_t size = 0;
-    if (!bvh.nodes.empty() && slabs.enter(bvh.nodes.front().box, distance)) {
+    if (!bvh.nodes.empty()) {
         open[size++] = &bvh.nodes.front();
     }
     while (size > 0) {
         const BvhNode* node = open[--size];
-        while (!node->is_leaf()) {
-            const BvhNode* child = &bvh.nodes[node->first];
-            const std::optional<float> first = slabs.enter(child[0].box, distance);
-            const std::optional<float> second = slabs.enter(child[1].box, distance);
-            if (first && second) {
-                open[size++] = child + 1;
+        while (slabs.enter(node->box, distance)) {
+            if (!node->is_leaf()) {
+                node = &bvh.nodes[node->first];
+                open[size++] = node + 1;
+                continue;
             }
-            if (!first && !second) {
-                break;
+            for (std::uint32_t i = 0; i < node->count; ++i) {
+                const std::optional<HitRecord> hit = bvh.surfaces[node->first + i]->hit(ray);
+                if (hit && hit->distance < distance) {
+                    return true;
+                }
             }
-            node = first ? child : child + 1;
-        }
-        for (std::uint32_t i = 0; i < node->count; ++i) {
-            const std::optional<HitRecord> hit = bvh.surfaces[node->first + i]->hit(ray);
-            if (hit && hit->distance < distance) {
-                return true;
-            }
+            break;
         }
     }
     return false;
