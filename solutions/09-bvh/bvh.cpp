@@ -8,6 +8,7 @@
 #include "core/threads.hpp"
 
 #include <atomic>
+#include <tuple>
 // END SOLUTION
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
