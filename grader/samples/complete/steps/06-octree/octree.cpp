@@ -198,7 +198,7 @@ void visit(const Node& node, Search& search) {
     }
 }
 
-bool has_hit_before(float distance, const Node& node, Search& search) {
+bool has_hit_before(float distance, const Node& root, Search& search) {
     const auto is_near = [&](const Surface* surface) {
         const std::optional<HitRecord> hit = surface->hit(search.ray);
         return hit && hit->distance < distance;
@@ -206,8 +206,8 @@ bool has_hit_before(float distance, const Node& node, Search& search) {
     const auto has_near = [&](const Node& child) {
         return search.enter(child.box, distance) && has_hit_before(distance, child, search);
     };
-    return std::any_of(node.surfaces.begin(), node.surfaces.end(), is_near) ||
-           std::any_of(node.children.begin(), node.children.end(), has_near);
+    return std::any_of(root.surfaces.begin(), root.surfaces.end(), is_near) ||
+           std::any_of(root.children.begin(), root.children.end(), has_near);
 }
 
 }  // namespace
