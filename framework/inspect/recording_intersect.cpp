@@ -1,5 +1,6 @@
 // The two questions that are counted, for programs that also want to know what was asked. Linked as an object, it
 // stands in for core/counting_intersect.cpp, so that raytrace pays nothing for it.
+#include "core/box_tests.hpp"
 #include "core/stats.hpp"
 #include "core/surface.hpp"
 #include "inspect/search_recorder.hpp"
@@ -23,5 +24,11 @@ std::optional<Interval> Box::hit(const Ray& ray) const {
     }
     return part;
 }
+
+bool BoxTests::are_shown() { return listening_recorder() != nullptr; }
+
+void BoxTests::show(const Box& box, const Ray& ray) { listening_recorder()->box(box, box.clip(ray)); }
+
+void BoxTests::count(std::uint32_t tests) { thread_stats().box_tests += tests; }
 
 }  // namespace raysteps

@@ -3,6 +3,7 @@
 #include "core/unfinished.hpp"
 
 // BEGIN SOLUTION
+#include "core/box_tests.hpp"
 #include "core/rounding.hpp"
 #include "core/threads.hpp"
 
@@ -43,20 +44,6 @@ bool boxes_overlap(const Box& a, const Box& b) {
     return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
-/// The part of the cell that its surfaces reach, grown a little: rays miss a smaller box more often.
-Box tight_box(const Box& cell, const SurfaceList& surfaces, float padding) {
-    const Box all = bounds_of(surfaces);
-    return Box{glm::max(cell.min, all.min), glm::min(cell.max, all.max)}.padded(padding);
-}
-
-SurfaceList touching(const Box& cell, const SurfaceList& surfaces, float padding) {
-    const Box grown = cell.padded(padding);
-    SurfaceList list;
-    std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(list),
-                 [&](const Surface* surface) { return surface->overlaps(grown); });
-    return list;
-}
-
 /// A part of the tree that is still to be built.
 struct Part {
     Node* node = nullptr;
@@ -69,31 +56,32 @@ struct Part {
 /// Hands the surfaces on to the eight parts of the cell and returns those that got any, or makes a leaf.
 std::vector<Part> split_part(Part& part, float padding) {
     const SurfaceList& surfaces = part.surfaces;
-    part.node->box = tight_box(part.cell, surfaces, padding);
+    const Box all = bounds_of(surfaces);  // rays miss a smaller box more often
+    part.node->box = Box{glm::max(part.cell.min, all.min), glm::min(part.cell.max, all.max)}.padded(padding);
     if (surfaces.size() > k_leaf_size && part.depth < k_max_depth) {
         const std::array<Box, 8> cells = split(part.cell);
         std::array<SurfaceList, 8> lists;
         std::size_t references = 0;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            lists[i] = touching(cells[i], surfaces, padding);
+            std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(lists[i]),
+                         [&](const Surface* surface) { return surface->overlaps(cells[i]); });
             references += lists[i].size();
         }
         // Where the boxes are already smaller than the surfaces, splitting multiplies lists and sorts nothing out.
         if (references <= std::min<std::uint64_t>(k_max_growth * surfaces.size(), part.most_references)) {
             std::vector<Part> parts;
+            std::vector<Node>& children = part.node->children;
+            children.reserve(cells.size() -
+                             static_cast<std::size_t>(std::count(lists.begin(), lists.end(), SurfaceList{})));
             for (std::size_t i = 0; i < cells.size(); ++i) {
                 if (!lists[i].empty()) {
                     const std::uint64_t share = part.most_references * lists[i].size() / references;
-                    parts.push_back({.node = nullptr,
+                    parts.push_back({.node = &children.emplace_back(),
                                      .cell = cells[i],
                                      .surfaces = std::move(lists[i]),
                                      .most_references = share,
                                      .depth = part.depth + 1});
                 }
-            }
-            part.node->children.resize(parts.size());
-            for (std::size_t i = 0; i < parts.size(); ++i) {
-                parts[i].node = &part.node->children[i];
             }
             return parts;
         }
@@ -144,42 +132,60 @@ SurfaceList oversized(const SurfaceList& surfaces) {
     return large.size() <= k_most ? large : SurfaceList{};
 }
 
-struct Closest {
-    std::optional<HitRecord> hit;
-    std::size_t order = 0;
-};
+/// Shortens the part of the ray to what is inside the box. Along an axis whose direction is 0 the distances are
+/// infinite: they leave the part as it is, or make it empty where the origin is outside. On the very plane 0 * infinity
+/// is NaN, which max and min pass over.
+inline std::optional<Interval> part_inside(const Box& box, const glm::vec3& origin, const glm::vec3& inverse,
+                                           Interval part) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool upwards = inverse[axis] >= 0.0F;
+        const float near_plane = upwards ? box.min[axis] : box.max[axis];
+        const float far_plane = upwards ? box.max[axis] : box.min[axis];
+        part.enter = std::max(part.enter, (near_plane - origin[axis]) * inverse[axis]);
+        part.leave = std::min(part.leave, (far_plane - origin[axis]) * inverse[axis]);
+    }
+    return part.enter <= part.leave ? std::optional(part) : std::nullopt;
+}
 
-/// Boxes are not visited in the order of the scene, so surfaces at the same distance are told apart by it.
-void test_list(const SurfaceList& surfaces, const Ray& ray, Closest& closest) {
-    for (const Surface* surface : surfaces) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        if (!hit) {
-            continue;
-        }
-        const bool nearer = !closest.hit || hit->distance < closest.hit->distance;
-        if (nearer || (hit->distance == closest.hit->distance && surface->order() < closest.order)) {
-            closest = {hit, surface->order()};
+/// A ray on its way through the tree, and the nearest hit so far. It divides once, and not at every box.
+struct Search {
+    const Ray& ray;
+    glm::vec3 inverse = 1.0F / ray.direction;
+    BoxTests tests{ray};
+    std::optional<HitRecord> hit{};
+    float distance = std::numeric_limits<float>::infinity();  // of the hit
+    std::size_t order = 0;                                    // of its surface
+
+    /// The part of the ray inside the box; nothing where it begins behind the limit.
+    std::optional<Interval> enter(const Box& box, float limit) {
+        tests.add(box);
+        return part_inside(box, ray.origin, inverse, {0.0F, limit * (1.0F + k_distance_slack)});
+    }
+
+    /// Boxes are not visited in the order of the scene, so surfaces at the same distance are told apart by it.
+    void test(const SurfaceList& surfaces) {
+        for (const Surface* surface : surfaces) {
+            const std::optional<HitRecord> found = surface->hit(ray);
+            if (found && std::pair(found->distance, surface->order()) < std::pair(distance, order)) {
+                hit = found;
+                distance = found->distance;
+                order = surface->order();
+            }
         }
     }
-}
+};
 
-/// Whether a box that the ray enters there can only hold hits behind the closest one.
-bool begins_behind(float enter, const Closest& closest) {
-    return closest.hit && closest.hit->distance < enter * (1.0F - k_distance_slack);
-}
-
-void visit(const Node& node, const Ray& ray, Closest& closest) {
-    test_list(node.surfaces, ray, closest);
+void visit(const Node& node, Search& search) {
+    search.test(node.surfaces);
 
     struct Entry {
-        float enter = 0.0F;
-        const Node* child = nullptr;
+        float enter;
+        const Node* child;
     };
     std::array<Entry, 8> order;  // sorted by where the ray enters
     std::size_t count = 0;
     for (const Node& child : node.children) {
-        const std::optional<Interval> part = child.box.hit(ray);
-        if (part && !begins_behind(part->enter, closest)) {
+        if (const std::optional<Interval> part = search.enter(child.box, search.distance)) {
             std::size_t place = count++;
             for (; place > 0 && part->enter < order[place - 1].enter; --place) {
                 order[place] = order[place - 1];
@@ -188,11 +194,23 @@ void visit(const Node& node, const Ray& ray, Closest& closest) {
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        if (begins_behind(order[i].enter, closest)) {
-            return;  // and so do all boxes after it
+        if (order[i].enter * (1.0F - k_distance_slack) > search.distance) {
+            return;  // all that is in this box is behind the hit, and in all boxes after it
         }
-        visit(*order[i].child, ray, closest);
+        visit(*order[i].child, search);
     }
+}
+
+bool has_hit_before(float distance, const Node& root, Search& search) {
+    const auto is_near = [&](const Surface* surface) {
+        const std::optional<HitRecord> hit = surface->hit(search.ray);
+        return hit && hit->distance < distance;
+    };
+    const auto has_near = [&](const Node& child) {
+        return search.enter(child.box, distance) && has_hit_before(distance, child, search);
+    };
+    return std::any_of(root.surfaces.begin(), root.surfaces.end(), is_near) ||
+           std::any_of(root.children.begin(), root.children.end(), has_near);
 }
 
 }  // namespace
@@ -228,18 +246,7 @@ std::optional<Interval> Box::clip(const Ray& ray) const {
     // BEGIN SOLUTION Box::clip
     // TODO: Shorten the ray's interval by the two planes of each axis, until it is empty or all six are done.
     // RETURN std::nullopt
-    // Along an axis whose direction is 0 the distances are infinite: they leave the interval as it is, or make it
-    // empty where the origin is outside. On the very plane 0 * infinity is NaN, which max and min pass over.
-    const glm::vec3 inverse = 1.0F / ray.direction;
-    Interval inside;
-    for (int axis = 0; axis < 3; ++axis) {
-        const bool upwards = inverse[axis] >= 0.0F;
-        const float near_plane = upwards ? min[axis] : max[axis];
-        const float far_plane = upwards ? max[axis] : min[axis];
-        inside.enter = std::max(inside.enter, (near_plane - ray.origin[axis]) * inverse[axis]);
-        inside.leave = std::min(inside.leave, (far_plane - ray.origin[axis]) * inverse[axis]);
-    }
-    return inside.enter <= inside.leave ? std::optional(inside) : std::nullopt;
+    return part_inside(*this, ray.origin, 1.0F / ray.direction, {});
     // END SOLUTION
 }
 
@@ -301,7 +308,8 @@ Node build_octree(const SurfaceList& surfaces) {
     const float padding = padding_within(all);
     Node root{.box = all.padded(padding), .surfaces = large, .children = {}};
     if (!others.empty()) {
-        const Box box = bounds_of(others);
+        // Off centre: people model on grids, and what ends in the very middle would be in the cells on both sides.
+        const Box box{bounds_of(others).min - 4.0F * padding, bounds_of(others).max + 8.0F * padding};
         const std::uint64_t most_references = k_max_references * others.size();
         Node* const below = &root.children.emplace_back();
         build_all(
@@ -316,11 +324,11 @@ std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray)
     // BEGIN SOLUTION closest_hit_in_octree
     // TODO: Visit the boxes that the ray enters, near ones first, and stop when no later box can hold a nearer hit.
     // RETURN std::nullopt
-    Closest closest;
-    if (root.box.hit(ray)) {
-        visit(root, ray, closest);
+    Search search{ray};
+    if (search.enter(root.box, search.distance)) {
+        visit(root, search);
     }
-    return closest.hit;
+    return search.hit;
     // END SOLUTION
 }
 
@@ -328,17 +336,8 @@ bool occluded_in_octree(const Node& root, const Ray& ray, float distance) {
     // BEGIN SOLUTION occluded_in_octree
     // TODO: Visit the boxes that the ray enters before the distance, and stop at the first hit that is nearer.
     // RETURN false
-    const std::optional<Interval> part = root.box.hit(ray);
-    if (!part || part->enter * (1.0F - k_distance_slack) > distance) {
-        return false;
-    }
-    const auto is_near = [&](const Surface* surface) {
-        const std::optional<HitRecord> hit = surface->hit(ray);
-        return hit && hit->distance < distance;
-    };
-    const auto has_near = [&](const Node& child) { return occluded_in_octree(child, ray, distance); };
-    return std::any_of(root.surfaces.begin(), root.surfaces.end(), is_near) ||
-           std::any_of(root.children.begin(), root.children.end(), has_near);
+    Search search{ray};
+    return search.enter(root.box, distance) && has_hit_before(distance, root, search);
     // END SOLUTION
 }
 

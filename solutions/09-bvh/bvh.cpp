@@ -3,8 +3,12 @@
 #include "core/unfinished.hpp"
 
 // BEGIN SOLUTION
+#include "core/box_tests.hpp"
 #include "core/rounding.hpp"
 #include "core/threads.hpp"
+
+#include <atomic>
+#include <tuple>
 // END SOLUTION
 
 #include <algorithm>
@@ -62,13 +66,11 @@ struct Bin {
     }
 };
 
-/// Items [begin, end) are to become the subtree below nodes[node]. Whatever is below that node has its place from
-/// nodes[free] on: n surfaces need 2n - 1 nodes at most. So subtrees can be built in any order and at the same time.
+/// Items [begin, end) are to become the subtree below nodes[node].
 struct Range {
     std::size_t begin = 0;
     std::size_t end = 0;
-    std::size_t node = 0;
-    std::size_t free = 1;
+    std::uint32_t node = 0;
     int level = 0;
 
     [[nodiscard]] std::size_t size() const { return end - begin; }
@@ -86,33 +88,34 @@ public:
             ranges = split_all(ranges);
         }
         in_parallel(ranges.size(), [&](std::size_t i) { build_below(ranges[i]); });
-        return packed();
+        Bvh bvh{.nodes = std::vector<BvhNode>(1), .surfaces = SurfaceList(items_.size())};
+        bvh.nodes.reserve(used_nodes_);
+        copy_below(nodes_.front(), 0, padding_within(nodes_.front().box), bvh.nodes);
+        std::transform(items_.begin(), items_.end(), bvh.surfaces.begin(),
+                       [](const Item& item) { return item.surface; });
+        return bvh;
     }
 
 private:
     /// One level of the tree, on all threads.
     std::vector<Range> split_all(const std::vector<Range>& ranges) {
-        std::vector<std::optional<std::pair<Range, Range>>> halves(ranges.size());
-        in_parallel(ranges.size(), [&](std::size_t i) { halves[i] = split(ranges[i]); });
-        std::vector<Range> next;
-        for (const auto& pair : halves) {
-            if (pair) {
-                next.push_back(pair->first);
-                next.push_back(pair->second);
-            }
-        }
-        return next;
+        std::vector<Range> halves(2 * ranges.size());
+        in_parallel(ranges.size(),
+                    [&](std::size_t i) { std::tie(halves[2 * i], halves[2 * i + 1]) = split(ranges[i]); });
+        std::erase_if(halves, [](const Range& half) { return half.size() == 0; });
+        return halves;
     }
 
     void build_below(const Range& range) {
-        if (const auto halves = split(range)) {
-            build_below(halves->first);
-            build_below(halves->second);
+        if (range.size() > 0) {
+            const auto [left, right] = split(range);
+            build_below(left);
+            build_below(right);
         }
     }
 
     /// Fills in the node, and says what becomes of its two children; nothing where it is a leaf.
-    std::optional<std::pair<Range, Range>> split(const Range& range) {
+    std::pair<Range, Range> split(const Range& range) {
         BvhNode& node = nodes_[range.node];
         Box middles;
         for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -124,19 +127,12 @@ private:
         if (range.size() == 1 || (range.size() <= k_largest_leaf && size <= cut.cost)) {
             node.first = static_cast<std::uint32_t>(range.begin);
             node.count = static_cast<std::uint32_t>(range.size());
-            return std::nullopt;
+            return {};
         }
-        node.first = static_cast<std::uint32_t>(range.free);
+        node.first = used_nodes_.fetch_add(2);
         const std::size_t middle = divide(range, cut);
-        const std::size_t free = range.free + 2;
-        const std::size_t free_of_right = free + 2 * (middle - range.begin) - 2;
-        return std::pair(
-            Range{.begin = range.begin, .end = middle, .node = range.free, .free = free, .level = range.level + 1},
-            Range{.begin = middle,
-                  .end = range.end,
-                  .node = range.free + 1,
-                  .free = free_of_right,
-                  .level = range.level + 1});
+        return {{.begin = range.begin, .end = middle, .node = node.first, .level = range.level + 1},
+                {.begin = middle, .end = range.end, .node = node.first + 1, .level = range.level + 1}};
     }
 
     /// The cheapest of the cuts between bins; of infinite cost where all surfaces have the same middle.
@@ -167,7 +163,7 @@ private:
         for (std::size_t i = 1; i < k_bins; ++i) {
             left.add(bins[i - 1]);
             const Bin& right = from_right[i];
-            if (left.count > 0 && right.count > 0) {
+            if (bins[i - 1].count > 0 && right.count > 0) {  // or else it is the cut before it
                 const float cost = split_cost(left.box, left.count, right.box, right.count, whole);
                 if (cost < best.cost) {
                     best = {binning, i, cost};
@@ -188,32 +184,18 @@ private:
         return static_cast<std::size_t>(middle - items_.begin());
     }
 
-    /// The tree without the places that were kept free and not needed.
-    [[nodiscard]] Bvh packed() const {
-        std::vector<std::uint32_t> place(nodes_.size());
-        std::uint32_t used = 0;
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            place[i] = used;
-            used += is_used(nodes_[i]) ? 1U : 0U;
+    /// Depth first, in whatever order threads have made the nodes.
+    void copy_below(BvhNode node, std::size_t place, float padding, std::vector<BvhNode>& nodes) const {
+        if (!node.is_leaf()) {
+            const std::size_t first = nodes.size();
+            nodes.resize(first + 2);
+            copy_below(nodes_[node.first], first, padding, nodes);
+            copy_below(nodes_[node.first + 1], first + 1, padding, nodes);
+            node.first = static_cast<std::uint32_t>(first);
         }
-        const float padding = padding_within(nodes_.front().box);
-        Bvh bvh;
-        bvh.nodes.reserve(used);
-        for (const BvhNode& node : nodes_) {
-            if (is_used(node)) {
-                bvh.nodes.push_back({.box = node.box.padded(padding),
-                                     .first = node.is_leaf() ? node.first : place[node.first],
-                                     .count = node.count});
-            }
-        }
-        bvh.surfaces.reserve(items_.size());
-        for (const Item& item : items_) {
-            bvh.surfaces.push_back(item.surface);
-        }
-        return bvh;
+        node.box = node.box.padded(padding);
+        nodes[place] = node;
     }
-
-    static bool is_used(const BvhNode& node) { return node.is_leaf() || node.first > 0; }
 
     /// Calls work(0) to work(count - 1), on all threads where the scene is large.
     template <typename Work>
@@ -223,11 +205,9 @@ private:
     }
 
     std::vector<Item> items_;
-    std::vector<BvhNode> nodes_;
+    std::vector<BvhNode> nodes_;  // n surfaces need 2n - 1 at most
+    std::atomic<std::uint32_t> used_nodes_{1};
 };
-
-/// Whether a box that the ray enters there can only hold hits behind that distance.
-bool begins_behind(float enter, float distance) { return distance < enter * (1.0F - k_distance_slack); }
 
 struct Closest {
     std::optional<HitRecord> hit;
@@ -245,23 +225,33 @@ struct Closest {
     }
 };
 
-/// A node that is still to be visited, and where the ray enters its box.
-struct Entry {
-    float enter = 0.0F;
-    std::uint32_t node = 0;
+/// One ray among many boxes. It divides once, and its test is compiled into the searches: Box::hit is a call for each.
+struct Slabs {
+    glm::vec3 origin;
+    glm::vec3 inverse;
+    BoxTests tests;
+    explicit Slabs(const Ray& ray) : origin(ray.origin), inverse(1.0F / ray.direction), tests(ray) {}
+
+    /// Where the ray enters the box; nothing where it misses it, or enters it behind the distance. See Box::clip.
+    [[nodiscard]] std::optional<float> enter(const Box& box, float distance) {
+        tests.add(box);
+        float enter = 0.0F;
+        float leave = distance * (1.0F + k_distance_slack);
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool upwards = inverse[axis] >= 0.0F;
+            const float near_plane = upwards ? box.min[axis] : box.max[axis];
+            const float far_plane = upwards ? box.max[axis] : box.min[axis];
+            enter = std::max(enter, (near_plane - origin[axis]) * inverse[axis]);
+            leave = std::min(leave, (far_plane - origin[axis]) * inverse[axis]);
+        }
+        return enter <= leave ? std::optional(enter) : std::nullopt;
+    }
 };
 
-/// Never holds more than one entry for each level, and one more.
-template <typename T>
-class Stack {
-public:
-    void push(const T& entry) { entries_[size_++] = entry; }
-    [[nodiscard]] T pop() { return entries_[--size_]; }
-    [[nodiscard]] bool empty() const { return size_ == 0; }
-
-private:
-    std::array<T, k_max_bvh_levels + 1> entries_;
-    std::size_t size_ = 0;
+/// A node that is still to be visited, and where the ray enters its box.
+struct Entry {
+    float enter;
+    const BvhNode* node;
 };
 
 }  // namespace
@@ -304,34 +294,38 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
     // TODO: Visit the child first that the ray enters first, and skip boxes that begin behind the nearest hit so far.
     // RETURN std::nullopt
     Closest closest;
-    Stack<Entry> open;
-    const auto part = bvh.nodes.empty() ? std::nullopt : bvh.nodes.front().box.hit(ray);
-    if (part) {
-        open.push({part->enter, 0});
+    Slabs slabs(ray);
+    std::array<Entry, k_max_bvh_levels> open;  // the far child of each level
+    std::size_t size = 0;
+    if (!bvh.nodes.empty() && slabs.enter(bvh.nodes.front().box, closest.distance)) {
+        open[size++] = {0.0F, &bvh.nodes.front()};
     }
-    while (!open.empty()) {
-        const Entry entry = open.pop();
-        if (begins_behind(entry.enter, closest.distance)) {
+    while (size > 0) {
+        const Entry entry = open[--size];
+        if (entry.enter * (1.0F - k_distance_slack) > closest.distance) {
             continue;
         }
-        const BvhNode& node = bvh.nodes[entry.node];
-        for (std::uint32_t i = 0; i < node.count; ++i) {
-            closest.ask(*bvh.surfaces[node.first + i], ray);
+        const BvhNode* node = entry.node;
+        while (!node->is_leaf()) {
+            const BvhNode* child = &bvh.nodes[node->first];
+            const std::optional<float> first = slabs.enter(child[0].box, closest.distance);
+            const std::optional<float> second = slabs.enter(child[1].box, closest.distance);
+            if (first && second && *second < *first) {
+                open[size++] = {*first, child};
+                node = child + 1;
+            } else if (first) {
+                if (second) {
+                    open[size++] = {*second, child + 1};
+                }
+                node = child;
+            } else if (second) {
+                node = child + 1;
+            } else {
+                break;
+            }
         }
-        if (node.is_leaf()) {
-            continue;
-        }
-        const std::optional<Interval> first = bvh.nodes[node.first].box.hit(ray);
-        const std::optional<Interval> second = bvh.nodes[node.first + 1].box.hit(ray);
-        const bool second_is_nearer = first && second && second->enter < first->enter;
-        if (first && second_is_nearer) {
-            open.push({first->enter, node.first});
-        }
-        if (second) {
-            open.push({second->enter, node.first + 1});
-        }
-        if (first && !second_is_nearer) {
-            open.push({first->enter, node.first});
+        for (std::uint32_t i = 0; i < node->count; ++i) {
+            closest.ask(*bvh.surfaces[node->first + i], ray);
         }
     }
     return closest.hit;
@@ -342,25 +336,27 @@ bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
     // BEGIN SOLUTION occluded_in_bvh
     // TODO: Visit the boxes that begin before the distance, in any order, until a surface is hit before it.
     // RETURN false
-    Stack<std::uint32_t> open;
+    Slabs slabs(ray);
+    std::array<const BvhNode*, k_max_bvh_levels> open;
+    std::size_t size = 0;
     if (!bvh.nodes.empty()) {
-        open.push(0);
+        open[size++] = &bvh.nodes.front();
     }
-    while (!open.empty()) {
-        const BvhNode& node = bvh.nodes[open.pop()];
-        const std::optional<Interval> part = node.box.hit(ray);
-        if (!part || begins_behind(part->enter, distance)) {
-            continue;
-        }
-        for (std::uint32_t i = 0; i < node.count; ++i) {
-            const std::optional<HitRecord> hit = bvh.surfaces[node.first + i]->hit(ray);
-            if (hit && hit->distance < distance) {
-                return true;
+    while (size > 0) {
+        const BvhNode* node = open[--size];
+        while (slabs.enter(node->box, distance)) {
+            if (!node->is_leaf()) {
+                node = &bvh.nodes[node->first];
+                open[size++] = node + 1;
+                continue;
             }
-        }
-        if (!node.is_leaf()) {
-            open.push(node.first + 1);
-            open.push(node.first);
+            for (std::uint32_t i = 0; i < node->count; ++i) {
+                const std::optional<HitRecord> hit = bvh.surfaces[node->first + i]->hit(ray);
+                if (hit && hit->distance < distance) {
+                    return true;
+                }
+            }
+            break;
         }
     }
     return false;

@@ -17,7 +17,7 @@ CONTRACTS_PAGE = Path("docs/contracts.md")
 _MADE = (COMMANDS_PAGE, CORE_PAGE, CONTRACTS_PAGE)
 MISTAKES = Path("docs/mistakes/README.md")
 _SECTIONS = (
-    ("For students", ("students", "where-students-work", "paper")),
+    ("For students", ("students", "where-students-work", "paper", "where-rays-go")),
     ("For instructors", ("instructors", "class", "exports", "release")),
     ("Tools", ("watch", "inspect", "view", "maps", "finale", "gallery", "pages")),
     ("Reference", ("glossary", "commands", "contracts", "core", "formats", "mistakes/README", "spd", "benchmarks")),

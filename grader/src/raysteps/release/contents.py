@@ -173,6 +173,7 @@ _DOCS = {  # what a student looks up
     "students.md",
     "view.md",
     "watch.md",
+    "where-rays-go.md",
     "where-students-work.md",
 }
 # The framework's own tests need a reference; the judge's worker, the boxes, the wide trees and the rays of the SPD

@@ -184,7 +184,8 @@ def not_searched(folder: Path) -> str:
     return join_and([*named, *caches]) if made else ""
 
 
-_LENGTH = re.compile(r"(?<![0-9])[0-9]{1,3}(?=[A-Za-z_])")
+# The 1 of _GLOBAL__N_1, a namespace without a name, is no part of the length after it.
+_LENGTH = re.compile(r"((?<![0-9])(?<!GLOBAL__N_)|(?<=GLOBAL__N_1))[0-9]{1,3}(?=[A-Za-z_])")
 # Where the kit keeps what it knows. A release has no folder or file of such a name.
 _TELLING = {
     "alternatives", "cases.toml", "course.toml", "judge", "judge.py", "mutants.toml", "samples", "solutions",
