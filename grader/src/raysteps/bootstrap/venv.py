@@ -39,11 +39,14 @@ class CannotSetUp(Exception):
 # Three sets of packages: the student's, which every kit needs, and on top of it those of the extras of pyproject.toml.
 INSTRUCTOR = "instructor"
 MAKER = "dev"
+PLAY = "play"
 _OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, and what of them where it is not all
 
 
 def set_for(words: Sequence[str]) -> str:
     """What a command needs beside the usual set of its kit; nothing for most."""
+    if words[:1] == [PLAY]:
+        return PLAY
     some = _OF_MAKERS.get(words[0]) if words else None
     return MAKER if some is not None and (not some or (words[1:2] and words[1] in some)) else ""
 
