@@ -23,7 +23,7 @@ from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
 from raysteps.play.packages import CLANG, EDITOR, fetch
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import WebKit
+from raysteps.play.web_kit import WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
 
 Say = Callable[[str], None]
@@ -129,6 +129,16 @@ def _system(clang: WebClang, kit: WebKit, project: Project) -> dict[str, bytes]:
     return found | {f"kit/{path.relative_to(project.root).as_posix()}": path.read_bytes() for path in own}
 
 
+_FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\n)*")
+
+
+def first_includes(source: str) -> str:
+    """What a source includes before anything else stands in it; the page finds it in the same way."""
+    found = _FIRST.match(source)
+    assert found is not None  # it takes nothing, too
+    return "".join(f"{line.strip()}\n" for line in found[0].splitlines() if line.strip().startswith("#"))
+
+
 class PlayPage:
     """Puts the page together in a folder."""
 
@@ -165,6 +175,7 @@ class PlayPage:
             "input": INPUT,
             "output": OUTPUT,
             "compile": self._kit.step_command(),
+            "headers": self._kit.headers_command(),
             "link": self._clang.link_command(),
             "steps": {step.number: self._compiled(step) for step in steps},
         }
@@ -200,10 +211,15 @@ class PlayPage:
                 path.unlink()
 
     def _compiled(self, step: Step) -> dict[str, Any]:
-        made = self._kit.headers(step)
+        includes = first_includes(pristine_stub(self._project, step))
+        made = self._kit.headers(step, includes)
         name = self._write(f"steps/{step.number}.pch.gz", _squeezed(made, made.parent))
         source = f"/kit/steps/{step.path.as_posix()}"
-        return {"number": step.number, "source": source, "headers": {"file": name, "path": f"/parts/{step.number}.pch"}}
+        return {
+            "number": step.number,
+            "source": source,
+            "headers": {"includes": includes, "file": name, "path": headers_path(step)},
+        }
 
     def _figure(self, path: str) -> str:
         found = self._project.root / path

@@ -88,6 +88,11 @@ class Sources:
         return [*outside, *fetched, *map(Path, _USUAL_FOLDERS)]
 
 
+def headers_path(step: Step) -> str:
+    """Where the first lines of the step's source stand by themselves."""
+    return f"{_WORK}/headers-{step.number}.hpp"
+
+
 @dataclass(frozen=True)
 class Parts:
     """Files by their paths, and which of them belong together."""
@@ -149,11 +154,11 @@ class WebKit:
             for level, header in (("-O2", False), ("-O1", False), ("-O2", True))
         }
 
-    def _made(self, source: Source, level: str, flags: Iterable[str], *, header: bool = False) -> Path:
-        """The object, or the compiled header."""
-        words = [*self._commands[level, header], *_INCLUDES, *source.words, *flags]
+    def _made(self, source: Source, level: str, flags: Iterable[str]) -> Path:
+        """The object."""
+        words = [*self._commands[level, False], *_INCLUDES, *source.words, *flags]
         path = self._project.root / source.path
-        target = self._cache / "objects" / f"{self._mark(path, words)}{'.pch' if header else '.o'}"
+        target = self._cache / "objects" / f"{self._mark(path, words)}.o"
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
                 named = {INPUT: f"{_KIT}/{source.path}", OUTPUT: f"{_WORK}/made"}
@@ -233,13 +238,24 @@ class WebKit:
         """How a student's step is compiled."""
         return [*self._commands["-O2", False], *_INCLUDES, *_WARNINGS, "-fno-caret-diagnostics"]
 
-    def headers(self, step: Step) -> Path:
-        """The step's contract as the compiler keeps it in memory, with what it includes: all stubs begin with it. Other
-        headers are read when a file asks for them, so that one that is missing is missed here as everywhere."""
-        (header,) = (self._project.steps / step.id).glob("*.hpp")
-        path = header.relative_to(self._project.root).as_posix()
-        flags = [*_WARNINGS, "-fno-pch-timestamp"]
-        return self._made(Source("headers", path, ()), "-O2", flags, header=True)
+    def headers(self, step: Step, includes: str) -> Path:
+        """What the first lines of a source include, as the compiler keeps it in memory. No more than these: a header
+        that is missing is missed in the page as everywhere."""
+        words = [*self.headers_command()]
+        target = self._kept("pch", self._headers_mark.hex(), step.number, includes, *words)
+        if not target.is_file():
+            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+                path = headers_path(step)
+                (Path(folder) / Path(path).name).write_text(includes, encoding="utf-8", newline="\n")
+                named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
+                self._clang.make([named.get(word, word) for word in words], {**self._places, _WORK: Path(folder)})
+                write_bytes(target, (Path(folder) / "made").read_bytes())
+        return target
+
+    def headers_command(self) -> list[str]:
+        """How these are compiled; the page does it, too, when a student includes something else."""
+        flags = ("-fno-pch-timestamp", "-fpch-instantiate-templates")
+        return [*self._commands["-O2", True], *_INCLUDES, *_WARNINGS, *flags]
 
     def _program(self, step: Step) -> Path:
         """With the visible tests of the step; every step is the model's."""

@@ -7,7 +7,7 @@ const files = new Files();
 let clang = null;
 let kit = null;
 const compiled = new Map(); // objects by step and source
-const headers = new Set(); // steps whose compiled headers are there
+const headers = new Map(); // compiled ones, by step
 
 /** A file of the page, packed or not, with word of how much of it has come. */
 async function loaded(name, isWasm = false) {
@@ -47,11 +47,30 @@ async function prepare(message) {
   postMessage({ ready: true, clang: message.clang ? null : clang });
 }
 
-async function prepareStep(step) {
-  if (!headers.has(step.number)) {
-    files.write(step.headers.path, await bytesOf(step.headers.file));
-    headers.add(step.number);
+/** What a source includes before anything else stands in it. */
+function firstIncludes(source) {
+  const [first] = /^(?:[ \t]*(?:#[ \t]*include[^\n]*|\/\/[^\n]*)?\n)*/.exec(source);
+  const lines = first.split("\n").map((line) => line.trim());
+  return lines.filter((line) => line.startsWith("#")).map((line) => `${line}\n`).join("");
+}
+
+/** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */
+async function prepareHeaders(step, source) {
+  const includes = firstIncludes(source);
+  const path = `${step.headers.path}.pch`;
+  const known = headers.get(step.number);
+  if (known?.includes !== includes) {
+    files.write(step.headers.path, new TextEncoder().encode(includes));
+    files.remove(path);
+    let code = 0;
+    if (includes === step.headers.includes) {
+      files.write(path, await bytesOf(step.headers.file));
+    } else {
+      code = runProgram(clang, filled(kit.headers, [step.headers.path], path), files).code;
+    }
+    headers.set(step.number, { includes, path: code === 0 ? path : null });
   }
+  return headers.get(step.number).path;
 }
 
 /** The words of a command with the names of these files. */
@@ -60,7 +79,7 @@ function filled(command, input, output) {
 }
 
 /** The path of the object, and what the compiler says. */
-function compile(step, source) {
+async function compile(step, source) {
   const key = `${step.number} ${source}`;
   const known = compiled.get(step.number);
   if (known?.key === key) {
@@ -69,7 +88,8 @@ function compile(step, source) {
   const object = `/work/own-${step.number}.o`;
   files.remove(object);
   files.write(step.source, new TextEncoder().encode(source));
-  const words = [...filled(kit.compile, [step.source], object), "-include-pch", step.headers.path];
+  const path = await prepareHeaders(step, source);
+  const words = [...filled(kit.compile, [step.source], object), ...(path ? ["-include-pch", path] : [])];
   const said = runProgram(clang, words, files);
   const made = { key, object, code: said.code, says: said.stderr + said.stdout };
   compiled.set(step.number, made);
@@ -92,8 +112,7 @@ async function build({ job, number, sources }) {
   const own = new Map();
   for (const [one, source] of Object.entries(sources)) {
     const step = kit.steps[one];
-    await prepareStep(step);
-    const made = compile(step, source);
+    const made = await compile(step, source);
     if (one === number || made.code !== 0) {
       postMessage({ job, says: { number: one, code: made.code, text: made.says } });
     }

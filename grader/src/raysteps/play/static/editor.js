@@ -41,6 +41,21 @@ function completions(names) {
   };
 }
 
+/** What is typed over a selection: a browser would do it with styles of its own, which the page's policy forbids. */
+function typedOver(event, view) {
+  const { from, to } = view.state.selection.main;
+  if (event.inputType !== "insertText" || event.isComposing || !event.data || from === to) {
+    return false;
+  }
+  const insert = () => view.state.update(view.state.replaceSelection(event.data), { userEvent: "input.type" });
+  const handlers = view.state.facet(EditorView.inputHandler);
+  if (!handlers.some((handler) => handler(view, from, to, event.data, insert))) {
+    view.dispatch(insert());
+  }
+  event.preventDefault();
+  return true;
+}
+
 /** Fills a room of the page with an editor. It stands in a shadow tree, whose styles no policy has to allow. */
 export class Editor {
   #view;
@@ -72,6 +87,7 @@ export class Editor {
       highlightSelectionMatches(),
       lintGutter(),
       LOOK,
+      EditorView.domEventHandlers({ beforeinput: typedOver }),
       EditorView.contentAttributes.of({ "aria-label": this.label, spellcheck: "false" }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged && !this.#isLoading) {

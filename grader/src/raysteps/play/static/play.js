@@ -9,7 +9,7 @@ import { Work, zipOf } from "./work.js";
 const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
-const ON_THE_CLOCK = 2; // seconds for one that a program may take: others may use the machine, too
+const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
 
 /** The functions of a source that still say that they are not written. */
@@ -79,7 +79,7 @@ class Page {
       }
     });
     addEventListener("keydown", (event) => {
-      if ((event.ctrlKey || event.metaKey) && (event.key === "s" || event.key === "Enter")) {
+      if ((event.ctrlKey || event.metaKey) && (event.key.toLowerCase() === "s" || event.key === "Enter")) {
         event.preventDefault();
         this.run();
       }
@@ -108,7 +108,7 @@ class Page {
     const handout = await fetch(`steps/${wanted.number}.html`);
     element("play-handout").innerHTML = await handout.text();
     element("play-handout").scrollTop = 0;
-    for (const room of ["play-pictures", "play-tests", "play-problems", "play-hints"]) {
+    for (const room of ["play-first", "play-pictures", "play-tests", "play-problems", "play-hints"]) {
       element(room).replaceChildren();
     }
     element("play-console").textContent = "";
@@ -279,11 +279,12 @@ class Page {
 
   async #test(step, module, current) {
     const words = ["test", "-r", "xml", "-o", "/out/report.xml"];
-    const limit = ON_THE_CLOCK * step.seconds;
-    const ask = (more = []) =>
-      this.#tester.run({ module, words: [...words, ...more], files: {}, wanted: ["/out/report.xml"] }, limit);
+    const task = { module, files: {}, wanted: ["/out/report.xml"] };
+    let limit = step.seconds;
+    const ask = (more = []) => this.#tester.run({ ...task, words: [...words, ...more] }, limit);
     const reportOf = (ran) => readReport(new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array()));
     const together = await ask();
+    limit /= together.stopped ? AFTER_A_STOP : 1;
     let results = together.code === undefined ? null : reportOf(together);
     if (results?.length !== step.tests.length) {
       results = [];
@@ -341,6 +342,7 @@ class Page {
 
   async #paint(step, module, current, start) {
     const verdicts = [];
+    let limit = step.seconds;
     for (const picture of step.pictures) {
       const shown = this.#frame(picture);
       const task = {
@@ -352,10 +354,11 @@ class Page {
       if (!current()) {
         return [];
       }
-      const ran = await this.#painter.run(task, ON_THE_CLOCK * step.seconds, (tile) => current() && shown.tile(tile));
+      const ran = await this.#painter.run(task, limit, (tile) => current() && shown.tile(tile));
       if (!current()) {
         return [];
       }
+      limit /= ran.stopped ? AFTER_A_STOP : 1;
       this.#print(ran);
       const verdict = await this.#judge(picture, ran, shown);
       verdicts.push(verdict);
@@ -374,11 +377,11 @@ class Page {
       root = make(
         "article",
         { class: "play-picture", id },
-        make("h3", {}, picture.name, make("span", {})),
+        make("h3", {}, picture.name, make("span", {}), this.#numbersButton()),
         make("p", { class: "play-words" }),
         make("div", { class: "play-pair" }, canvas, goal),
       );
-      element("play-pictures").append(root);
+      element(picture === this.#step.pictures[0] ? "play-first" : "play-pictures").append(root);
     }
     const [canvas] = root.getElementsByTagName("canvas");
     const pair = root.querySelector(".play-pair");
@@ -399,6 +402,17 @@ class Page {
       },
       done: () => delete canvas.dataset.grows,
     };
+  }
+
+  /** Shows and hides what a comparison tells of single pixels. */
+  #numbersButton() {
+    const button = make("button", { type: "button", class: "play-numbers", "aria-pressed": "false" }, "Numbers");
+    button.addEventListener("click", () => {
+      const isOn = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(isOn));
+      button.closest(".play-picture").classList.toggle("play-with-numbers", isOn);
+    });
+    return button;
   }
 
   async #judge(picture, ran, shown) {
