@@ -37,10 +37,10 @@ struct Header {
     void* object;
     const std::type_info* type;
     Destroy destroy;
-    std::size_t references;  ///< those of exception_ptr, and one for being thrown
-    int handlers;            ///< that hold it now; negative while one of them throws it again
-    Header* next;            ///< what was caught before it and is not done with
-    void* adjusted;          ///< the object as its handler sees it
+    std::size_t references;               ///< those of exception_ptr, and one for being thrown
+    int handlers;                         ///< that hold it now; negative while one of them throws it again
+    Header* next;                         ///< what was caught before it and is not done with
+    void* adjusted;                       ///< the object as its handler sees it
     alignas(16) std::uint64_t thrown[2];  ///< the address of this is what travels
 };
 

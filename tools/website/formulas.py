@@ -8,6 +8,7 @@ from docutils import nodes
 
 from raysteps.common.markdown import BadFormula, formulas, mathml
 
+
 def bad_formulas(root: Path, documents: Iterable[Path]) -> list[str]:
     """One line for each that cannot be shown."""
     found = []

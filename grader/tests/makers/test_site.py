@@ -12,7 +12,7 @@ from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 
 from raysteps.cli.app import main, new_parser
 from raysteps.common.errors import UsageError
-from raysteps.common.markdown import anchors, formulas
+from raysteps.common.markdown import BadFormula, anchors, formulas, mathml
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
 from tools.website.build import check_place, put

@@ -138,7 +138,8 @@ EDITOR = (
 
 def registry_of(words: str | None) -> str:
     """The one that was named, else the one that npm itself would ask."""
-    return (words or os.environ.get("npm_config_registry") or REGISTRY).rstrip("/")
+    named = os.environ.get("npm_config_registry")  # noqa: SIM112 - npm writes it so
+    return (words or named or REGISTRY).rstrip("/")
 
 
 def _loaded(address: str, heard: Callable[[int], None]) -> bytes:
@@ -150,6 +151,9 @@ def _loaded(address: str, heard: Callable[[int], None]) -> bytes:
             heard(data.tell())
             if data.tell() > _MAX_BYTES:
                 raise OSError("it is larger than any package that is asked for")
+        length = answer.headers.get("Content-Length")
+        if length is not None and int(length) != data.tell():
+            raise OSError(f"only {data.tell()} of {length} bytes came")
         return data.getvalue()
 
 
@@ -171,7 +175,8 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
     try:
         data = _loaded(address, lambda done: say(f"loading down {package.name}, {done / 1e6:.1f} MB"))
     except (OSError, http.client.HTTPException) as error:
-        why = reason(error.reason) if isinstance(getattr(error, "reason", None), OSError) else reason(error)
+        inner = getattr(error, "reason", None)  # of an error of urllib
+        why = reason(inner if isinstance(inner, OSError) else error)
         raise UsageError(
             f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names a mirror"
         ) from error

@@ -57,7 +57,7 @@ def _editor(cache: Path, registry: str, say: Say) -> Iterator[tuple[str, bytes]]
 # Handouts.
 
 
-def _handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]) -> str:
+def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]) -> str:
     """HTML. `number_of` maps the folders of steps to their numbers; `shown` gives the place of a picture."""
     from markdown_it import MarkdownIt
 
@@ -185,7 +185,7 @@ class PlayPage:
             "noTests": NO_TESTS,
             "tooManyTests": TOO_MANY_TESTS,
         }
-        data = {
+        content = {
             "model": self._kit.model,
             "kit": kit,
             "steps": [self._described(step, steps) for step in steps],
@@ -197,7 +197,7 @@ class PlayPage:
             {},
             scripts=(*COMPARE_SCRIPTS, "watch-parts"),
             styles=(*COMPARE_STYLES, "watch", "play"),
-            data=data,
+            data=content,
             module="play.js",
         )
         self._write("index.html", page.encode())
@@ -230,7 +230,7 @@ class PlayPage:
     def _described(self, step: Step, steps: list[Step]) -> dict[str, Any]:
         text = (self._project.steps / step.id / "README.md").read_text("utf-8")
         numbers = {other.id: other.number for other in steps}
-        self._write(f"steps/{step.number}.html", _handout(text, numbers, self._figure).encode())
+        self._write(f"steps/{step.number}.html", handout(text, numbers, self._figure).encode())
         headers = [path.read_text("utf-8") for path in sorted((self._project.steps / step.id).glob("*.hpp"))]
         return {
             "number": step.number,

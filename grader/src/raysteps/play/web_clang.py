@@ -116,7 +116,8 @@ class WebClang:
             linker.define_func("page", "show_tile", FuncType([ValType.i32()] * 5, []), lambda *where: None)
             code = 0
             try:
-                linker.instantiate(store, module).exports(store)["_start"](store)
+                start: Any = linker.instantiate(store, module).exports(store)["_start"]
+                start(store)
             except ExitTrap as end:
                 code = end.code
             except Trap as trap:

@@ -7,7 +7,7 @@ import re
 import shlex
 import shutil
 import tempfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
@@ -29,7 +29,7 @@ _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno
 _QUIET = "-w"  # the native build warns about the kit's own code
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
 _TESTING = ("-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
-_TEST_MAIN, _RAYTRACE_MAIN = "-Dmain=test_main", "-Dmain=raytrace_main"
+_TEST_MAIN, _RAYTRACE = "-Dmain=test_main", ("-Dmain=raytrace_main",)
 # Libraries that are headers only: the folder or file of each, and where packages put it.
 _HEADERS = {"glm": ("glm",), "catch2": ("catch2",), "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h")}
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
@@ -40,9 +40,17 @@ _MOST_AT_ONCE = 4  # each takes some 300 MB
 class Source:
     """A file of the kit and how CMake compiles it, as far as that is not the machine's own."""
 
-    target: str
     path: str  # from the root
-    words: tuple[str, ...]
+    words: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """An object that is to be made."""
+
+    source: Source
+    level: str = "-O2"
+    flags: tuple[str, ...] = ()
 
 
 def _words_of(entry: Mapping[str, str]) -> list[str]:
@@ -69,13 +77,15 @@ class Sources:
         """The sources of one of CMake's targets, none where there is no such target."""
         mark = f"CMakeFiles/{target}.dir/"
         found = [(path, words) for path, words in self._entries if any(mark in word for word in words)]
-        return [Source(target, self._inside(path), self._words(words)) for path, words in found]
+        return [Source(self._inside(path), self._words(words)) for path, words in found]
 
     def _inside(self, path: Path) -> str:
         return path.resolve().relative_to(self._root).as_posix()
 
     def _words(self, words: Sequence[str]) -> tuple[str, ...]:
-        defined = [f"-D{word[2:]}" for word in words if re.match(r"[-/]D\w", word) and not word[2:].startswith("NDEBUG")]
+        defined = [
+            f"-D{word[2:]}" for word in words if re.match(r"[-/]D\w", word) and not word[2:].startswith("NDEBUG")
+        ]
         inside = [Path(folder).resolve() for folder in _folders(words)]
         own = [folder for folder in inside if folder.is_relative_to(self._root / "framework")]
         return (*defined, *(f"-I{_KIT}/{self._inside(folder)}" for folder in own))
@@ -154,58 +164,58 @@ class WebKit:
             for level, header in (("-O2", False), ("-O1", False), ("-O2", True))
         }
 
-    def _made(self, source: Source, level: str, flags: Iterable[str]) -> Path:
+    def _made(self, wanted: Wanted) -> Path:
         """The object."""
-        words = [*self._commands[level, False], *_INCLUDES, *source.words, *flags]
-        path = self._project.root / source.path
-        target = self._cache / "objects" / f"{self._mark(path, words)}.o"
+        source = wanted.source
+        words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags, _QUIET]
+        target = self._cache / "objects" / f"{self._mark(self._project.root / source.path, words)}.o"
         if not target.is_file():
-            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-                named = {INPUT: f"{_KIT}/{source.path}", OUTPUT: f"{_WORK}/made"}
-                command = [named.get(word, word) for word in words]
-                self._clang.make(command, {**self._places, _WORK: Path(folder)})
-                write_bytes(target, (Path(folder) / "made").read_bytes())
+            self._compile(words, f"{_KIT}/{source.path}", target)
         return target
 
-    def _all(self, sources: Sequence[Source], level: str, flags: Sequence[str]) -> list[Path]:
-        return [self._made(source, level, (*flags, _QUIET)) for source in sources]
+    def _compile(self, words: Sequence[str], path: str, target: Path, more: Mapping[str, str] | None = None) -> None:
+        """`more` are texts that lie beside what is made, by their names."""
+        with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+            for name, text in (more or {}).items():
+                (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
+            named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
+            self._clang.make([named.get(word, word) for word in words], {**self._places, _WORK: Path(folder)})
+            write_bytes(target, (Path(folder) / "made").read_bytes())
 
-    def _tasks(self) -> dict[str, list[Callable[[], Path]]]:
+    def _wanted(self) -> dict[str, list[Wanted]]:
         """What is to be made, by the name of the part that it belongs to."""
         of = self._sources.of
-        kit: list[tuple[Source, str, tuple[str, ...]]] = []
-        for target in ("raysteps-core", "raysteps-io", "raysteps-render", "raysteps-absent"):
-            kit += [(source, "-O2", ()) for source in of(target)]
-        kit += [(source, "-O2", (_RAYTRACE_MAIN,)) for source in of("raytrace-app")]
-        kit += [(source, "-O1", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")]
+        libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
         web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
-        own = [Source("web", path.relative_to(self._project.root).as_posix(), ()) for path in web]
-        parts = {"kit": kit, "web": [(source, "-O2", ()) for source in own]}
+        parts = {
+            "web": [Wanted(Source(path.relative_to(self._project.root).as_posix())) for path in web],
+            "kit": [
+                *(Wanted(source) for source in libraries),
+                *(Wanted(source, flags=_RAYTRACE) for source in of("raytrace-app")),
+                *(Wanted(source, "-O1", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
+            ],
+        }
         for step in self.steps:
-            parts[f"test-{step.number}"] = [(one, "-O1", _TESTING) for one in of(f"test-{step.number}-objects")]
-            parts[f"step-{step.number}"] = [(one, "-O2", ()) for one in of(f"step-{step.number}-{self.model}-raw")]
+            tests, own = of(f"test-{step.number}-objects"), of(f"step-{step.number}-{self.model}-raw")
+            parts[f"test-{step.number}"] = [Wanted(source, "-O1", _TESTING) for source in tests]
+            parts[f"step-{step.number}"] = [Wanted(source) for source in own]
         if not all(parts.values()):
             raise GraderFault("CMake's list of commands lacks parts of the kit")
-        return {
-            name: [lambda one=one: self._made(one[0], one[1], (*one[2], _QUIET)) for one in sources]  # type: ignore[misc]
-            for name, sources in parts.items()
-        }
+        return parts
 
     @cached_property
     def _objects(self) -> dict[str, list[Path]]:
         """`kit`, `web`, `test-NN` and `step-NN`."""
-        tasks = self._tasks()
-        total, done = sum(map(len, tasks.values())), 0
-        _ = self._commands, self._places, self._headers_mark
+        parts = self._wanted()
+        total, done = sum(map(len, parts.values())), 0
+        _ = self._commands, self._places, self._headers_mark  # before several ask for them at once
         with ThreadPoolExecutor(min(_MOST_AT_ONCE, os.cpu_count() or 1)) as pool:
-            waiting = {name: [pool.submit(task) for task in some] for name, some in tasks.items()}
+            waiting = {name: [pool.submit(self._made, one) for one in some] for name, some in parts.items()}
             made: dict[str, list[Path]] = {}
             for name, some in waiting.items():
-                made[name] = []
-                for one in some:
-                    made[name].append(one.result())
-                    done += 1
-                    self._say(f"compiling the kit for the page: {done} of {total}")
+                made[name] = [one.result() for one in some]
+                done += len(some)
+                self._say(f"compiling the kit for the page (once): {done} of {total}")
         return made
 
     # What the page is given.
@@ -241,15 +251,10 @@ class WebKit:
     def headers(self, step: Step, includes: str) -> Path:
         """What the first lines of a source include, as the compiler keeps it in memory. No more than these: a header
         that is missing is missed in the page as everywhere."""
-        words = [*self.headers_command()]
+        words, path = self.headers_command(), headers_path(step)
         target = self._kept("pch", self._headers_mark.hex(), step.number, includes, *words)
         if not target.is_file():
-            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-                path = headers_path(step)
-                (Path(folder) / Path(path).name).write_text(includes, encoding="utf-8", newline="\n")
-                named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
-                self._clang.make([named.get(word, word) for word in words], {**self._places, _WORK: Path(folder)})
-                write_bytes(target, (Path(folder) / "made").read_bytes())
+            self._compile(words, path, target, {Path(path).name: includes})
         return target
 
     def headers_command(self) -> list[str]:

@@ -51,7 +51,10 @@ async function prepare(message) {
 function firstIncludes(source) {
   const [first] = /^(?:[ \t]*(?:#[ \t]*include[^\n]*|\/\/[^\n]*)?\n)*/.exec(source);
   const lines = first.split("\n").map((line) => line.trim());
-  return lines.filter((line) => line.startsWith("#")).map((line) => `${line}\n`).join("");
+  return lines
+    .filter((line) => line.startsWith("#"))
+    .map((line) => `${line}\n`)
+    .join("");
 }
 
 /** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */

@@ -137,7 +137,10 @@ export class Editor {
   /** Shows a line. */
   goTo(line) {
     const place = this.#view.state.doc.line(Math.min(Math.max(line, 1), this.#view.state.doc.lines));
-    this.#view.dispatch({ selection: { anchor: place.from }, effects: EditorView.scrollIntoView(place.from, { y: "center" }) });
+    this.#view.dispatch({
+      selection: { anchor: place.from },
+      effects: EditorView.scrollIntoView(place.from, { y: "center" }),
+    });
     this.#view.focus();
   }
 }

@@ -314,7 +314,14 @@ class Page {
     const right = results.filter((one) => one.passed);
     const list = (title, some) =>
       some.length
-        ? [make("details", {}, make("summary", {}, title), make("ul", {}, ...some.map(({ name }) => make("li", {}, name))))]
+        ? [
+            make(
+              "details",
+              {},
+              make("summary", {}, title),
+              make("ul", {}, ...some.map(({ name }) => make("li", {}, name))),
+            ),
+          ]
         : [];
     element("play-tests").replaceChildren(
       ...wrong.map(({ name, failure, message }) =>

@@ -52,9 +52,7 @@ function marks(text) {
 
 function split(text) {
   const found = marks(text).find((mark) => mark[0][0] !== ",");
-  return found
-    ? [text.slice(0, found.index), found[0].trim(), text.slice(found.index + found[0].length)]
-    : null;
+  return found ? [text.slice(0, found.index), found[0].trim(), text.slice(found.index + found[0].length)] : null;
 }
 
 function ofMatcher(original, expanded) {

@@ -351,10 +351,12 @@ class Process {
   }
 
   #calls() {
-    const in_folder = (call) => (descriptor, at, length, ...rest) => {
-      const place = this.#relative(descriptor, at, length);
-      return place ? call(place, ...rest) : BAD_DESCRIPTOR;
-    };
+    const in_folder =
+      (call) =>
+      (descriptor, at, length, ...rest) => {
+        const place = this.#relative(descriptor, at, length);
+        return place ? call(place, ...rest) : BAD_DESCRIPTOR;
+      };
     return {
       args_sizes_get: (count, size) => {
         this.#view.setUint32(count, this.#words.length, true);
@@ -372,7 +374,7 @@ class Process {
         return OK;
       },
       environ_get: () => OK,
-      clock_time_get: (clock, precision, result) => {
+      clock_time_get: (clock, _precision, result) => {
         const milliseconds = clock === 0 ? Date.now() : performance.now();
         this.#view.setBigUint64(result, BigInt(Math.round(milliseconds * 1e6)), true);
         return OK;
@@ -394,7 +396,7 @@ class Process {
         this.#view.setUint32(at + 4, 1, true);
         return OK;
       },
-      fd_prestat_dir_name: (descriptor, at) => {
+      fd_prestat_dir_name: (_descriptor, at) => {
         this.#bytes(at, 1)[0] = "/".charCodeAt(0);
         return OK;
       },
@@ -441,11 +443,11 @@ class Process {
         const open = this.#open.get(descriptor);
         return open?.kind === FOLDER ? this.#list_folder(open.node, at, room, Number(cookie), used) : NOT_A_FOLDER;
       },
-      path_open: (descriptor, follow, at, length, wanted, rights, inherited, flags, result) => {
+      path_open: (descriptor, _follow, at, length, wanted, _rights, _inherited, flags, result) => {
         const place = this.#relative(descriptor, at, length);
         return place ? this.#openPath(place, wanted, flags, result) : BAD_DESCRIPTOR;
       },
-      path_filestat_get: (descriptor, follow, at, length, result) => {
+      path_filestat_get: (descriptor, _follow, at, length, result) => {
         const place = this.#relative(descriptor, at, length);
         const node = place ? this.#files.find(place.path, place.from) : BAD_DESCRIPTOR;
         return typeof node === "number" ? node : this.#stat(node, result);

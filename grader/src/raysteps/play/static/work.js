@@ -76,15 +76,40 @@ export function zipOf(texts) {
   let offset = 0;
   for (const [path, text] of Object.entries(texts)) {
     const [name, data] = [encoder.encode(path), encoder.encode(text)];
-    const shared = [[2, utf8], [2, 0], [2, 0], [2, date], [4, checksum(data)], [4, data.length], [4, data.length]];
+    const shared = [
+      [2, utf8],
+      [2, 0],
+      [2, 0],
+      [2, date],
+      [4, checksum(data)],
+      [4, data.length],
+      [4, data.length],
+    ];
     const head = record(30, [[4, 0x04034b50], [2, 20], ...shared, [2, name.length], [2, 0]]);
-    const rest = [[2, name.length], [2, 0], [2, 0], [2, 0], [2, 0], [4, 0], [4, offset]];
+    const rest = [
+      [2, name.length],
+      [2, 0],
+      [2, 0],
+      [2, 0],
+      [2, 0],
+      [4, 0],
+      [4, offset],
+    ];
     entries.push(record(46, [[4, 0x02014b50], [2, 20], [2, 20], ...shared, ...rest]), name);
     parts.push(head, name, data);
     offset += head.length + name.length + data.length;
   }
   const size = entries.reduce((sum, part) => sum + part.length, 0);
   const count = entries.length / 2;
-  const end = record(22, [[4, 0x06054b50], [2, 0], [2, 0], [2, count], [2, count], [4, size], [4, offset], [2, 0]]);
+  const end = record(22, [
+    [4, 0x06054b50],
+    [2, 0],
+    [2, 0],
+    [2, count],
+    [2, count],
+    [4, size],
+    [4, offset],
+    [2, 0],
+  ]);
   return new Blob([...parts, ...entries, end], { type: "application/zip" });
 }
