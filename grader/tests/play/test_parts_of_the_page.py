@@ -49,7 +49,7 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
         text = handout((project.steps / step.id / "README.md").read_text("utf-8"), numbers, shown)
         assert "../" not in text, step.id
         assert "\ue000" not in text
-        assert "<table>" in text
+        assert "<table " in text
     assert all((project.root / path).is_file() for path in asked)
     text = handout("[next](../02-intersection/README.md) [x](../../docs/judge.md) $a^2$ `$b$`", numbers, shown)
     assert '<a href="#02">next</a> x <math' in text

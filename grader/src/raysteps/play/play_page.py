@@ -79,6 +79,7 @@ def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]
 
     plain = with_formulas(unlinked(with_targets(text, target), is_known), marked)
     html: str = MarkdownIt("commonmark", {"html": True}).enable("table").render(plain)
+    html = re.sub(r"<(pre|table)>", r'<\1 tabindex="0">', html)  # which a keyboard can scroll then
     return re.sub("\ue000([0-9]+)\ue001", lambda found: made[int(found[1])], html)
 
 

@@ -88,7 +88,7 @@ export class Editor {
       lintGutter(),
       LOOK,
       EditorView.domEventHandlers({ beforeinput: typedOver }),
-      EditorView.contentAttributes.of({ "aria-label": this.label, spellcheck: "false" }),
+      EditorView.contentAttributes.of({ "aria-label": this.label, spellcheck: "false", tabindex: "0" }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged && !this.#isLoading) {
           this.#changed();

@@ -473,7 +473,7 @@ class Page {
     const done = passed === tests.length && right === pictures.length;
     const seconds = `compiled in ${built.seconds.compile.toFixed(1)} s, linked in ${built.seconds.link.toFixed(1)} s`;
     const words = `${passed} of ${tests.length} tests pass, ${right} of ${pictures.length} pictures are right`;
-    this.#say(done ? "good" : "bad", done ? `Step ${step.number} is right: ${words}.` : `${words}.`);
+    this.#say(done ? "good" : "bad", `Step ${step.number}${done ? " is right" : ""}: ${words}.`);
     element("play-times").textContent = seconds;
   }
 }
