@@ -19,6 +19,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+std::atomic<TileListener>& chosen_listener() {
+    static std::atomic<TileListener> listener{nullptr};
+    return listener;
+}
+
 /// What all threads share while one picture is made.
 struct Job {
     const Scene& scene;
@@ -73,12 +78,19 @@ void work(Job& job) {
         render_tile(job.tiles[tile], *integrator, job);
         const std::scoped_lock lock(job.mutex);
         job.progress.advance();
+        if (const TileListener listener = chosen_listener()) {
+            const Rect& done = job.tiles[tile];
+            listener({.x = done.x - job.crop.x, .y = done.y - job.crop.y, .width = done.width, .height = done.height},
+                     job.image);
+        }
     }
     const std::scoped_lock lock(job.mutex);
     job.stats += thread_stats();
 }
 
 }  // namespace
+
+void set_tile_listener(TileListener listener) { chosen_listener() = listener; }
 
 Rendering render(const Scene& scene, const RenderOptions& options) {
     const Rect crop =

@@ -39,4 +39,8 @@ struct Rendering {
 /// The same bytes for any number of threads.
 [[nodiscard]] Rendering render(const Scene& scene, const RenderOptions& options);
 
+/// Who wants to see pictures grow is told of each part that is drawn, from one thread at a time.
+using TileListener = void (*)(const Rect& tile, const Image& image);
+void set_tile_listener(TileListener listener);
+
 }  // namespace raysteps

@@ -1,36 +1,12 @@
 """Formulas become MathML when the site is built, so a page needs no script and no network to show them."""
 
-import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from docutils import nodes
-from docutils.utils.math import MathError
-from docutils.utils.math.latex2mathml import tex2mathml
 
-from raysteps.common.markdown import formulas
-
-_BARE = re.compile(r"\\[dt]?frac(?!\s*\{)")
-
-
-class BadFormula(ValueError):
-    """What cannot be shown, and why."""
-
-
-def mathml(formula: str, *, block: bool) -> str:
-    """One element `math`."""
-    bare = _BARE.search(formula)
-    if bare:
-        raise BadFormula(f"{formula}: expected braces after {bare[0]}, like \\frac{{1}}{{2}}")
-    plain = re.sub(r"\\[{}]", "", formula)
-    if plain.count("{") != plain.count("}"):
-        raise BadFormula(f"{formula}: expected a closing brace for each opening one")
-    try:
-        made: str = tex2mathml(formula, as_block=block)
-    except (MathError, SyntaxError, KeyError, IndexError) as error:
-        raise BadFormula(f"{formula}: {error}") from error
-    return re.sub(r">\s+<", "><", made)
+from raysteps.common.markdown import BadFormula, formulas, mathml
 
 
 def bad_formulas(root: Path, documents: Iterable[Path]) -> list[str]:

@@ -83,6 +83,8 @@ def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsy
         ("dev new 10-fog", ""),
         ("dev", ""),
         ("", ""),
+        ("play", "play"),
+        ("play --no-open", "play"),
         ("test --full", "dev"),
         ("docs", "dev"),
         ("dev lint python", "dev"),
@@ -150,6 +152,8 @@ def test_students_and_autograders_get_no_more_than_they_use(tmp_path: Path, monk
     assert packed.type("test") == ["new", "/grader[instructor]"]  # `export` must work there without a network
     students = _Kit(tmp_path / "students", monkeypatch)
     assert students.type("test") == ["new", "/grader"]
+    assert students.type("play") == ["/grader[play]"]
+    assert students.type("list") == students.type("play") == []
 
 
 @pytest.mark.parametrize(

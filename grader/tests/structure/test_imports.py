@@ -20,7 +20,7 @@ _FLOORS = (
     {"diagnosis", "report"},
     {"grading"},
     {"classroom", "finale", "gallery", "progress", "release"},
-    {"desk", "exports", "inspector", "watch"},
+    {"desk", "exports", "inspector", "play", "watch"},
     {"cli"},
     {"__main__", "tools"},
 )

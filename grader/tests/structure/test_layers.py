@@ -10,7 +10,7 @@ from raysteps.course.project import Project
 pytestmark = pytest.mark.portable
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
-_LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "worker", "remote", "testing")
+_LAYERS = ("core", "io", "render", "inspect", "view", "wide", "apps", "worker", "remote", "testing", "web")
 _ALLOWED = {
     "core": {"core"},
     "io": {"core", "io"},
@@ -22,6 +22,7 @@ _ALLOWED = {
     "worker": {"core", "io", "steps", "worker"},
     "remote": {"core", "steps", "render", "remote"},
     "testing": {"core", "testing"},
+    "web": {"core", "render", "web"},
 }
 
 

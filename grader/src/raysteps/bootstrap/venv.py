@@ -36,14 +36,17 @@ class CannotSetUp(Exception):
     """What is missing, and what to type."""
 
 
-# Three sets of packages: the student's, which every kit needs, and on top of it those of the extras of pyproject.toml.
+# The student's set of packages, which every kit needs, and on top of it those of the extras of pyproject.toml.
 INSTRUCTOR = "instructor"
-MAKER = "dev"
+PLAY = "play"  # also the command that needs it
+MAKER = "dev"  # the others, too
 _OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, and what of them where it is not all
 
 
 def set_for(words: Sequence[str]) -> str:
     """What a command needs beside the usual set of its kit; nothing for most."""
+    if words[:1] == [PLAY]:
+        return PLAY
     some = _OF_MAKERS.get(words[0]) if words else None
     return MAKER if some is not None and (not some or (words[1:2] and words[1] in some)) else ""
 
@@ -107,7 +110,9 @@ class Venv:
 
     def has(self, wanted: str) -> bool:
         """Whether a set is there, or has no use: a kit that was packed without tools tests nothing."""
-        return not wanted or not (self.root / "tools").is_dir() or wanted in self._installed()[1]
+        if not wanted or (wanted == MAKER and not (self.root / "tools").is_dir()):
+            return True
+        return bool({wanted, MAKER} & self._installed()[1])
 
     def make(self, wanted: str = "") -> None:
         """Anew, with the usual set, the one that is wanted and those that were there before."""
@@ -120,7 +125,7 @@ class Venv:
 
     def add(self, wanted: str, command: str) -> None:
         """One more set."""
-        say(f"installing what only `{command}` and the like need into .venv (once, {_TAKES[True]})")
+        say(f"installing what only `{command}` and the like need into .venv (once, {_TAKES[wanted == MAKER]})")
         self._install(self._usual() | self._installed()[1] | {wanted})
 
     def _install(self, sets: set[str]) -> None:

@@ -40,6 +40,7 @@ class Command:
 _IMPL = "{impl}"  # where there is a reference, its programs can be chosen
 COMMANDS = (
     Command("watch", "build, test and draw a step again with every save", "raysteps.cli.watch", "any"),
+    Command("play", "a page to work in: write C++ in a browser, see the picture", "raysteps.cli.play", "any"),
     Command("list", "the steps, and where you stand", "raysteps.cli.steps", "any"),
     Command("next", "which step to work on, what to open and what to type", "raysteps.cli.steps", "any"),
     Command("hint", "the next hint of a step", "raysteps.cli.steps", "any"),

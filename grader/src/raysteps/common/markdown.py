@@ -102,6 +102,41 @@ def unlinked(text: str, is_known: Callable[[str], bool]) -> str:
     return text
 
 
+def with_formulas(text: str, new: Callable[[str, bool], str]) -> str:
+    """The text with something else in place of its formulas; the second word is whether one has lines of its own."""
+    for found in reversed(list(_FORMULA.finditer(prose(text)))):
+        start, end = found.span()
+        text = text[:start] + new(found[1] or found[2], found[1] is not None) + text[end:]
+    return text
+
+
 def formulas(text: str) -> list[str]:
     """What stands between dollars."""
     return [found[1] or found[2] for found in _FORMULA.finditer(prose(text))]
+
+
+# Formulas become MathML, which a page shows without a script.
+
+_BARE = re.compile(r"\\[dt]?frac(?!\s*\{)")
+
+
+class BadFormula(ValueError):
+    """What cannot be shown, and why."""
+
+
+def mathml(formula: str, *, block: bool) -> str:
+    """One element `math`."""
+    from docutils.utils.math import MathError  # for who makes pages of documents; others do without
+    from docutils.utils.math.latex2mathml import tex2mathml
+
+    bare = _BARE.search(formula)
+    if bare:
+        raise BadFormula(f"{formula}: expected braces after {bare[0]}, like \\frac{{1}}{{2}}")
+    plain = re.sub(r"\\[{}]", "", formula)
+    if plain.count("{") != plain.count("}"):
+        raise BadFormula(f"{formula}: expected a closing brace for each opening one")
+    try:
+        made: str = tex2mathml(formula, as_block=block)
+    except (MathError, SyntaxError, KeyError, IndexError) as error:
+        raise BadFormula(f"{formula}: {error}") from error
+    return re.sub(r">\s+<", "><", made)

@@ -72,16 +72,20 @@ def trouble(rendered: Rendered) -> tuple[Termination, str]:
     return outcome, message or f"{rendered.problem.capitalize()}."
 
 
+NO_TESTS = "The picture is right, but no test of an object was counted: ask a surface with surface->hit(ray)."
+TOO_MANY_TESTS = (
+    "The picture is right, but each ray tested {share} % of the objects; at most {most} % are allowed: the boxes must "
+    "spare the rays most of the tests."
+)
+
+
 def too_many_tests(share: float | None, most: float) -> str:
     """Why a right picture was made with too much work, or nothing."""
     if not share:
-        return "The picture is right, but no test of an object was counted: ask a surface with surface->hit(ray)."
+        return NO_TESTS
     if share <= most:
         return ""
-    return (
-        f"The picture is right, but each ray tested {share * 100:.3g} % of the objects; at most {most * 100:.3g} % are "
-        "allowed: the boxes must spare the rays most of the tests."
-    )
+    return TOO_MANY_TESTS.format(share=f"{share * 100:.3g}", most=f"{most * 100:.3g}")
 
 
 def part_of_a_picture(

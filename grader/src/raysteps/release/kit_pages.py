@@ -15,7 +15,7 @@ from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step, steps_words
 from raysteps.grading.scoring import max_points
 
-_DATA = ["py.typed", "report/static/*", "report/templates/*"]
+_DATA = ["play/static/*", "py.typed", "report/static/*", "report/templates/*"]
 
 
 def _picture(steps: list[Step]) -> str:
@@ -84,6 +84,9 @@ def pyproject(text: str) -> bytes:
         "dependencies = [",
         *(f"    {json.dumps(name)}," for name in project["dependencies"]),
         "]",
+        "",
+        "[project.optional-dependencies]",
+        f"play = {json.dumps(project['optional-dependencies']['play'])}",
         "",
         "[tool.setuptools.dynamic]",
         'version = {attr = "raysteps.__version__"}',

@@ -72,14 +72,16 @@ def _source(texts: Sequence[str]) -> str:
     return " ".join(f"'sha256-{base64.b64encode(digest).decode('ascii')}'" for digest in digests) or "'none'"
 
 
-def _policy(styles: Sequence[str], scripts: Sequence[str], *, connect: bool) -> str:
+def _policy(styles: Sequence[str], scripts: Sequence[str], *, connect: bool, module: bool) -> str:
+    beside = " 'self' 'wasm-unsafe-eval'" if module else ""
     return "; ".join(
         [
             "default-src 'none'",
-            "img-src data:",
+            "img-src data: 'self'" if module else "img-src data:",
             f"style-src {_source(styles)}",
-            f"script-src {_source(scripts)}",
-            *(["connect-src 'self'"] if connect else []),
+            f"script-src {_source(scripts)}{beside}",
+            *(["connect-src 'self'"] if connect or module else []),
+            *(["worker-src 'self'"] if module else []),
             "base-uri 'none'",
             "form-action 'none'",
         ]
@@ -99,15 +101,18 @@ def render_page(
     styles: Sequence[str] = (),
     data: object = None,
     connect: bool = False,
+    module: str | None = None,
 ) -> str:
     """The document. `scripts` and `styles` are names in `static`, in their order; `data` is what the scripts find in
-    the element `data`; with `connect` the page may ask the server that it came from."""
+    the element `data`; with `connect` the page may ask the server that it came from. `module` is the file beside the
+    page that begins its program: then workers, WebAssembly and pictures may come from there, too."""
     sheets = [_static(f"{name}.css") for name in ("base", *styles)]
     programs = [_static(f"{name}.js") for name in scripts]
     shell = {
         "page_title": title,
         "page_version": __version__,
-        "page_policy": _policy(sheets, programs, connect=connect),
+        "page_policy": _policy(sheets, programs, connect=connect, module=module is not None),
+        "page_module": module,
         "page_styles": [Markup(sheet) for sheet in sheets],  # noqa: S704 - files of this package
         "page_scripts": [Markup(program) for program in programs],  # noqa: S704
         "page_data": None if data is None else Markup(island(data)),  # noqa: S704 - signs of HTML are escaped

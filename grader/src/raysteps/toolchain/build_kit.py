@@ -55,7 +55,7 @@ def read_given_tests(project: Project) -> Tests:
     return tests
 
 
-def _tested(step: Step, name: str, tags: Sequence[str]) -> list[str]:
+def tested_functions(step: Step, name: str, tags: Sequence[str]) -> list[str]:
     """The functions that a test is about: of those among its tags the one that its name begins with, where there is."""
     functions = [tag for tag in tags if tag in step.functions]
     return [function for function in functions if name.startswith(f"{function}:")] or functions
@@ -150,7 +150,7 @@ class Assembly:
             self._write_rest(f"test-{step.number}", objects)
             self._link_reference(f"test-{step.number}", objects)
             listed = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
-            tests[step.id] = {name: _tested(step, name, tags) for name, tags in listed.items()}
+            tests[step.id] = {name: tested_functions(step, name, tags) for name, tags in listed.items()}
             if not self._add_remote(self._course[:at]):
                 self._add_plain(raytrace, worker, objects, self._course[:at])
         return tests

@@ -1,0 +1,51 @@
+"""The command `play`."""
+
+import argparse
+import sys
+import threading
+from contextlib import ExitStack, suppress
+
+from rich.console import Console
+
+from raysteps.cli.watch import on_a_desktop, port
+from raysteps.common.errors import UsageError
+from raysteps.common.local_server import end_as_interrupted, shown_in_browser
+from raysteps.course.project import Project
+from raysteps.play.packages import REGISTRY, registry_of
+from raysteps.play.play_page import PlayPage, PlayServer
+from raysteps.toolchain.kit_artifacts import paced
+
+_PORT = 8471  # a browser keeps what it is given by this number, too: it has to be the same every time
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What may follow `play`."""
+    add = parser.add_argument
+    add("--port", type=port, default=_PORT, metavar="N", help=f"of the page ({_PORT}); your work is kept by it")
+    add("--no-open", action="store_true", help="do not open the page in a browser")
+    add("--registry", metavar="URL", help=f"where npm packages are loaded down from, once ({REGISTRY})")
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Makes the page, and serves it until somebody ends it."""
+
+    def say(text: str) -> None:
+        console.print(text, highlight=False, markup=False, soft_wrap=True)
+
+    end_as_interrupted()
+    folder = PlayPage(project, registry_of(arguments.registry), paced(say)).make()
+    try:
+        server = PlayServer(folder, arguments.port)
+    except UsageError as error:
+        raise UsageError(f"{error}. What you write on the page is kept by its port") from error
+    try:
+        with suppress(KeyboardInterrupt), ExitStack() as stack:
+            say(f"Page: {server.address}")
+            say("Ctrl-C ends it. What you write on the page is kept in your browser.")
+            sys.stdout.flush()
+            if not arguments.no_open and on_a_desktop():
+                stack.enter_context(shown_in_browser(server.address))
+            threading.Event().wait()
+    finally:
+        server.close()
+    return 0

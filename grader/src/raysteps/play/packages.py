@@ -1,0 +1,199 @@
+"""The packages of others that the page needs, from the npm registry: pinned by their hashes, and loaded down once."""
+
+import base64
+import hashlib
+import http.client
+import io
+import os
+import re
+import shutil
+import tarfile
+import tempfile
+import urllib.error
+import urllib.request
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from raysteps.common.errors import UsageError, reason
+
+REGISTRY = "https://registry.npmjs.org"
+_SECONDS = 60  # without a byte
+_PIECE = 1 << 18
+_MAX_BYTES = 200 << 20
+
+
+@dataclass(frozen=True)
+class Package:
+    """One version. `sha512` is what the registry calls its integrity."""
+
+    name: str
+    version: str
+    sha512: str
+
+    @property
+    def address(self) -> str:
+        """Behind the address of a registry."""
+        return f"{self.name}/-/{self.name.rpartition('/')[2]}-{self.version}.tgz"
+
+    @property
+    def folder(self) -> str:
+        """Its name in the cache."""
+        return f"{self.name.removeprefix('@').replace('/', '-')}-{self.version}"
+
+
+CLANG = Package(
+    "@yowasp/clang",
+    "22.0.0-git20542-10",
+    "V31/z9GrJECKeACTDUyvg2llbEUiFi3bxtL5HSg7H/6sydSxdI/AoVAD9F5ozrfLjotWl0B9rghR87m+DUM/zg==",
+)
+EDITOR = (
+    Package(
+        "@codemirror/autocomplete",
+        "6.20.4",
+        "yF8RhOf2SXlg00+qtupzLhrglcas61boqaONiNcbPIebHCpJocpqTBA6dyrtUrQO47hqyTdeob/3XnYilT7TaQ==",
+    ),
+    Package(
+        "@codemirror/commands",
+        "6.11.1",
+        "O/4hG3SC1YwcmQ0d2UVNDs+AsaNWd1iHVxbTeEBuqH+6bExAiPK3iS/BvpY6rZGURALv4ZD3sIgcCmRvw3ehBg==",
+    ),
+    Package(
+        "@codemirror/lang-cpp",
+        "6.0.3",
+        "URM26M3vunFFn9/sm6rzqrBzDgfWuDixp85uTY49wKudToc2jTHUrKIGGKs+QWND+YLofNNZpxcNGRynFJfvgA==",
+    ),
+    Package(
+        "@codemirror/language",
+        "6.13.1",
+        "zfvU2r3TyylQLMj/te+5CnQ0rSqZi8B1oTCBbQkagcLW4Xc6imab6qN+pEJhsuNOLaJqiRyBXp9UhWA1DhVvDw==",
+    ),
+    Package(
+        "@codemirror/lint",
+        "6.9.8",
+        "qNvtcE73xUto/D1RvtgSRI4A1Hg8ekxlvtZpjHpdpisLBnhyu82EUEJMEgaxkjuQCA8vqnrylENWKOsEDCOHcw==",
+    ),
+    Package(
+        "@codemirror/search",
+        "6.7.2",
+        "gUYkYhT2+n/+VGZ+8EzE5WFkYZUZYm1VOKDudIsNqh42uRVQJ0a6Yss9sdKT3MeOYfuL1N6AZA57oza0Oyr0LA==",
+    ),
+    Package(
+        "@codemirror/state",
+        "6.7.6",
+        "kAz+AncRtKuIknedxT1bq4XwXv4UowhbkHU1myPrtVb/jZtImWuV5BXzv5vK6i3kYACsdiZiQKFQQ5Mq7elW8w==",
+    ),
+    Package(
+        "@codemirror/streamparser",
+        "6.0.0",
+        "JTFPF6xrfjt0mnfGPgzcLiMwYmvIyNaoizp8BYzv8FE8KrT6GBGDZ190rtt+O7Wke3gG/MFHyiY9YGNeimof4w==",
+    ),
+    Package(
+        "@codemirror/view",
+        "6.43.15",
+        "HHsfpqFeHyXLs983pSRe38Xajs0vFWZQ2BuX0m7Ki8w3jZ5iD8cuR3lBz2/5/X53Dhf32SBHKh6rtSTB6tKeGw==",
+    ),
+    Package(
+        "@lezer/common",
+        "1.5.5",
+        "Pw7PVCndruF1pb3ebCxpSVpkMHSDjwRCLcTRw+RizUKco5QbWylwq2g4lnG/RYN7yTTQDXE9F77MwtkAyphrjg==",
+    ),
+    Package(
+        "@lezer/cpp",
+        "1.1.6",
+        "vh9gWWJOXFVY8HBHK3Twzq8MgwG2iN4GSyzBP9sCGTe37P15x2R14VaBQk0VA0ezTRN1KHYBBsHhvpGZ2Xy/pA==",
+    ),
+    Package(
+        "@lezer/highlight",
+        "1.2.5",
+        "O1GMVKgtf5YspFaRzpmqkVgMtIk2HG9uMAbH6wdAIdNh3TVzCsch/+cRi+6l2//UGDKe6NB9BW3cvuR5ezMQ0w==",
+    ),
+    Package(
+        "@lezer/lr",
+        "1.4.12",
+        "On9HU4oMMiHPMkQDgoTnGahjgG5n/MkN38CgG77sMraKLL+3JBbeQNi1FcCXV9QRqwF9/BUXP3caHyJC1fBOTQ==",
+    ),
+    Package(
+        "@marijn/find-cluster-break",
+        "1.0.4",
+        "Wy0V7+SGUjnF9/TkiM1hKVDPj7jKXduPNboMVtHTA8dySMURWqfg/JZ9E2Sq8JgSJmkl7k7Qe9FLeMSrSraWmQ==",
+    ),
+    Package(
+        "crelt",
+        "1.0.7",
+        "aK6BbWfhf4U/wCcLHKPJl/xa6VkVstRaPywWtMKGwuOLc/wZTyQYuoxgvZnNsBvv7Kg3YTBQYYBCggcviQczuA==",
+    ),
+    Package(
+        "style-mod",
+        "4.1.5",
+        "WQ2llCZa9sZSkJA+aOwpg5DkfbAXFKGh//t3MRTBeruFiSBC+GXUmbBzrw3bXyboCWAbtCW9InDfBsXrRD/rAg==",
+    ),
+    Package(
+        "w3c-keyname",
+        "2.2.8",
+        "dpojBhNsCNN7T82Tm7k26A6G9ML3NkhDsnw9n/eoxSRlVBB4CEtIQ/KTCLI2Fwf3ataSXRhYFkQi3SlnFwPvPQ==",
+    ),
+)
+
+
+def registry_of(words: str | None) -> str:
+    """The one that was named, else the one that npm itself would ask."""
+    named = os.environ.get("npm_config_registry")  # noqa: SIM112 - npm writes it so
+    return (words or named or REGISTRY).rstrip("/")
+
+
+def _loaded(address: str, heard: Callable[[int], None]) -> bytes:
+    request = urllib.request.Request(address, headers={"User-Agent": "raysteps"})  # noqa: S310 - see `fetch`
+    with urllib.request.urlopen(request, timeout=_SECONDS) as answer:  # noqa: S310
+        data = io.BytesIO()
+        while piece := answer.read(_PIECE):
+            data.write(piece)
+            heard(data.tell())
+            if data.tell() > _MAX_BYTES:
+                raise OSError("it is larger than any package that is asked for")
+        length = answer.headers.get("Content-Length")
+        if length is not None and int(length) != data.tell():
+            raise OSError(f"only {data.tell()} of {length} bytes came")
+        return data.getvalue()
+
+
+def _unpack(data: bytes, folder: Path) -> None:
+    """All names in a package begin with one folder."""
+    with tarfile.open(fileobj=io.BytesIO(data), mode="r:gz") as archive:
+        archive.extractall(folder, filter="data")
+
+
+def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], None] = lambda text: None) -> Path:
+    """The folder of the package's files; loaded down from the registry where the cache lacks it. What comes from there
+    is not believed: its hash is the package's, or it is not unpacked."""
+    folder = cache / package.folder
+    if folder.is_dir():
+        return folder
+    address = f"{registry}/{package.address}"
+    if not re.match(r"https?://[^/]", address):
+        raise UsageError(f"{registry}: expected a registry's address, such as {REGISTRY}")
+    try:
+        data = _loaded(address, lambda done: say(f"loading down {package.name}, {done / 1e6:.1f} MB"))
+    except (OSError, http.client.HTTPException) as error:
+        inner = getattr(error, "reason", None)  # of an error of urllib
+        why = reason(inner if isinstance(inner, OSError) else error)
+        raise UsageError(
+            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names a mirror"
+        ) from error
+    found = base64.b64encode(hashlib.sha512(data).digest()).decode("ascii")
+    if found != package.sha512:
+        raise UsageError(
+            f"{address}: is not the package that the kit knows: its SHA-512 is {found[:12]}..., expected "
+            f"{package.sha512[:12]}...; try again, or another --registry"
+        )
+    cache.mkdir(parents=True, exist_ok=True)
+    new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
+    try:
+        _unpack(data, new)
+        (top,) = new.iterdir()
+        top.rename(folder)
+    except FileExistsError:
+        pass  # another command was quicker
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
+    return folder

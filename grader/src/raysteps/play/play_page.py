@@ -1,0 +1,306 @@
+"""The page to work in as a folder of files: what any web space can hold, and what is served on this machine."""
+
+import gzip
+import io
+import json
+import posixpath
+import re
+import shutil
+import tarfile
+from collections.abc import Callable, Iterator, Mapping
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from raysteps.common.files import write_bytes, write_if_changed
+from raysteps.common.local_server import HTML, LocalHandler, LocalServer
+from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
+from raysteps.course.manifest import ImageCase, Step, course_steps
+from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub
+from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
+from raysteps.images.compare import parse_ppm, read_png, write_png
+from raysteps.images.render import ENDLESS, reference_image_path
+from raysteps.play.packages import CLANG, EDITOR, fetch
+from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
+from raysteps.play.web_kit import WebKit, headers_path
+from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
+
+Say = Callable[[str], None]
+
+_RAYTRACE = ["--threads", "1", "--quiet", "-o", "/out/picture.ppm", "--stats", "/out/stats.json"]
+
+
+# The editor: packages of modules, which find each other by their names. In a page they do so by their places.
+
+_IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])([@\w][^"'.]*(?:\.[^"'/]+)*)\2""")
+
+
+def _module(name: str) -> str:
+    return f"{name.removeprefix('@').replace('/', '-')}.js"
+
+
+def with_places(source: str, folder: str) -> str:
+    """A module that asks for packages by their places; `folder` leads there."""
+    return _IMPORT.sub(lambda found: f"{found[1]}{found[2]}{folder}{_module(found[3])}{found[2]}", source)
+
+
+def _editor(cache: Path, registry: str, say: Say) -> Iterator[tuple[str, bytes]]:
+    for package in EDITOR:
+        folder = fetch(package, cache, registry, say)
+        described = json.loads((folder / "package.json").read_text("utf-8"))
+        start = described["exports"]["import"]
+        start = start if isinstance(start, str) else start["default"]
+        yield f"editor/{_module(package.name)}", with_places((folder / start).read_text("utf-8"), "./").encode()
+
+
+# Handouts.
+
+
+def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]) -> str:
+    """HTML. `number_of` maps the folders of steps to their numbers; `shown` gives the place of a picture."""
+    from markdown_it import MarkdownIt
+
+    def target(link: str) -> str:
+        path = posixpath.normpath(posixpath.join("steps/any", link.partition("#")[0]))
+        step = re.fullmatch(r"steps/([^/]+)/README\.md", path)
+        if step and step[1] in number_of:
+            return f"#{number_of[step[1]]}"
+        return shown(path) if path.endswith((".png", ".svg")) else link
+
+    def is_known(link: str) -> bool:
+        return link.startswith(("#", "https:", "figures/"))
+
+    made: list[str] = []
+
+    def marked(formula: str, block: bool) -> str:
+        made.append(mathml(formula, block=block))
+        return f"\ue000{len(made) - 1}\ue001"
+
+    plain = with_formulas(unlinked(with_targets(text, target), is_known), marked)
+    html: str = MarkdownIt("commonmark", {"html": True}).enable("table").render(plain)
+    html = re.sub(r"<(pre|table)>", r'<\1 tabindex="0">', html)  # which a keyboard can scroll then
+    return re.sub("\ue000([0-9]+)\ue001", lambda found: made[int(found[1])], html)
+
+
+# Files in one.
+
+
+def packed(content: Mapping[str, bytes]) -> bytes:
+    """A tar, compressed; the same bytes for the same files."""
+    data = io.BytesIO()
+    with tarfile.open(fileobj=data, mode="w", format=tarfile.GNU_FORMAT) as archive:
+        for name, file in sorted(content.items()):
+            info = tarfile.TarInfo(name)
+            info.size = len(file)
+            archive.addfile(info, io.BytesIO(file))
+    return gzip.compress(data.getvalue(), 6, mtime=0)
+
+
+def _squeezed(path: Path, cache: Path) -> bytes:
+    """A large file, compressed once."""
+    target = cache / f"{path.name}.gz"
+    if not target.is_file() or target.stat().st_mtime < path.stat().st_mtime:
+        write_bytes(target, gzip.compress(path.read_bytes(), 6, mtime=0))
+    return target.read_bytes()
+
+
+_OF_COMPILER = re.compile(r"(float|inttypes|iso646|limits|stdalign|stdarg|stdatomic|stdbool|stdckdint|stddef|stdint|"
+                          r"stdnoreturn|tgmath|unwind|__std\w+|__float\w+)\.h")  # fmt: skip
+_LIBRARIES = ("crt1-command.o", "libc++.a", "libc++abi.a", "libc.a", "libclang_rt.builtins.a")
+
+
+def _system(clang: WebClang, kit: WebKit, project: Project) -> dict[str, bytes]:
+    """Headers and libraries, by the names that the compiler knows them by; without those for other processors."""
+    found: dict[str, bytes] = {}
+    for name in ("include/c++/v1", "include/wasm32-wasip1"):
+        for path in (clang.system / name).rglob("*"):
+            if path.is_file():
+                found[f"usr/{path.relative_to(clang.system).as_posix()}"] = path.read_bytes()
+    for path in (clang.system / "include").glob("*.h"):
+        if _OF_COMPILER.fullmatch(path.name):
+            found[f"usr/include/{path.name}"] = path.read_bytes()
+    for path in (clang.system / "lib").rglob("*"):
+        if path.name in _LIBRARIES:
+            found[f"usr/{path.relative_to(clang.system).as_posix()}"] = path.read_bytes()
+    for path in (kit.libraries / "glm").rglob("*"):
+        if path.suffix in (".hpp", ".h", ".inl"):
+            found[f"libraries/{path.relative_to(kit.libraries).as_posix()}"] = path.read_bytes()
+    own = [*project.root.glob("framework/core/*.hpp"), *project.steps.glob("[0-9][0-9]-*/*.hpp")]
+    return found | {f"kit/{path.relative_to(project.root).as_posix()}": path.read_bytes() for path in own}
+
+
+_FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\n)*")
+
+
+def first_includes(source: str) -> str:
+    """What a source includes before anything else stands in it; the page finds it in the same way."""
+    found = _FIRST.match(source)
+    assert found is not None  # it takes nothing, too
+    return "".join(f"{line.strip()}\n" for line in found[0].splitlines() if line.strip().startswith("#"))
+
+
+class PlayPage:
+    """Puts the page together in a folder."""
+
+    def __init__(self, project: Project, registry: str, say: Say = lambda text: None) -> None:
+        self._project = project
+        self._registry = registry
+        self._say = say
+        self._cache = project.build / "play"
+        self._packages = self._cache / "packages"
+        self._clang = WebClang(fetch(CLANG, self._packages, registry, say), self._cache, say)
+        self._kit = WebKit(project, self._clang, say)
+        self.folder = self._cache / "site"
+        self._written: set[str] = set()
+
+    def _write(self, name: str, data: bytes) -> str:
+        self._written.add(name)
+        write_if_changed(self.folder / name, data)
+        return name
+
+    def make(self) -> Path:
+        """The folder, in which index.html is the page."""
+        for name, data in _editor(self._packages, self._registry, self._say):
+            self._write(name, data)
+        for path in files("raysteps.play").joinpath("static").iterdir():
+            self._write(path.name, with_places(path.read_text("utf-8"), "./editor/").encode())
+        steps = course_steps(self._project)
+        parts = self._kit.parts()
+        self._say("packing the compiler and its headers")
+        kit = {
+            "clang": self._write("clang.wasm.gz", _squeezed(self._clang.wasm, self._cache)),
+            "system": self._write("system.tar.gz", packed(_system(self._clang, self._kit, self._project))),
+            "parts": self._write("kit.tar.gz", packed(parts.files)),
+            "objects": parts.objects,
+            "input": INPUT,
+            "output": OUTPUT,
+            "compile": self._kit.step_command(),
+            "headers": self._kit.headers_command(),
+            "link": self._clang.link_command(),
+            "steps": {step.number: self._compiled(step) for step in steps},
+        }
+        words = {
+            "endless": ENDLESS.partition("?")[0] + "?",
+            "raytrace": _RAYTRACE,
+            "noTests": NO_TESTS,
+            "tooManyTests": TOO_MANY_TESTS,
+        }
+        content = {
+            "model": self._kit.model,
+            "kit": kit,
+            "steps": [self._described(step, steps) for step in steps],
+            "words": words,
+        }
+        page = render_page(
+            "play",
+            "Raysteps",
+            {},
+            scripts=(*COMPARE_SCRIPTS, "watch-parts"),
+            styles=(*COMPARE_STYLES, "watch", "play"),
+            data=content,
+            module="play.js",
+        )
+        self._write("index.html", page.encode())
+        self._forget_others()
+        return self.folder
+
+    def _forget_others(self) -> None:
+        """What an older page had."""
+        for path in self.folder.rglob("*"):
+            if path.is_file() and path.relative_to(self.folder).as_posix() not in self._written:
+                path.unlink()
+
+    def _compiled(self, step: Step) -> dict[str, Any]:
+        includes = first_includes(pristine_stub(self._project, step))
+        made = self._kit.headers(step, includes)
+        name = self._write(f"steps/{step.number}.pch.gz", _squeezed(made, made.parent))
+        source = f"/kit/steps/{step.path.as_posix()}"
+        return {
+            "number": step.number,
+            "source": source,
+            "headers": {"includes": includes, "file": name, "path": headers_path(step)},
+        }
+
+    def _figure(self, path: str) -> str:
+        found = self._project.root / path
+        if not found.is_file():
+            return path
+        return self._write(f"figures/{found.name}", found.read_bytes())
+
+    def _described(self, step: Step, steps: list[Step]) -> dict[str, Any]:
+        text = (self._project.steps / step.id / "README.md").read_text("utf-8")
+        numbers = {other.id: other.number for other in steps}
+        self._write(f"steps/{step.number}.html", handout(text, numbers, self._figure).encode())
+        headers = [path.read_text("utf-8") for path in sorted((self._project.steps / step.id).glob("*.hpp"))]
+        return {
+            "number": step.number,
+            "id": step.id,
+            "title": step.title,
+            "path": f"steps/{step.path.as_posix()}",
+            "stub": pristine_stub(self._project, step),
+            "names": sorted(set(re.findall(r"\b[A-Za-z_]\w{2,}\b", "\n".join(headers)))),
+            "hints": list(step.hints),
+            "seconds": step.seconds,
+            "tests": [{"name": name, "functions": list(of)} for name, of in self._kit.tests(step).items()],
+            "pictures": [self._picture(step, case) for case in step.images],
+        }
+
+    def _picture(self, step: Step, case: ImageCase) -> dict[str, Any]:
+        """In a students' kit without a tree where it does not ask for one: step 07 needs no step 06."""
+        args = case.args if self._project.has_reference or case.has_tree else (*case.args, "--accel", "none")
+        scene = self._project.root / case.scene
+        name = f"pictures/{step.number}/{case.name}.png"
+        self._written.add(name)
+        if self._project.has_reference:
+            made = self._kit.picture(scene, args)
+            if not (self.folder / name).is_file() or (self.folder / name).stat().st_mtime < made.stat().st_mtime:
+                write_png(parse_ppm(made.read_bytes()), self.folder / name)
+        else:
+            self._write(name, reference_image_path(self._project, step, case).read_bytes())
+        height, width, _ = read_png(self.folder / name).shape
+        return {
+            "name": case.name,
+            "scene": self._write(f"scenes/{scene.name}", scene.read_bytes()),
+            "args": list(args),
+            "reference": name,
+            "width": width,
+            "height": height,
+            "maxWrong": case.max_wrong,
+            "maxShare": case.max_share,
+        }
+
+
+# Served on this machine. Everything in the folder may be read, and nothing else.
+
+_KINDS = {
+    ".html": HTML,
+    ".js": "text/javascript; charset=utf-8",
+    ".png": "image/png",
+    ".svg": "image/svg+xml",
+    ".nff": "text/plain; charset=utf-8",
+    ".gz": "application/octet-stream",
+}
+
+
+class PlayServer(LocalServer):
+    """Runs in a thread until it is closed."""
+
+    def __init__(self, folder: Path, port: int = 0) -> None:
+        super().__init__(port, _Handler)
+        self.folder = folder
+        self.start()
+
+
+class _Handler(LocalHandler):
+    server: PlayServer
+
+    def get(self, rest: list[str]) -> None:
+        path = self.server.folder.joinpath(*(rest if rest != [""] else ["index.html"]))
+        kind = _KINDS.get(path.suffix)
+        if kind is None or not path.is_file():
+            self.nothing()
+            return
+        self.head(200, kind, path.stat().st_size)
+        with path.open("rb") as file:
+            shutil.copyfileobj(file, self.wfile)

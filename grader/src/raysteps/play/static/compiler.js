@@ -1,0 +1,144 @@
+// The worker that compiles: clang and the linker, the headers, and the kit as objects. What it is asked is a step and
+// the sources that are the student's own; what it answers is a program, or what the compiler says.
+
+import { Files, runProgram } from "./wasi.js";
+
+const files = new Files();
+let clang = null;
+let kit = null;
+const compiled = new Map(); // objects by step and source
+const headers = new Map(); // compiled ones, by step
+
+/** A file of the page, packed or not, with word of how much of it has come. */
+async function loaded(name, isWasm = false) {
+  const answer = await fetch(name);
+  if (!answer.ok) {
+    throw new Error(`${name}: cannot be loaded (${answer.status})`);
+  }
+  const total = Number(answer.headers.get("Content-Length") ?? 0);
+  let done = 0;
+  const counted = new TransformStream({
+    transform(piece, controller) {
+      done += piece.length;
+      postMessage({ loading: { name, done, total } });
+      controller.enqueue(piece);
+    },
+  });
+  const packed = answer.body.pipeThrough(counted);
+  const body = name.endsWith(".gz") ? packed.pipeThrough(new DecompressionStream("gzip")) : packed;
+  return new Response(body, { headers: isWasm ? { "Content-Type": "application/wasm" } : {} });
+}
+
+async function bytesOf(name) {
+  return new Uint8Array(await (await loaded(name)).arrayBuffer());
+}
+
+async function prepare(message) {
+  kit = message.kit;
+  const [module, system, parts] = await Promise.all([
+    message.clang ?? loaded(kit.clang, true).then((answer) => WebAssembly.compileStreaming(answer)),
+    bytesOf(kit.system),
+    bytesOf(kit.parts),
+  ]);
+  clang = module;
+  files.unpack(system);
+  files.unpack(parts);
+  files.write("/work/empty", new Uint8Array());
+  postMessage({ ready: true, clang: message.clang ? null : clang });
+}
+
+/** What a source includes before anything else stands in it. */
+function firstIncludes(source) {
+  const [first] = /^(?:[ \t]*(?:#[ \t]*include[^\n]*|\/\/[^\n]*)?\n)*/.exec(source);
+  const lines = first.split("\n").map((line) => line.trim());
+  return lines
+    .filter((line) => line.startsWith("#"))
+    .map((line) => `${line}\n`)
+    .join("");
+}
+
+/** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */
+async function prepareHeaders(step, source) {
+  const includes = firstIncludes(source);
+  const path = `${step.headers.path}.pch`;
+  const known = headers.get(step.number);
+  if (known?.includes !== includes) {
+    files.write(step.headers.path, new TextEncoder().encode(includes));
+    files.remove(path);
+    let code = 0;
+    if (includes === step.headers.includes) {
+      files.write(path, await bytesOf(step.headers.file));
+    } else {
+      code = runProgram(clang, filled(kit.headers, [step.headers.path], path), files).code;
+    }
+    headers.set(step.number, { includes, path: code === 0 ? path : null });
+  }
+  return headers.get(step.number).path;
+}
+
+/** The words of a command with the names of these files. */
+function filled(command, input, output) {
+  return command.flatMap((word) => (word === kit.input ? input : word === kit.output ? [output] : [word]));
+}
+
+/** The path of the object, and what the compiler says. */
+async function compile(step, source) {
+  const key = `${step.number} ${source}`;
+  const known = compiled.get(step.number);
+  if (known?.key === key) {
+    return known;
+  }
+  const object = `/work/own-${step.number}.o`;
+  files.remove(object);
+  files.write(step.source, new TextEncoder().encode(source));
+  const path = await prepareHeaders(step, source);
+  const words = [...filled(kit.compile, [step.source], object), ...(path ? ["-include-pch", path] : [])];
+  const said = runProgram(clang, words, files);
+  const made = { key, object, code: said.code, says: said.stderr + said.stdout };
+  compiled.set(step.number, made);
+  return made;
+}
+
+/** Object files and libraries in the order in which the linker shall see them. */
+function linkInputs(number, own) {
+  const parts = [...kit.objects.web, ...own.values()];
+  for (const [name, paths] of Object.entries(kit.objects)) {
+    if (name.startsWith("step-") && !own.has(name.slice("step-".length))) {
+      parts.push(...paths);
+    }
+  }
+  return [...parts, ...kit.objects[`test-${number}`], ...kit.objects.kit];
+}
+
+async function build({ job, number, sources }) {
+  const start = performance.now();
+  const own = new Map();
+  for (const [one, source] of Object.entries(sources)) {
+    const step = kit.steps[one];
+    const made = await compile(step, source);
+    if (one === number || made.code !== 0) {
+      postMessage({ job, says: { number: one, code: made.code, text: made.says } });
+    }
+    if (made.code !== 0) {
+      postMessage({ job, done: true, program: null });
+      return;
+    }
+    own.set(one, made.object);
+  }
+  const compiledAt = performance.now();
+  files.remove("/work/program.wasm");
+  const said = runProgram(clang, filled(kit.link, linkInputs(number, own), "/work/program.wasm"), files);
+  const bytes = said.code === 0 ? files.read("/work/program.wasm").slice() : null;
+  if (said.code !== 0) {
+    postMessage({ job, says: { number, code: said.code, text: said.stderr } });
+  }
+  const seconds = { compile: (compiledAt - start) / 1000, link: (performance.now() - compiledAt) / 1000 };
+  postMessage({ job, done: true, program: bytes, seconds }, bytes ? [bytes.buffer] : []);
+}
+
+let queue = Promise.resolve();
+addEventListener("message", ({ data }) => {
+  queue = queue
+    .then(() => (data.kit ? prepare(data) : build(data)))
+    .catch((error) => postMessage({ job: data.job, failed: String(error?.message ?? error) }));
+});

@@ -1,0 +1,481 @@
+// The page to work in: chooses a step, keeps its source, and after each save compiles it, runs its tests and draws.
+
+import { Editor } from "./editor.js";
+import { compare, draw, readImage, readPpm } from "./pictures.js";
+import { Compiler, Runner } from "./programs.js";
+import { readReport } from "./report.js";
+import { Work, zipOf } from "./work.js";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const element = (id) => document.getElementById(id);
+const COMPILE_SECONDS = 60;
+const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
+const KEEP_AFTER = 300; // milliseconds without a key
+
+/** The functions of a source that still say that they are not written. */
+function unfinished(source) {
+  const code = source.replace(/\/\*.*?\*\/|\/\/[^\n]*/gs, "");
+  return new Set([...code.matchAll(/RAYSTEPS_TODO\(\s*"[^"]*",\s*"([^"]*)"\s*\)/g)].map((found) => found[1]));
+}
+
+/** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
+function problemsIn(text) {
+  const found = text.matchAll(/^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/gm);
+  return [...found].map(([, file, line, column, kind, message]) => ({
+    file,
+    line: Number(line),
+    column: Number(column),
+    severity: kind === "note" ? "info" : kind,
+    message,
+  }));
+}
+
+/** Why a run gave nothing, in words; `what` is what it was to give. */
+function whyNothing(ran, what) {
+  if (ran.stopped === "time") {
+    return `${what} was not ready in time. ${data.words.endless}`;
+  }
+  if (ran.stopped) {
+    return `${what} was stopped.`;
+  }
+  if (ran.crashed) {
+    return `${what} was not made: the program crashed (${ran.crashed}).`;
+  }
+  const said = ran.stderr.trim().split("\n").at(-1);
+  return `${what} was not made: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
+}
+
+class Page {
+  #work;
+  #step = null;
+  #editor;
+  #compiler;
+  #tester = new Runner();
+  #painter = new Runner();
+  #keepTimer = 0;
+  #run = 0; // counts runs: what an older one finds is not shown
+  #files = new Map();
+
+  async start() {
+    this.#work = await Work.open("raysteps-play");
+    this.#editor = new Editor(element("play-editor"), "Source of the step", () => this.#changed());
+    this.#compiler = new Compiler(data.kit, (part) => this.#loading(part));
+    for (const step of data.steps) {
+      element("play-step").append(new Option(`${step.number} ${step.title}`, step.number));
+    }
+    element("play-step").addEventListener("change", (event) => {
+      location.hash = event.target.value;
+    });
+    addEventListener("hashchange", () => this.#open());
+    addEventListener("pagehide", () => this.#keep());
+    element("play-run").addEventListener("click", () => this.run());
+    element("play-stop").addEventListener("click", () => this.stop());
+    element("play-save").addEventListener("click", () => this.#saveZip());
+    element("play-hint").addEventListener("click", () => this.#hint());
+    element("play-reset").addEventListener("click", () => element("play-really").showModal());
+    element("play-really").addEventListener("close", (event) => {
+      if (event.target.returnValue === "reset") {
+        this.#reset();
+      }
+    });
+    addEventListener("keydown", (event) => {
+      if ((event.ctrlKey || event.metaKey) && (event.key.toLowerCase() === "s" || event.key === "Enter")) {
+        event.preventDefault();
+        this.run();
+      }
+    });
+    await this.#open();
+    this.#say("busy", "Loading the compiler ...");
+    await this.#compiler.prepare();
+    await this.run();
+  }
+
+  // What is shown, and kept.
+
+  async #open() {
+    const wanted = data.steps.find((step) => step.number === location.hash.slice(1)) ?? data.steps[0];
+    if (wanted === this.#step) {
+      return;
+    }
+    const before = this.#step;
+    await this.#keep();
+    this.stop();
+    this.#step = wanted;
+    element("play-step").value = wanted.number;
+    document.title = `${wanted.number} ${wanted.title} · Raysteps`;
+    element("play-file").textContent = wanted.path;
+    this.#editor.load((await this.#work.read(wanted.id)) ?? wanted.stub, wanted.names);
+    const handout = await fetch(`steps/${wanted.number}.html`);
+    element("play-handout").innerHTML = await handout.text();
+    element("play-handout").scrollTop = 0;
+    for (const room of ["play-first", "play-pictures", "play-tests", "play-problems", "play-hints"]) {
+      element(room).replaceChildren();
+    }
+    element("play-console").textContent = "";
+    if (before) {
+      await this.run();
+    }
+  }
+
+  #changed() {
+    clearTimeout(this.#keepTimer);
+    element("play-kept").textContent = "";
+    this.#keepTimer = setTimeout(() => this.#keep(), KEEP_AFTER);
+  }
+
+  async #keep() {
+    clearTimeout(this.#keepTimer);
+    if (this.#step && (this.#editor.text !== this.#step.stub || (await this.#work.read(this.#step.id)))) {
+      await this.#work.write(this.#step.id, this.#editor.text);
+      element("play-kept").textContent = "Kept in this browser.";
+    }
+  }
+
+  async #sourceOf(step) {
+    return step === this.#step ? this.#editor.text : ((await this.#work.read(step.id)) ?? step.stub);
+  }
+
+  async #reset() {
+    await this.#work.write(`${this.#step.id} before its reset`, this.#editor.text);
+    await this.#work.forget(this.#step.id);
+    this.#editor.load(this.#step.stub, this.#step.names);
+    await this.run();
+  }
+
+  async #saveZip() {
+    await this.#keep();
+    const texts = {};
+    for (const step of data.steps) {
+      const text = await this.#work.read(step.id);
+      if (text) {
+        texts[step.path] = text;
+      }
+    }
+    const link = make("a", { href: URL.createObjectURL(zipOf(texts)), download: "my-steps.zip" });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  }
+
+  #hint() {
+    const room = element("play-hints");
+    const text = this.#step.hints[room.childElementCount];
+    if (text) {
+      room.append(make("pre", { class: "play-hint", tabindex: 0 }, text.trim()));
+      room.lastElementChild.scrollIntoView({ block: "nearest" });
+    }
+    element("play-hint").disabled = room.childElementCount >= this.#step.hints.length;
+  }
+
+  #say(phase, text) {
+    const room = element("play-status");
+    room.dataset.phase = phase;
+    if (room.textContent !== text) {
+      room.textContent = text;
+    }
+    element("play-stop").disabled = phase !== "busy";
+  }
+
+  #loading({ name, done, total }) {
+    const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
+    const bar = element("play-loading");
+    bar.hidden = total > 0 && done >= total;
+    bar.max = total || 1;
+    bar.value = done;
+    this.#say("busy", `Loading ${name}: ${megabytes(done)}${total ? ` of ${megabytes(total)}` : ""}`);
+  }
+
+  // A run: compile, link, test, draw.
+
+  stop() {
+    this.#run++;
+    this.#compiler.stop("The compiler was stopped.");
+    this.#tester.stop("hand");
+    this.#painter.stop("hand");
+    this.#say("idle", "Stopped.");
+  }
+
+  async run() {
+    this.stop();
+    const run = this.#run;
+    const step = this.#step;
+    const start = performance.now();
+    try {
+      await this.#keep();
+      this.#say("busy", "Compiling ...");
+      const built = await this.#build(step);
+      if (run !== this.#run) {
+        return;
+      }
+      this.#tellProblems(step, built);
+      if (!built.program) {
+        this.#say("bad", built.stopped ?? "It does not compile.");
+        return;
+      }
+      const module = await WebAssembly.compile(built.program);
+      this.#say("busy", "Testing and drawing ...");
+      element("play-console").textContent = "";
+      const current = () => run === this.#run;
+      const [tests, pictures] = await Promise.all([
+        this.#test(step, module, current),
+        this.#paint(step, module, current, start),
+      ]);
+      if (current()) {
+        this.#sum(step, tests, pictures, built);
+      }
+    } catch (error) {
+      if (run === this.#run) {
+        this.#say("bad", `The page has a fault: ${error.message}`);
+      }
+    }
+  }
+
+  async #build(step) {
+    const own = data.model === "reference" ? [step] : data.steps.filter((one) => one.number <= step.number);
+    const sources = {};
+    for (const one of own) {
+      sources[one.number] = await this.#sourceOf(one);
+    }
+    return this.#compiler.build(step.number, sources, COMPILE_SECONDS);
+  }
+
+  #tellProblems(step, built) {
+    const room = element("play-problems");
+    room.replaceChildren();
+    const mine = [];
+    for (const { number, text } of built.says) {
+      const source = data.kit.steps[number].source;
+      const problems = problemsIn(text);
+      for (const problem of problems) {
+        const isMine = number === step.number && problem.file === source;
+        mine.push(...(isMine ? [problem] : []));
+        room.append(this.#problem(problem, isMine));
+      }
+      if (!problems.length && text.trim()) {
+        room.append(make("pre", { tabindex: 0 }, text.trim()));
+      }
+    }
+    this.#editor.mark(mine);
+  }
+
+  #problem({ file, line, severity, message }, isMine) {
+    const where = `${file.split("/").at(-1)}:${line}`;
+    const place = isMine ? make("button", { type: "button", class: "play-place" }, where) : make("code", {}, where);
+    if (isMine) {
+      place.addEventListener("click", () => this.#editor.goTo(line));
+    }
+    return make("p", { class: `play-problem play-${severity}` }, place, ` ${severity}: ${message}`);
+  }
+
+  #print(ran) {
+    const text = `${ran.stderr ?? ""}`.trim();
+    if (text) {
+      const room = element("play-console");
+      const lines = new Set(`${room.textContent}\n${text}`.split("\n").filter(Boolean));
+      room.textContent = [...lines].slice(-200).join("\n");
+    }
+  }
+
+  // Tests.
+
+  async #test(step, module, current) {
+    const words = ["test", "-r", "xml", "-o", "/out/report.xml"];
+    const task = { module, files: {}, wanted: ["/out/report.xml"] };
+    let limit = step.seconds;
+    const ask = (more = []) => this.#tester.run({ ...task, words: [...words, ...more] }, limit);
+    const reportOf = (ran) => readReport(new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array()));
+    const together = await ask();
+    limit /= together.stopped ? AFTER_A_STOP : 1;
+    let results = together.code === undefined ? null : reportOf(together);
+    if (results?.length !== step.tests.length) {
+      results = [];
+      for (const { name } of step.tests) {
+        if (!current()) {
+          return [];
+        }
+        const ran = await ask([name.replace(/([\\,["])/g, "\\$1")]);
+        const [found] = (ran.code === undefined ? null : reportOf(ran)) ?? [];
+        results.push(found ?? { name, passed: false, message: whyNothing(ran, "The test") });
+        this.#print(ran);
+      }
+    }
+    if (current()) {
+      this.#print(together);
+      this.#tellTests(step, results);
+    }
+    return results;
+  }
+
+  #tellTests(step, results) {
+    const open = unfinished(this.#editor.text);
+    const functionsOf = Object.fromEntries(step.tests.map(({ name, functions }) => [name, functions]));
+    const isOpen = ({ name, passed }) => !passed && functionsOf[name]?.some((one) => open.has(one));
+    const wrong = results.filter((one) => !one.passed && !isOpen(one));
+    const waiting = results.filter(isOpen);
+    const right = results.filter((one) => one.passed);
+    const list = (title, some) =>
+      some.length
+        ? [
+            make(
+              "details",
+              {},
+              make("summary", {}, title),
+              make("ul", {}, ...some.map(({ name }) => make("li", {}, name))),
+            ),
+          ]
+        : [];
+    element("play-tests").replaceChildren(
+      ...wrong.map(({ name, failure, message }) =>
+        watchTest({
+          name,
+          message: message ?? failure?.notes ?? "",
+          expected: failure?.expected,
+          actual: failure?.got,
+          place: failure?.where,
+        }),
+      ),
+      ...list(`${waiting.length} wait for a function that is not written yet`, waiting),
+      ...list(`${right.length} of ${results.length} tests pass`, right),
+    );
+  }
+
+  // Pictures.
+
+  async #fileOf(name) {
+    if (!this.#files.has(name)) {
+      this.#files.set(name, new Uint8Array(await (await fetch(name)).arrayBuffer()));
+    }
+    return this.#files.get(name);
+  }
+
+  async #paint(step, module, current, start) {
+    const verdicts = [];
+    let limit = step.seconds;
+    for (const picture of step.pictures) {
+      const shown = this.#frame(picture);
+      const task = {
+        module,
+        words: ["raytrace", "/scene.nff", ...picture.args, ...data.words.raytrace],
+        files: { "/scene.nff": await this.#fileOf(picture.scene) },
+        wanted: ["/out/picture.ppm", "/out/stats.json"],
+      };
+      if (!current()) {
+        return [];
+      }
+      const ran = await this.#painter.run(task, limit, (tile) => current() && shown.tile(tile));
+      if (!current()) {
+        return [];
+      }
+      limit /= ran.stopped ? AFTER_A_STOP : 1;
+      this.#print(ran);
+      const verdict = await this.#judge(picture, ran, shown);
+      verdicts.push(verdict);
+      shown.root.dataset.seconds = ((performance.now() - start) / 1000).toFixed(2);
+    }
+    return verdicts;
+  }
+
+  /** Where a picture stands: the canvas on which it grows, and then the comparison. */
+  #frame(picture) {
+    const id = `picture-${picture.name}`;
+    let root = element(id);
+    if (!root) {
+      const canvas = make("canvas", { class: "play-canvas", role: "img", "aria-label": `${picture.name}: yours` });
+      const goal = make("img", { class: "play-goal", src: picture.reference, alt: `${picture.name}: the reference` });
+      root = make(
+        "article",
+        { class: "play-picture", id },
+        make("h3", {}, picture.name, make("span", {}), this.#numbersButton()),
+        make("p", { class: "play-words" }),
+        make("div", { class: "play-pair" }, canvas, goal),
+      );
+      element(picture === this.#step.pictures[0] ? "play-first" : "play-pictures").append(root);
+    }
+    const [canvas] = root.getElementsByTagName("canvas");
+    const pair = root.querySelector(".play-pair");
+    const beginGrowing = () => {
+      if (pair.hidden || !canvas.dataset.grows) {
+        canvas.width = picture.width;
+        canvas.height = picture.height;
+        canvas.dataset.grows = "yes";
+        pair.hidden = false;
+        root.querySelector("compare-pictures")?.setAttribute("hidden", "");
+      }
+    };
+    return {
+      root,
+      tile: (tile) => {
+        beginGrowing();
+        draw(canvas, tile);
+      },
+      done: () => delete canvas.dataset.grows,
+    };
+  }
+
+  /** Shows and hides what a comparison tells of single pixels. */
+  #numbersButton() {
+    const button = make("button", { type: "button", class: "play-numbers", "aria-pressed": "false" }, "Numbers");
+    button.addEventListener("click", () => {
+      const isOn = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(isOn));
+      button.closest(".play-picture").classList.toggle("play-with-numbers", isOn);
+    });
+    return button;
+  }
+
+  async #judge(picture, ran, shown) {
+    shown.done();
+    const bytes = ran.code === 0 ? ran.made["/out/picture.ppm"] : null;
+    const mine = bytes ? readPpm(bytes) : null;
+    const reference = await readImage(picture.reference);
+    const verdict = mine
+      ? compare(mine, reference, picture.maxWrong)
+      : { passed: false, message: whyNothing(ran, "The picture") };
+    const stats = ran.made?.["/out/stats.json"];
+    if (verdict.passed && picture.maxShare !== null && stats) {
+      Object.assign(verdict, this.#work_of(JSON.parse(new TextDecoder().decode(stats)).share_tested, picture.maxShare));
+    }
+    const sign = shown.root.querySelector("h3 > span");
+    sign.textContent = verdict.passed ? " ✓ right" : mine ? " ✗ wrong" : " ✗ missing";
+    sign.className = verdict.passed ? "watch-good" : "watch-bad";
+    shown.root.querySelector(".play-words").textContent = verdict.message;
+    if (mine) {
+      this.#showPair(picture, mine, shown.root);
+    }
+    return verdict;
+  }
+
+  #work_of(share, most) {
+    if (!share) {
+      return { passed: false, message: data.words.noTests };
+    }
+    const percent = (part) => Number((100 * part).toPrecision(3));
+    const message = data.words.tooManyTests.replace("{share}", percent(share)).replace("{most}", percent(most));
+    return share <= most ? {} : { passed: false, message };
+  }
+
+  #showPair(picture, mine, root) {
+    const canvas = make("canvas", { width: mine.width, height: mine.height });
+    draw(canvas, mine);
+    let view = root.querySelector("compare-pictures");
+    if (!view) {
+      view = make("compare-pictures", { label: picture.name, group: "play" });
+      root.append(view);
+    }
+    view.removeAttribute("hidden");
+    const one = (src, name) => ({ src, name, alt: `${picture.name}: ${name}` });
+    view.setPictures({ reference: one(picture.reference, "reference"), mine: one(canvas.toDataURL(), "yours") });
+    root.querySelector(".play-pair").hidden = true;
+  }
+
+  #sum(step, tests, pictures, built) {
+    const passed = tests.filter((one) => one.passed).length;
+    const right = pictures.filter((one) => one.passed).length;
+    const done = passed === tests.length && right === pictures.length;
+    const seconds = `compiled in ${built.seconds.compile.toFixed(1)} s, linked in ${built.seconds.link.toFixed(1)} s`;
+    const words = `${passed} of ${tests.length} tests pass, ${right} of ${pictures.length} pictures are right`;
+    this.#say(done ? "good" : "bad", `Step ${step.number}${done ? " is right" : ""}: ${words}.`);
+    element("play-times").textContent = seconds;
+  }
+}
+
+await new Page().start();

@@ -1,0 +1,120 @@
+// The workers that compile and run, and what is done when one of them does not answer: it is ended, and another one
+// takes its place. The page itself never waits.
+
+/** Compiles and links. One job at a time; a new one ends an old one. */
+export class Compiler {
+  #kit;
+  #loading;
+  #worker = null;
+  #clang = null; // the compiler's module, which outlives a worker
+  #ready = null;
+  #answer = null;
+  #lastJob = 0;
+
+  /** `loading` is told how much of which file has come. */
+  constructor(kit, loading) {
+    this.#kit = kit;
+    this.#loading = loading;
+  }
+
+  /** Loads all that it takes, once. */
+  prepare() {
+    this.#ready ??= new Promise((resolve, reject) => {
+      this.#worker = new Worker("compiler.js", { type: "module" });
+      this.#worker.onerror = (event) => reject(new Error(event.message || "the compiler could not be started"));
+      this.#worker.onmessage = ({ data }) => {
+        if (data.loading) {
+          this.#loading(data.loading);
+        } else if (data.ready) {
+          this.#clang = data.clang ?? this.#clang;
+          resolve();
+        } else if (data.failed && data.job === undefined) {
+          reject(new Error(data.failed));
+        } else {
+          this.#answer?.(data);
+        }
+      };
+      this.#worker.postMessage({ kit: this.#kit, clang: this.#clang });
+    });
+    return this.#ready;
+  }
+
+  /** `{program, says: [{number, code, text}], seconds}`; `stopped` where somebody ended it, or its time was over. */
+  async build(number, sources, limit) {
+    await this.prepare();
+    const job = ++this.#lastJob;
+    const says = [];
+    return new Promise((resolve, reject) => {
+      const end = (result) => {
+        clearTimeout(timer);
+        this.#answer = null;
+        resolve({ program: null, says, ...result });
+      };
+      const timer = setTimeout(() => this.stop(`The compiler was stopped after ${limit} s.`), 1000 * limit);
+      this.#answer = (data) => {
+        if (data.stopped) {
+          end(data);
+        } else if (data.job !== job) {
+          return;
+        } else if (data.says) {
+          says.push(data.says);
+        } else if (data.failed) {
+          clearTimeout(timer);
+          reject(new Error(data.failed));
+        } else {
+          end(data);
+        }
+      };
+      this.#worker.postMessage({ job, number, sources });
+    });
+  }
+
+  stop(reason) {
+    if (this.#answer) {
+      this.#worker.terminate();
+      this.#ready = null;
+      this.#answer({ stopped: reason });
+      this.prepare();
+    }
+  }
+}
+
+/** Runs one program at a time. */
+export class Runner {
+  #worker = null;
+  #end = null;
+
+  /**
+   * `{code, stdout, stderr, made, seconds}`, or `{crashed}`, or `{stopped}`.
+   * @param {{module: WebAssembly.Module, words: string[], files: object, wanted: string[]}} task
+   * @param {number} limit in seconds
+   */
+  run(task, limit, onTile = () => {}) {
+    this.#worker ??= new Worker("runner.js", { type: "module" });
+    return new Promise((resolve) => {
+      const timer = setTimeout(() => this.stop("time"), 1000 * limit);
+      this.#end = (result) => {
+        clearTimeout(timer);
+        this.#end = null;
+        resolve(result);
+      };
+      this.#worker.onmessage = ({ data }) => {
+        if (data.tile) {
+          onTile(data.tile);
+        } else {
+          this.#end?.(data.ended ?? data);
+        }
+      };
+      this.#worker.onerror = (event) => this.#end?.({ crashed: event.message || "the worker ended" });
+      this.#worker.postMessage(task);
+    });
+  }
+
+  stop(reason) {
+    if (this.#end) {
+      this.#worker.terminate();
+      this.#worker = null;
+      this.#end({ stopped: reason });
+    }
+  }
+}

@@ -1,0 +1,306 @@
+"""The kit compiled for the page: framework, tests and steps as objects, and the headers of each step for later."""
+
+import hashlib
+import json
+import os
+import re
+import shlex
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.files import write_bytes
+from raysteps.course.manifest import Step, read_all_steps
+from raysteps.course.project import Project
+from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
+from raysteps.toolchain.build_kit import read_given_tests, tested_functions
+from raysteps.toolchain.catch2 import parse_report
+from raysteps.toolchain.cmake import release_tree
+
+# Folders by the names that the compiler knows them by, here and in the page.
+_KIT, _LIBRARIES, _PARTS, _WORK = "/kit", "/libraries", "/parts", "/work"
+_INCLUDES = ("-I", f"{_KIT}/framework", "-I", _KIT, "-isystem", _LIBRARIES)
+_WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno-unused-parameter")
+_QUIET = "-w"  # the native build warns about the kit's own code
+# Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
+_TESTING = ("-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
+_TEST_MAIN, _RAYTRACE = "-Dmain=test_main", ("-Dmain=raytrace_main",)
+# Libraries that are headers only: the folder or file of each, and where packages put it.
+_HEADERS = {"glm": ("glm",), "catch2": ("catch2",), "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h")}
+_USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
+_MOST_AT_ONCE = 4  # each takes some 300 MB
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file of the kit and how CMake compiles it, as far as that is not the machine's own."""
+
+    path: str  # from the root
+    words: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """An object that is to be made."""
+
+    source: Source
+    level: str = "-O2"
+    flags: tuple[str, ...] = ()
+
+
+def _words_of(entry: Mapping[str, str]) -> list[str]:
+    return shlex.split(entry["command"], posix=os.name != "nt") if "command" in entry else list(entry["arguments"])
+
+
+def _folders(words: Sequence[str]) -> list[str]:
+    joined = re.findall(r"(?:^|\0)(?:-I|-isystem\0|/I|-external:I|/external:I)\0?([^\0]+)", "\0".join(words))
+    return [folder.strip('"') for folder in joined]
+
+
+class Sources:
+    """What CMake has found, so that nothing is listed twice: from its list of commands."""
+
+    def __init__(self, project: Project) -> None:
+        tree = release_tree(project)
+        with tree.locked():
+            tree.configure()
+        self._root = project.root.resolve()
+        text = (tree.folder / "compile_commands.json").read_text(encoding="utf-8")
+        self._entries = [(Path(entry["file"]), _words_of(entry)) for entry in json.loads(text)]
+
+    def of(self, target: str) -> list[Source]:
+        """The sources of one of CMake's targets, none where there is no such target."""
+        mark = f"CMakeFiles/{target}.dir/"
+        found = [(path, words) for path, words in self._entries if any(mark in word for word in words)]
+        return [Source(self._inside(path), self._words(words)) for path, words in found]
+
+    def _inside(self, path: Path) -> str:
+        return path.resolve().relative_to(self._root).as_posix()
+
+    def _words(self, words: Sequence[str]) -> tuple[str, ...]:
+        defined = [
+            f"-D{word[2:]}" for word in words if re.match(r"[-/]D\w", word) and not word[2:].startswith("NDEBUG")
+        ]
+        inside = [Path(folder).resolve() for folder in _folders(words)]
+        own = [folder for folder in inside if folder.is_relative_to(self._root / "framework")]
+        return (*defined, *(f"-I{_KIT}/{self._inside(folder)}" for folder in own))
+
+    def folders_of_others(self) -> list[Path]:
+        """Where libraries' headers were found."""
+        found = dict.fromkeys(folder for _, words in self._entries for folder in _folders(words))
+        outside = [Path(folder) for folder in found if not Path(folder).resolve().is_relative_to(self._root)]
+        fetched = [self._root / "build" / "release" / "_deps" / name for name in ("glm-src", "catch2-src", "stb-src")]
+        return [*outside, *fetched, *map(Path, _USUAL_FOLDERS)]
+
+
+def headers_path(step: Step) -> str:
+    """Where the first lines of the step's source stand by themselves."""
+    return f"{_WORK}/headers-{step.number}.hpp"
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Files by their paths, and which of them belong together."""
+
+    files: dict[str, bytes]
+    objects: dict[str, list[str]]
+
+
+class WebKit:
+    """Compiles into a cache: an object is made anew when something that it may depend on has changed."""
+
+    def __init__(self, project: Project, clang: WebClang, say: Callable[[str], None] = lambda text: None) -> None:
+        self._project = project
+        self._clang = clang
+        self._say = say
+        self._sources = Sources(project)
+        self.steps = read_all_steps(project)
+        self.model = "reference" if project.has_reference else "stub"
+        self._cache = project.build / "play"
+
+    @cached_property
+    def libraries(self) -> Path:
+        """The headers of GLM, Catch2 and stb_image_write by themselves: beside them lie those of this system."""
+        target = self._cache / "libraries"
+        for name, places in _HEADERS.items():
+            folders = self._sources.folders_of_others()
+            found = next((folder / place for folder in folders for place in places if (folder / place).exists()), None)
+            if found is None:
+                raise UsageError(f"{name}: the headers are not where CMake found them; is the library installed?")
+            if not (target / name).exists():
+                target.mkdir(parents=True, exist_ok=True)
+                (shutil.copytree if found.is_dir() else shutil.copyfile)(found, target / name)
+        if not (target / "catch2" / "catch.hpp").is_file():
+            raise UsageError("Catch2 is there in version 3; the page needs the one header of version 2")
+        return target
+
+    @cached_property
+    def _places(self) -> dict[str, Path]:
+        return {_KIT: self._project.root, _LIBRARIES: self.libraries, "/usr": self._clang.system}
+
+    @cached_property
+    def _headers_mark(self) -> bytes:
+        """Changes with every header."""
+        digest = hashlib.sha256(self._clang.wasm.parent.parent.name.encode())
+        own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
+        for path in sorted([*own, *self.libraries.glob("*/*.hpp")]):
+            digest.update(f"{path.name}\0".encode() + path.read_bytes())
+        return digest.digest()
+
+    def _mark(self, source: Path, command: Sequence[str]) -> str:
+        digest = hashlib.sha256(self._headers_mark)
+        digest.update("\0".join(command).encode() + source.read_bytes())
+        return digest.hexdigest()[:24]
+
+    @cached_property
+    def _commands(self) -> dict[tuple[str, bool], list[str]]:
+        return {
+            (level, header): self._clang.compile_command(level, [], header=header)
+            for level, header in (("-O2", False), ("-O1", False), ("-O2", True))
+        }
+
+    def _made(self, wanted: Wanted) -> Path:
+        """The object."""
+        source = wanted.source
+        words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags, _QUIET]
+        target = self._cache / "objects" / f"{self._mark(self._project.root / source.path, words)}.o"
+        if not target.is_file():
+            self._compile(words, f"{_KIT}/{source.path}", target)
+        return target
+
+    def _compile(self, words: Sequence[str], path: str, target: Path, more: Mapping[str, str] | None = None) -> None:
+        """`more` are texts that lie beside what is made, by their names."""
+        with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+            for name, text in (more or {}).items():
+                (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
+            named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
+            self._clang.make([named.get(word, word) for word in words], {**self._places, _WORK: Path(folder)})
+            write_bytes(target, (Path(folder) / "made").read_bytes())
+
+    def _wanted(self) -> dict[str, list[Wanted]]:
+        """What is to be made, by the name of the part that it belongs to."""
+        of = self._sources.of
+        libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
+        web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
+        parts = {
+            "web": [Wanted(Source(path.relative_to(self._project.root).as_posix())) for path in web],
+            "kit": [
+                *(Wanted(source) for source in libraries),
+                *(Wanted(source, flags=_RAYTRACE) for source in of("raytrace-app")),
+                *(Wanted(source, "-O1", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
+            ],
+        }
+        for step in self.steps:
+            tests, own = of(f"test-{step.number}-objects"), of(f"step-{step.number}-{self.model}-raw")
+            parts[f"test-{step.number}"] = [Wanted(source, "-O1", _TESTING) for source in tests]
+            parts[f"step-{step.number}"] = [Wanted(source) for source in own]
+        if not all(parts.values()):
+            raise GraderFault("CMake's list of commands lacks parts of the kit")
+        return parts
+
+    @cached_property
+    def _objects(self) -> dict[str, list[Path]]:
+        """`kit`, `web`, `test-NN` and `step-NN`."""
+        parts = self._wanted()
+        total, done = sum(map(len, parts.values())), 0
+        _ = self._commands, self._places, self._headers_mark  # before several ask for them at once
+        with ThreadPoolExecutor(min(_MOST_AT_ONCE, os.cpu_count() or 1)) as pool:
+            waiting = {name: [pool.submit(self._made, one) for one in some] for name, some in parts.items()}
+            made: dict[str, list[Path]] = {}
+            for name, some in waiting.items():
+                made[name] = [one.result() for one in some]
+                done += len(some)
+                self._say(f"compiling the kit for the page (once): {done} of {total}")
+        return made
+
+    # What the page is given.
+
+    @cached_property
+    def _archive(self) -> Path:
+        """The framework: a program takes from it what it needs."""
+        objects = self._objects["kit"]
+        target = self._kept("a", *(path.name for path in objects))
+        if not target.is_file():
+            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+                places = {_PARTS: self._cache / "objects", _WORK: Path(folder)}
+                self._clang.make(["ar", "rcs", f"{_WORK}/kit.a", *(f"{_PARTS}/{one.name}" for one in objects)], places)
+                write_bytes(target, (Path(folder) / "kit.a").read_bytes())
+        return target
+
+    def _kept(self, ending: str, *marks: str) -> Path:
+        return self._cache / "objects" / f"{hashlib.sha256(' '.join(marks).encode()).hexdigest()[:24]}.{ending}"
+
+    def parts(self) -> Parts:
+        """All objects, by the paths that the linker in the page knows them by."""
+        named = {name: some for name, some in self._objects.items() if name != "kit"} | {"kit": [self._archive]}
+        found = {f"{_PARTS}/{path.name}": path for some in named.values() for path in some}
+        return Parts(
+            {name.lstrip("/"): path.read_bytes() for name, path in found.items()},
+            {name: [f"{_PARTS}/{path.name}" for path in some] for name, some in named.items()},
+        )
+
+    def step_command(self) -> list[str]:
+        """How a student's step is compiled."""
+        return [*self._commands["-O2", False], *_INCLUDES, *_WARNINGS, "-fno-caret-diagnostics"]
+
+    def headers(self, step: Step, includes: str) -> Path:
+        """What the first lines of a source include, as the compiler keeps it in memory. No more than these: a header
+        that is missing is missed in the page as everywhere."""
+        words, path = self.headers_command(), headers_path(step)
+        target = self._kept("pch", self._headers_mark.hex(), step.number, includes, *words)
+        if not target.is_file():
+            self._compile(words, path, target, {Path(path).name: includes})
+        return target
+
+    def headers_command(self) -> list[str]:
+        """How these are compiled; the page does it, too, when a student includes something else."""
+        flags = ("-fno-pch-timestamp", "-fpch-instantiate-templates")
+        return [*self._commands["-O2", True], *_INCLUDES, *_WARNINGS, *flags]
+
+    def _program(self, step: Step) -> Path:
+        """With the visible tests of the step; every step is the model's."""
+        names = ["web", *(f"step-{other.number}" for other in self.steps), f"test-{step.number}"]
+        inputs = [*(path for name in names for path in self._objects[name]), self._archive]
+        target = self._kept("wasm", *(path.name for path in inputs))
+        if not target.is_file():
+            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+                places = {_PARTS: self._cache / "objects", _WORK: Path(folder), "/usr": self._clang.system}
+                words: list[str] = []
+                for word in self._clang.link_command():
+                    words += [f"{_PARTS}/{path.name}" for path in inputs] if word == INPUT else [word]
+                self._clang.make([f"{_WORK}/made" if word == OUTPUT else word for word in words], places)
+                write_bytes(target, (Path(folder) / "made").read_bytes())
+        return target
+
+    def _ran(self, step: Step, words: Sequence[str], made: str, scene: Path | None = None) -> Path:
+        """The file that the reference's program makes."""
+        program = self._program(step)
+        content = "" if scene is None else scene.read_text("utf-8")
+        target = self._kept(made, program.name, *words, content)
+        if not target.is_file():
+            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+                (Path(folder) / "scene.nff").write_text(content, encoding="utf-8")
+                said = self._clang.program(program, [*words, "-o", f"{_WORK}/{made}"], {_WORK: Path(folder)})
+                if said.code != 0:
+                    raise GraderFault(f"the reference fails in the page's program: {said.stderr.strip()}")
+                write_bytes(target, (Path(folder) / made).read_bytes())
+        return target
+
+    def tests(self, step: Step) -> Mapping[str, Sequence[str]]:
+        """The visible tests, each with the functions that it tests."""
+        if not self._project.has_reference:
+            return read_given_tests(self._project)[step.id]
+        cases = parse_report(self._ran(step, ["test", "-r", "xml"], "xml").read_bytes())
+        if not cases or not all(case.passed for case in cases):
+            raise GraderFault(f"step {step.number}: the reference fails its own tests in the page's program")
+        return {case.name: tested_functions(step, case.name, case.tags) for case in cases}
+
+    def picture(self, scene: Path, args: Sequence[str]) -> Path:
+        """The reference's, as raytrace writes it."""
+        words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet"]
+        return self._ran(self.steps[0], words, "ppm", scene)

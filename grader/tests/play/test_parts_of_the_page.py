@@ -1,0 +1,136 @@
+"""What the page is made of: handouts, modules, the words of reports. The whole page: test_play_page.py."""
+
+import json
+from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import Watched
+from catch2_words import COMPARISONS
+
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub
+from raysteps.images.compare import compare, parse_ppm
+from raysteps.play.play_page import PlayServer, first_includes, handout, with_places
+from raysteps.toolchain.catch2 import parse_report
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+
+def test_modules_find_each_other_by_their_places() -> None:
+    source = "import { a } from \"@codemirror/view\";\nimport b from 'crelt';\nimport './own.js';\nexport * from \"./x.js\";\n"
+    assert with_places(source, "./editor/") == (
+        "import { a } from \"./editor/codemirror-view.js\";\nimport b from './editor/crelt.js';\n"
+        "import './own.js';\nexport * from \"./x.js\";\n"
+    )
+
+
+def test_what_a_source_includes_first(project: Project, steps: list[Step]) -> None:
+    text = '// mine\n#include "a.hpp"\n\n  #include <vector>  \nint x;\n#include <map>\n'
+    assert first_includes(text) == '#include "a.hpp"\n#include <vector>\n'
+    assert first_includes("int x;\n") == ""
+    for step in steps:
+        assert first_includes(pristine_stub(project, step)).startswith(f'#include "steps/{step.id}/')
+
+
+def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, steps: list[Step]) -> None:
+    asked: list[str] = []
+
+    def shown(path: str) -> str:
+        asked.append(path)
+        return f"figures/{Path(path).name}"
+
+    numbers = {step.id: step.number for step in steps}
+    for step in steps:
+        text = handout((project.steps / step.id / "README.md").read_text("utf-8"), numbers, shown)
+        assert "../" not in text, step.id
+        assert "\ue000" not in text
+        assert "<table " in text
+    assert all((project.root / path).is_file() for path in asked)
+    text = handout("[next](../02-intersection/README.md) [x](../../docs/judge.md) $a^2$ `$b$`", numbers, shown)
+    assert '<a href="#02">next</a> x <math' in text
+    assert "<code>$b$</code>" in text
+
+
+_PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script type="module" src="check.js"></script>"""
+_CHECK = """import { readReport } from "./report.js";
+import { compare, readPpm } from "./pictures.js";
+const picture = (bytes) => readPpm(new Uint8Array(bytes));
+window.checks = { readReport, judge: (mine, reference, most) => compare(picture(mine), picture(reference), most) };
+"""
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[PlayServer]:
+    for name in ("report.js", "pictures.js"):
+        (tmp_path / name).write_bytes(files("raysteps.play").joinpath("static", name).read_bytes())
+    (tmp_path / "index.html").write_text(_PAGE)
+    (tmp_path / "check.js").write_text(_CHECK)
+    found = PlayServer(tmp_path)
+    yield found
+    found.close()
+
+
+def _open(watched: Watched, server: PlayServer) -> "Page":
+    watched.allowed.append(server.address)
+    page = watched.open(server.address)
+    page.wait_for_function("'checks' in window")
+    return page
+
+
+def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server: PlayServer) -> None:
+    page = _open(watched, server)
+    cases = "".join(
+        f'<TestCase name="{at}" filename="/k/a_test.cpp" line="3"><Section name="part &amp; {at}"><Info>x := 2.5f</Info>'
+        f'<Expression success="false" filename="/k/{"a_test.cpp" if at % 2 else "hits.hpp"}" line="{at}">'
+        f"<Original>{original}</Original><Expanded>{expanded}</Expanded>"
+        f"{'<Exception>bad &lt; worse</Exception>' if at % 5 == 4 else ''}</Expression></Section>"
+        '<OverallResult success="false"/></TestCase>'
+        for at, (original, expanded, _, _) in enumerate(COMPARISONS)
+    )
+    more = """<TestCase name="fails" filename="b_test.cpp" line="1"><Info>one</Info><Failure filename="b_test.cpp"
+        line="5">plainly</Failure><OverallResult success="false"/></TestCase><TestCase name="throws"
+        filename="b_test.cpp" line="1"><Exception filename="b_test.cpp" line="8">oh</Exception><OverallResult
+        success="false"/></TestCase><TestCase name="good"><OverallResult success="true"/></TestCase>"""
+    totals = f'<OverallResultsCases successes="1" failures="{len(COMPARISONS) + 2}"/>'
+    for room in ("Catch2TestRun", "Catch"):
+        inner = f"<Group>{cases}{more}</Group>" if room == "Catch" else cases + more
+        report = f"<{room}>{inner}{totals}</{room}>"
+        wanted = parse_report(report.encode())
+        assert wanted is not None
+        found = page.evaluate("text => checks.readReport(text)", report)
+        assert [one["name"] for one in found] == [one.name for one in wanted]
+        assert [one["passed"] for one in found] == [one.passed for one in wanted]
+        for one, other in zip(found, wanted, strict=True):
+            failure = other.failure and {
+                "expected": other.failure.expected,
+                "got": other.failure.got,
+                "where": other.failure.location,
+                "notes": other.failure.notes,
+            }
+            assert one["failure"] == failure
+    assert page.evaluate("checks.readReport('<Catch2TestRun><TestCase/></Catch2TestRun>')") is None
+    assert page.evaluate("checks.readReport('<Catch2TestRun>')") is None
+
+
+@pytest.mark.parametrize(
+    ("mine", "reference"),
+    [
+        (b"P6\n3 1\n255\n\1\2\3\4\5\6\7\10\11", b"P6\n3 1\n255\n\1\2\3\4\5\6\7\10\11"),
+        (b"P6\n3 1\n255\n\1\2\3\4\5\7\7\10\11", b"P6\n3 1\n255\n\1\2\3\4\5\11\7\10\14"),
+        (b"P6\n3 1\n255\n\1\2\3\1\2\3\1\2\3", b"P6\n3 1\n255\n\1\2\3\4\5\6\7\10\11"),
+        (b"P6\n1 3\n255\n\1\2\3\4\5\6\7\10\11", b"P6\n3 1\n255\n\1\2\3\4\5\6\7\10\11"),
+    ],
+)
+@pytest.mark.parametrize("most", [0.0, 0.4])
+def test_the_page_judges_a_picture_as_the_grader_does(
+    watched: Watched, server: PlayServer, mine: bytes, reference: bytes, most: float
+) -> None:
+    page = _open(watched, server)
+    wanted = compare(parse_ppm(mine), parse_ppm(reference), most)
+    found = page.evaluate(f"checks.judge({json.dumps(list(mine))}, {json.dumps(list(reference))}, {most})")
+    assert found == {"passed": wanted.passed, "message": wanted.message}

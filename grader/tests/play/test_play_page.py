@@ -1,0 +1,171 @@
+"""The whole page in a real browser: write, compile, test, draw, stop, keep."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import Watched, assert_accessible, assert_no_sideways_scrolling
+
+from raysteps.common.errors import UsageError
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub
+from raysteps.play.packages import registry_of
+from raysteps.play.play_page import PlayPage, PlayServer
+from raysteps.submission.load import load_submission
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
+
+_POINT = "return ray.origin + distance * ray.direction;"
+_STARTED = 120_000  # milliseconds until a compiler that is new to the browser has compiled something
+
+
+@pytest.fixture(scope="module")
+def site(project: Project) -> Path:
+    try:
+        return PlayPage(project, registry_of(None)).make()
+    except UsageError as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture
+def server(site: Path) -> Iterator[PlayServer]:
+    found = PlayServer(site)
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def page(watched: Watched, server: PlayServer) -> "Page":
+    """Step 01, when its stub was compiled, tested and drawn."""
+    watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
+    page = watched.open(server.address)
+    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=_STARTED)
+    return page
+
+
+def _says(page: "Page", pattern: str, timeout: float = 60_000) -> None:
+    from playwright.sync_api import expect
+
+    expect(page.locator("#play-status")).to_have_text(re.compile(pattern), timeout=timeout)
+
+
+def _type(page: "Page", text: str) -> None:
+    """In place of all that is there, and saves."""
+    page.locator(".cm-content").click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.insert_text(text)
+    page.keyboard.press("ControlOrMeta+s")
+
+
+def _source(page: "Page") -> str:
+    return str(page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText"))
+
+
+def test_the_right_lines_give_the_picture_and_stay(
+    watched: Watched, page: "Page", solved: dict[str, str], steps: list[Step], tmp_path: Path
+) -> None:
+    from playwright.sync_api import expect
+
+    right = solved["01-camera-rays"]
+    _type(page, right)
+    _says(page, r"Step 01 is right: 12 of 12 tests pass, 2 of 2 pictures are right\.")
+    expect(page.locator("#play-first h3")).to_contain_text("✓ right")
+    expect(page.locator("#play-first compare-pictures")).to_have_attribute("data-state", "ready")
+    assert_accessible(page)
+    page.reload()
+    _says(page, r"Step 01 is right", timeout=_STARTED)
+    assert _POINT in _source(page)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as zip").click()
+    download.value.save_as(tmp_path / "my-steps.zip")
+    handed_in = load_submission(tmp_path / "my-steps.zip", steps)
+    assert handed_in.sources == {"01-camera-rays": right.encode()}
+
+
+def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    _type(page, solved["01-camera-rays"].replace(_POINT, "return ray.origin + ray.direction;"))
+    _says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
+    failed = page.locator("#play-tests .panel")
+    expect(failed).to_have_count(1)
+    expect(failed).to_contain_text("point_at walks along the ray")
+    expect(failed.locator("dd").first).to_have_text("point_at(ray, 0) = (1, 2, 3) within 0.00037")
+    expect(failed).to_contain_text("expected: origin + distance * direction")
+
+
+def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    wrong = solved["01-camera-rays"].replace(_POINT, "return ray.orgin;")
+    line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
+    _type(page, wrong)
+    _says(page, r"It does not compile\.")
+    expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
+    expect(page.locator(".cm-lintRange-error")).to_have_text("orgin")
+    page.locator("#play-problems button").first.click()
+    expect(page.locator(".cm-activeLine")).to_have_text("    return ray.orgin;")
+    expect(page.locator("#play-problems button").first).to_have_text(f"camera_rays.cpp:{line}")
+
+
+def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    loop = "volatile bool on = true; while (on) {} "
+    _type(page, solved["01-camera-rays"].replace(_POINT, loop + _POINT))
+    _says(page, r"Testing and drawing")
+    page.get_by_role("button", name="Stop").click()
+    _says(page, r"Stopped\.")
+    page.get_by_role("button", name="Run").click()
+    _says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
+    expect(page.locator("#play-tests .panel")).to_contain_text("Is there an endless loop?")
+    _type(page, solved["01-camera-rays"])
+    _says(page, r"Step 01 is right")
+
+
+def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    throws = '#include <stdexcept>\n' + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
+    _type(page, throws)
+    _says(page, r"11 of 12 tests pass")
+    expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
+    deep = "return distance > 1e9F ? ray.origin : point_at(ray, distance + 1.0F) + ray.origin;"
+    _type(page, solved["01-camera-rays"].replace(_POINT, deep))
+    _says(page, r"11 of 12 tests pass")
+    expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed")
+
+
+def test_the_stub_comes_back(page: "Page", project: Project, steps: list[Step]) -> None:
+    from playwright.sync_api import expect
+
+    _type(page, "int broken")
+    _says(page, r"It does not compile\.")
+    page.get_by_role("button", name="Begin again").click()
+    page.locator("dialog").get_by_role("button", name="Begin again").click()
+    _says(page, r"0 of 12 tests pass")
+    expect(page.locator("#play-tests summary").first).to_have_text("12 wait for a function that is not written yet")
+    assert _source(page).split() == pristine_stub(project, steps[0]).split()
+
+
+@pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])
+def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[str, str], number: int) -> None:
+    step = steps[number - 1]
+    page.locator("#play-step").select_option(step.number)
+    _says(page, rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.", timeout=_STARTED)
+    _type(page, solved[step.id])
+    _says(page, rf"Step {step.number} is right", timeout=_STARTED)
+
+
+def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
+    watched.allowed.append(server.address)
+    page = watched.open(server.address, width=390, scheme="dark", touch=True)
+    _says(page, r"0 of 12 tests pass", timeout=_STARTED)
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
