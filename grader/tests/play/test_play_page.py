@@ -1,9 +1,16 @@
 """The whole page in a real browser: write, compile, test, draw, stop, keep."""
 
+import os
 import re
+import signal
+import subprocess
+import sys
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.error import HTTPError
+from urllib.request import urlopen
 
 import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
@@ -31,6 +38,22 @@ def site(project: Project) -> Path:
         return PlayPage(project, registry_of(None)).make()
     except UsageError as error:
         pytest.skip(str(error))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="interrupts are another matter there")
+def test_the_command_serves_the_page_until_it_is_ended(site: Path) -> None:
+    words = [sys.executable, "-P", "-m", "raysteps", "play", "--no-open", "--port", "0"]
+    hear = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)  # also where the tests run in the background
+    program = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, preexec_fn=hear)
+    assert program.stdout is not None
+    address = next(line for line in program.stdout if line.startswith("Page: ")).split()[1]
+    with urlopen(address) as answer:
+        assert answer.read() == (site / "index.html").read_bytes()
+    with pytest.raises(HTTPError, match="404"):
+        urlopen(f"{address}../../index.html")
+    os.kill(program.pid, signal.SIGINT)
+    program.communicate(timeout=60)
+    assert program.returncode == 0
 
 
 @pytest.fixture

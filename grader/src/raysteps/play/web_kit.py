@@ -17,6 +17,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.project import Project
+from raysteps.play.packages import CATCH2, fetch_header
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.toolchain.build_kit import read_given_tests, tested_functions
 from raysteps.toolchain.catch2 import parse_report
@@ -31,7 +32,11 @@ _QUIET = "-w"  # the native build warns about the kit's own code
 _TESTING = ("-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
 _TEST_MAIN, _RAYTRACE = "-Dmain=test_main", ("-Dmain=raytrace_main",)
 # Libraries that are headers only: the folder or file of each, and where packages put it.
-_HEADERS = {"glm": ("glm",), "catch2": ("catch2",), "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h")}
+_HEADERS = {
+    "glm": ("glm",),
+    "catch2/catch.hpp": ("catch2/catch.hpp",),
+    "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h"),
+}
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
 _MOST_AT_ONCE = 4  # each takes some 300 MB
 
@@ -127,16 +132,18 @@ class WebKit:
     def libraries(self) -> Path:
         """The headers of GLM, Catch2 and stb_image_write by themselves: beside them lie those of this system."""
         target = self._cache / "libraries"
+        folders = self._sources.folders_of_others()
         for name, places in _HEADERS.items():
-            folders = self._sources.folders_of_others()
+            if (target / name).exists():
+                continue
             found = next((folder / place for folder in folders for place in places if (folder / place).exists()), None)
-            if found is None:
-                raise UsageError(f"{name}: the headers are not where CMake found them; is the library installed?")
-            if not (target / name).exists():
-                target.mkdir(parents=True, exist_ok=True)
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            if found is not None:
                 (shutil.copytree if found.is_dir() else shutil.copyfile)(found, target / name)
-        if not (target / "catch2" / "catch.hpp").is_file():
-            raise UsageError("Catch2 is there in version 3; the page needs the one header of version 2")
+            elif name.startswith("catch2/"):
+                fetch_header(CATCH2, target / name, self._say)
+            else:
+                raise UsageError(f"{name}: its headers are not where CMake found them; is the library installed?")
         return target
 
     @cached_property
