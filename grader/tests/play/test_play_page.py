@@ -87,7 +87,9 @@ def _type(page: "Page", text: str) -> None:
 
 
 def _source(page: "Page") -> str:
-    return str(page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText"))
+    return str(
+        page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText")
+    )
 
 
 def test_the_right_lines_give_the_picture_and_stay(
@@ -155,7 +157,7 @@ def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[
 def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    throws = '#include <stdexcept>\n' + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
+    throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
     _type(page, throws)
     _says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
@@ -181,7 +183,11 @@ def test_the_stub_comes_back(page: "Page", project: Project, steps: list[Step]) 
 def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[str, str], number: int) -> None:
     step = steps[number - 1]
     page.locator("#play-step").select_option(step.number)
-    _says(page, rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.", timeout=_STARTED)
+    _says(
+        page,
+        rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.",
+        timeout=_STARTED,
+    )
     _type(page, solved[step.id])
     _says(page, rf"Step {step.number} is right", timeout=_STARTED)
 

@@ -186,7 +186,8 @@ def _checked(address: str, sha512: str, say: Callable[[str], None]) -> bytes:
         inner = getattr(error, "reason", None)  # of an error of urllib
         why = reason(inner if isinstance(inner, OSError) else error)
         raise UsageError(
-            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names a mirror of npm's"
+            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names "
+            "a mirror of npm's"
         ) from error
     found = base64.b64encode(hashlib.sha512(data).digest()).decode("ascii")
     if found != sha512:

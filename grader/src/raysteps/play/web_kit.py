@@ -27,10 +27,10 @@ from raysteps.toolchain.cmake import release_tree
 _KIT, _LIBRARIES, _PARTS, _WORK = "/kit", "/libraries", "/parts", "/work"
 _INCLUDES = ("-I", f"{_KIT}/framework", "-I", _KIT, "-isystem", _LIBRARIES)
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno-unused-parameter")
-_QUIET = "-w"  # the native build warns about the kit's own code
+_QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
-_TESTING = ("-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
-_TEST_MAIN, _RAYTRACE = "-Dmain=test_main", ("-Dmain=raytrace_main",)
+_TESTING = (_QUIET, "-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
+_TEST_MAIN, _RAYTRACE = "-Dmain=test_main", (_QUIET, "-Dmain=raytrace_main")
 # Libraries that are headers only: the folder or file of each, and where packages put it.
 _HEADERS = {
     "glm": ("glm",),
@@ -55,7 +55,7 @@ class Wanted:
 
     source: Source
     level: str = "-O2"
-    flags: tuple[str, ...] = ()
+    flags: tuple[str, ...] = (_QUIET,)
 
 
 def _words_of(entry: Mapping[str, str]) -> list[str]:
@@ -159,6 +159,9 @@ class WebKit:
             digest.update(f"{path.name}\0".encode() + path.read_bytes())
         return digest.digest()
 
+    def _name(self, path: Path) -> str:
+        return path.relative_to(self._project.root).as_posix()
+
     def _mark(self, source: Path, command: Sequence[str]) -> str:
         digest = hashlib.sha256(self._headers_mark)
         digest.update("\0".join(command).encode() + source.read_bytes())
@@ -174,7 +177,7 @@ class WebKit:
     def _made(self, wanted: Wanted) -> Path:
         """The object."""
         source = wanted.source
-        words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags, _QUIET]
+        words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags]
         target = self._cache / "objects" / f"{self._mark(self._project.root / source.path, words)}.o"
         if not target.is_file():
             self._compile(words, f"{_KIT}/{source.path}", target)
@@ -195,7 +198,7 @@ class WebKit:
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
         web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
         parts = {
-            "web": [Wanted(Source(path.relative_to(self._project.root).as_posix())) for path in web],
+            "web": [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in web],
             "kit": [
                 *(Wanted(source) for source in libraries),
                 *(Wanted(source, flags=_RAYTRACE) for source in of("raytrace-app")),
