@@ -1,17 +1,18 @@
 // What the page to work in runs: all programs of a step in one, so that it is linked once. The first word says which.
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "render/renderer.hpp"
 
 int raytrace_main(int argc, char** argv);
 int test_main(int argc, char** argv);
 
-namespace {
-
 /// The page's own function: it draws a part of the picture. The pixels stand row by row, three bytes each.
 [[clang::import_module("page"), clang::import_name("show_tile")]] void show_tile(int x, int y, int width, int height,
                                                                                  const std::uint8_t* pixels);
+
+namespace {
 
 void tell_page(const raysteps::Rect& tile, const raysteps::Image& image) {
     std::vector<std::uint8_t> bytes;

@@ -5,6 +5,7 @@ from typed_commands import Typed
 _TRUTH = "takes minutes; `test` grades all of it, `test --full` with pairs of mistakes too"
 _FIGURES = "takes minutes; `test` does what --check does"
 _IMAGE = "takes minutes, and needs an engine and a network; test_image has one that only listens"
+_PLAY = "makes the page, which takes minutes, and ends when somebody ends it; test_play_page does"
 _NIGHTLY = "goes on until Ctrl-C; test_nightly looks as often as it likes"
 _FINALE = "draws for a minute; test_finale makes a small one"
 _DOWNLOAD = "needs the names of a platform's download; test_feedback_zips has such"
@@ -30,6 +31,9 @@ COMMANDS = {
     "./raysteps grade-class --merge grades-ada grades-bob --out grades": (
         "needs copies that two people worked on; test_annotations merges such"
     ),
+    "./raysteps play": _PLAY,
+    "./raysteps play --port 8000 --no-open": _PLAY,
+    "./raysteps play --registry https://npm.example.edu": _PLAY,
     "./raysteps desk grades": "ends when somebody ends it; test_desk_command does",
     "./raysteps image --tag raysteps-grader": _IMAGE,
     "./raysteps image --tag raysteps-students --without-solutions --steps 1-4": _IMAGE,

@@ -22,10 +22,12 @@ if TYPE_CHECKING:
 
 
 def test_modules_find_each_other_by_their_places() -> None:
-    source = "import { a } from \"@codemirror/view\";\nimport b from 'crelt';\nimport './own.js';\nexport * from \"./x.js\";\n"
+    source = (
+        "import { a } from '@codemirror/view';\nimport b from 'crelt';\nimport './own.js';\nexport * from './x.js';\n"
+    )
     assert with_places(source, "./editor/") == (
-        "import { a } from \"./editor/codemirror-view.js\";\nimport b from './editor/crelt.js';\n"
-        "import './own.js';\nexport * from \"./x.js\";\n"
+        "import { a } from './editor/codemirror-view.js';\nimport b from './editor/crelt.js';\n"
+        "import './own.js';\nexport * from './x.js';\n"
     )
 
 
@@ -56,7 +58,8 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
     assert "<code>$b$</code>" in text
 
 
-_PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script type="module" src="check.js"></script>"""
+_PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
+<script type="module" src="check.js"></script>"""
 _CHECK = """import { readReport } from "./report.js";
 import { compare, readPpm } from "./pictures.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
@@ -85,7 +88,8 @@ def _open(watched: Watched, server: PlayServer) -> "Page":
 def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server: PlayServer) -> None:
     page = _open(watched, server)
     cases = "".join(
-        f'<TestCase name="{at}" filename="/k/a_test.cpp" line="3"><Section name="part &amp; {at}"><Info>x := 2.5f</Info>'
+        f'<TestCase name="{at}" filename="/k/a_test.cpp" line="3"><Section name="part &amp; {at}">'
+        "<Info>x := 2.5f</Info>"
         f'<Expression success="false" filename="/k/{"a_test.cpp" if at % 2 else "hits.hpp"}" line="{at}">'
         f"<Original>{original}</Original><Expanded>{expanded}</Expanded>"
         f"{'<Exception>bad &lt; worse</Exception>' if at % 5 == 4 else ''}</Expression></Section>"

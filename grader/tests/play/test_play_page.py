@@ -1,9 +1,16 @@
 """The whole page in a real browser: write, compile, test, draw, stop, keep."""
 
+import os
 import re
+import signal
+import subprocess
+import sys
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.error import HTTPError
+from urllib.request import urlopen
 
 import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
@@ -31,6 +38,22 @@ def site(project: Project) -> Path:
         return PlayPage(project, registry_of(None)).make()
     except UsageError as error:
         pytest.skip(str(error))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="interrupts are another matter there")
+def test_the_command_serves_the_page_until_it_is_ended(site: Path) -> None:
+    words = [sys.executable, "-P", "-m", "raysteps", "play", "--no-open", "--port", "0"]
+    hear = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)  # also where the tests run in the background
+    program = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, preexec_fn=hear)
+    assert program.stdout is not None
+    address = next(line for line in program.stdout if line.startswith("Page: ")).split()[1]
+    with urlopen(address) as answer:
+        assert answer.read() == (site / "index.html").read_bytes()
+    with pytest.raises(HTTPError, match="404"):
+        urlopen(f"{address}../../index.html")
+    os.kill(program.pid, signal.SIGINT)
+    program.communicate(timeout=60)
+    assert program.returncode == 0
 
 
 @pytest.fixture
@@ -64,7 +87,9 @@ def _type(page: "Page", text: str) -> None:
 
 
 def _source(page: "Page") -> str:
-    return str(page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText"))
+    return str(
+        page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText")
+    )
 
 
 def test_the_right_lines_give_the_picture_and_stay(
@@ -132,7 +157,7 @@ def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[
 def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    throws = '#include <stdexcept>\n' + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
+    throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
     _type(page, throws)
     _says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
@@ -158,7 +183,11 @@ def test_the_stub_comes_back(page: "Page", project: Project, steps: list[Step]) 
 def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[str, str], number: int) -> None:
     step = steps[number - 1]
     page.locator("#play-step").select_option(step.number)
-    _says(page, rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.", timeout=_STARTED)
+    _says(
+        page,
+        rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.",
+        timeout=_STARTED,
+    )
     _type(page, solved[step.id])
     _says(page, rf"Step {step.number} is right", timeout=_STARTED)
 

@@ -19,13 +19,14 @@ from raysteps.report.wording import after_the_last
 # What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
 # solve the steps read it?
 _ROOMS = {
-    ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "progress", "report",
-    "report/static", "report/templates", "results", "sandbox", "submission", "toolchain", "updater", "watch",
+    ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "play", "play/static",
+    "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain", "updater",
+    "watch",
 }  # fmt: skip
 _PARTS = {
     "cli": {
-        "app", "check", "compare_pictures", "finale", "inspect", "render", "report", "steps", "todo_steps", "update",
-        "view", "watch",
+        "app", "check", "compare_pictures", "finale", "inspect", "play", "render", "report", "steps", "todo_steps",
+        "update", "view", "watch",
     },
     "course": {"manifest", "project", "stubs"},
     "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},
@@ -63,7 +64,8 @@ def test_a_perfect_report_offers_only_commands_of_a_students_kit(out: list[Path]
 
 def test_the_package_names_all_that_its_modules_import(project: Project, out: list[Path]) -> None:
     table = tomllib.loads(pyproject((project.root / "grader" / "pyproject.toml").read_text(encoding="utf-8")).decode())
-    named = {_distribution(text) for text in table["project"]["dependencies"]}
+    listed = [table["project"]["dependencies"], *table["project"]["optional-dependencies"].values()]
+    named = {_distribution(text) for some in listed for text in some}
     imported = set()
     for path in (path for path in out if path.suffix == ".py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

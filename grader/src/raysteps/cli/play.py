@@ -31,6 +31,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
 
     def say(text: str) -> None:
         console.print(text, highlight=False, markup=False, soft_wrap=True)
+        sys.stdout.flush()
 
     end_as_interrupted()
     folder = PlayPage(project, registry_of(arguments.registry), paced(say)).make()
@@ -42,7 +43,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         with suppress(KeyboardInterrupt), ExitStack() as stack:
             say(f"Page: {server.address}")
             say("Ctrl-C ends it. What you write on the page is kept in your browser.")
-            sys.stdout.flush()
             if not arguments.no_open and on_a_desktop():
                 stack.enter_context(shown_in_browser(server.address))
             threading.Event().wait()

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.files import write_bytes
 
 REGISTRY = "https://registry.npmjs.org"
 _SECONDS = 60  # without a byte
@@ -136,6 +137,20 @@ EDITOR = (
 )
 
 
+@dataclass(frozen=True)
+class Header:
+    """One file, where its makers publish it."""
+
+    address: str
+    sha512: str
+
+
+CATCH2 = Header(  # the last of version 2, for machines that have version 3 without its sources
+    "https://raw.githubusercontent.com/catchorg/Catch2/v2.13.10/single_include/catch2/catch.hpp",
+    "t92KzOLTLob1NWx7fpanLGrssFKa8pp6uFuN+xZJ1RC8/hF/V2kbdXg8qQ/SHDR/ZMnPbUuZbWhvgvCBhA6Jyw==",
+)
+
+
 def registry_of(words: str | None) -> str:
     """The one that was named, else the one that npm itself would ask."""
     named = os.environ.get("npm_config_registry")  # noqa: SIM112 - npm writes it so
@@ -143,7 +158,7 @@ def registry_of(words: str | None) -> str:
 
 
 def _loaded(address: str, heard: Callable[[int], None]) -> bytes:
-    request = urllib.request.Request(address, headers={"User-Agent": "raysteps"})  # noqa: S310 - see `fetch`
+    request = urllib.request.Request(address, headers={"User-Agent": "raysteps"})  # noqa: S310 - http or https
     with urllib.request.urlopen(request, timeout=_SECONDS) as answer:  # noqa: S310
         data = io.BytesIO()
         while piece := answer.read(_PIECE):
@@ -163,29 +178,35 @@ def _unpack(data: bytes, folder: Path) -> None:
         archive.extractall(folder, filter="data")
 
 
+def _checked(address: str, sha512: str, say: Callable[[str], None]) -> bytes:
+    """What comes from there is not believed: it has the hash that the kit knows, or it is not used."""
+    try:
+        data = _loaded(address, lambda done: say(f"loading down {address.rpartition('/')[2]}, {done / 1e6:.1f} MB"))
+    except (OSError, http.client.HTTPException) as error:
+        inner = getattr(error, "reason", None)  # of an error of urllib
+        why = reason(inner if isinstance(inner, OSError) else error)
+        raise UsageError(
+            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names "
+            "a mirror of npm's"
+        ) from error
+    found = base64.b64encode(hashlib.sha512(data).digest()).decode("ascii")
+    if found != sha512:
+        raise UsageError(
+            f"{address}: is not what the kit knows: its SHA-512 is {found[:12]}..., expected {sha512[:12]}...; try "
+            "again, or another --registry"
+        )
+    return data
+
+
 def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], None] = lambda text: None) -> Path:
-    """The folder of the package's files; loaded down from the registry where the cache lacks it. What comes from there
-    is not believed: its hash is the package's, or it is not unpacked."""
+    """The folder of the package's files; loaded down from the registry where the cache lacks it."""
     folder = cache / package.folder
     if folder.is_dir():
         return folder
     address = f"{registry}/{package.address}"
     if not re.match(r"https?://[^/]", address):
         raise UsageError(f"{registry}: expected a registry's address, such as {REGISTRY}")
-    try:
-        data = _loaded(address, lambda done: say(f"loading down {package.name}, {done / 1e6:.1f} MB"))
-    except (OSError, http.client.HTTPException) as error:
-        inner = getattr(error, "reason", None)  # of an error of urllib
-        why = reason(inner if isinstance(inner, OSError) else error)
-        raise UsageError(
-            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names a mirror"
-        ) from error
-    found = base64.b64encode(hashlib.sha512(data).digest()).decode("ascii")
-    if found != package.sha512:
-        raise UsageError(
-            f"{address}: is not the package that the kit knows: its SHA-512 is {found[:12]}..., expected "
-            f"{package.sha512[:12]}...; try again, or another --registry"
-        )
+    data = _checked(address, package.sha512, say)
     cache.mkdir(parents=True, exist_ok=True)
     new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
     try:
@@ -197,3 +218,8 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
     finally:
         shutil.rmtree(new, ignore_errors=True)
     return folder
+
+
+def fetch_header(header: Header, target: Path, say: Callable[[str], None] = lambda text: None) -> None:
+    """Writes the file."""
+    write_bytes(target, _checked(header.address, header.sha512, say))

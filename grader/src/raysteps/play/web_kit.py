@@ -17,6 +17,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.project import Project
+from raysteps.play.packages import CATCH2, fetch_header
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.toolchain.build_kit import read_given_tests, tested_functions
 from raysteps.toolchain.catch2 import parse_report
@@ -26,12 +27,16 @@ from raysteps.toolchain.cmake import release_tree
 _KIT, _LIBRARIES, _PARTS, _WORK = "/kit", "/libraries", "/parts", "/work"
 _INCLUDES = ("-I", f"{_KIT}/framework", "-I", _KIT, "-isystem", _LIBRARIES)
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno-unused-parameter")
-_QUIET = "-w"  # the native build warns about the kit's own code
+_QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
-_TESTING = ("-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
-_TEST_MAIN, _RAYTRACE = "-Dmain=test_main", ("-Dmain=raytrace_main",)
+_TESTING = (_QUIET, "-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
+_TEST_MAIN, _RAYTRACE = "-Dmain=test_main", (_QUIET, "-Dmain=raytrace_main")
 # Libraries that are headers only: the folder or file of each, and where packages put it.
-_HEADERS = {"glm": ("glm",), "catch2": ("catch2",), "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h")}
+_HEADERS = {
+    "glm": ("glm",),
+    "catch2/catch.hpp": ("catch2/catch.hpp",),
+    "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h"),
+}
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
 _MOST_AT_ONCE = 4  # each takes some 300 MB
 
@@ -50,7 +55,7 @@ class Wanted:
 
     source: Source
     level: str = "-O2"
-    flags: tuple[str, ...] = ()
+    flags: tuple[str, ...] = (_QUIET,)
 
 
 def _words_of(entry: Mapping[str, str]) -> list[str]:
@@ -127,16 +132,18 @@ class WebKit:
     def libraries(self) -> Path:
         """The headers of GLM, Catch2 and stb_image_write by themselves: beside them lie those of this system."""
         target = self._cache / "libraries"
+        folders = self._sources.folders_of_others()
         for name, places in _HEADERS.items():
-            folders = self._sources.folders_of_others()
+            if (target / name).exists():
+                continue
             found = next((folder / place for folder in folders for place in places if (folder / place).exists()), None)
-            if found is None:
-                raise UsageError(f"{name}: the headers are not where CMake found them; is the library installed?")
-            if not (target / name).exists():
-                target.mkdir(parents=True, exist_ok=True)
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            if found is not None:
                 (shutil.copytree if found.is_dir() else shutil.copyfile)(found, target / name)
-        if not (target / "catch2" / "catch.hpp").is_file():
-            raise UsageError("Catch2 is there in version 3; the page needs the one header of version 2")
+            elif name.startswith("catch2/"):
+                fetch_header(CATCH2, target / name, self._say)
+            else:
+                raise UsageError(f"{name}: its headers are not where CMake found them; is the library installed?")
         return target
 
     @cached_property
@@ -151,6 +158,9 @@ class WebKit:
         for path in sorted([*own, *self.libraries.glob("*/*.hpp")]):
             digest.update(f"{path.name}\0".encode() + path.read_bytes())
         return digest.digest()
+
+    def _name(self, path: Path) -> str:
+        return path.relative_to(self._project.root).as_posix()
 
     def _mark(self, source: Path, command: Sequence[str]) -> str:
         digest = hashlib.sha256(self._headers_mark)
@@ -167,7 +177,7 @@ class WebKit:
     def _made(self, wanted: Wanted) -> Path:
         """The object."""
         source = wanted.source
-        words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags, _QUIET]
+        words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags]
         target = self._cache / "objects" / f"{self._mark(self._project.root / source.path, words)}.o"
         if not target.is_file():
             self._compile(words, f"{_KIT}/{source.path}", target)
@@ -188,7 +198,7 @@ class WebKit:
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
         web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
         parts = {
-            "web": [Wanted(Source(path.relative_to(self._project.root).as_posix())) for path in web],
+            "web": [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in web],
             "kit": [
                 *(Wanted(source) for source in libraries),
                 *(Wanted(source, flags=_RAYTRACE) for source in of("raytrace-app")),

@@ -86,6 +86,7 @@ export class Editor {
       highlightActiveLine(),
       highlightSelectionMatches(),
       lintGutter(),
+      EditorView.lineWrapping,
       LOOK,
       EditorView.domEventHandlers({ beforeinput: typedOver }),
       EditorView.contentAttributes.of({ "aria-label": this.label, spellcheck: "false", tabindex: "0" }),

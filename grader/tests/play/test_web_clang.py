@@ -1,0 +1,135 @@
+"""What the page's compiler makes runs as everywhere: exceptions above all, which its own library lacks."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import UsageError
+from raysteps.course.project import Project
+from raysteps.images.compare import gaps, parse_ppm
+from raysteps.play.packages import CLANG, fetch, registry_of
+from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
+from raysteps.play.web_kit import WebKit
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
+
+_THROWING = r"""
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+struct Told {
+    const char* name;
+    ~Told() { std::printf("~%s ", name); }
+};
+struct Base { virtual ~Base() = default; int base = 7; };
+struct Other { virtual ~Other() = default; int other = 8; };
+struct Both : Other, Base {};
+
+void deep(int what) {
+    const Told told{"deep"};
+    if (what == 0) throw std::out_of_range("range " + std::string(40, 'x'));
+    if (what == 1) throw 5;
+    if (what == 2) throw Both();
+    if (what == 3) static_cast<void>(std::vector<int>(2).at(7));
+}
+
+void tried(int what) {
+    try {
+        const Told told{"tried"};
+        deep(what);
+        std::printf("returned");
+    } catch (const std::logic_error& error) {
+        std::printf("logic %.6s", error.what());
+    } catch (const Base& base) {
+        std::printf("base %d", base.base);
+    } catch (...) {
+        std::printf("any, %d in flight", std::uncaught_exceptions());
+    }
+    std::printf("\n");
+}
+
+std::exception_ptr kept() {
+    try {
+        deep(1);
+    } catch (...) {
+        return std::current_exception();
+    }
+    return nullptr;
+}
+
+int main() {
+    for (int what = 0; what < 5; ++what) tried(what);
+    try {
+        try {
+            deep(0);
+        } catch (...) {
+            const Told told{"again"};
+            try { throw std::string("inner"); } catch (const std::string& text) { std::printf("%s ", text.c_str()); }
+            throw;
+        }
+    } catch (const std::exception& error) {
+        std::printf("%.5s\n", error.what());
+    }
+    const std::exception_ptr once = kept();
+    for (int i = 0; i < 2; ++i) {
+        try {
+            try { throw 1L; } catch (long) { std::rethrow_exception(once); }
+        } catch (int number) {
+            std::printf("%d ", number);
+        }
+    }
+    std::printf("%d\n", std::current_exception() == nullptr);
+}
+"""
+
+
+@pytest.fixture(scope="module")
+def clang(project: Project) -> WebClang:
+    cache = project.build / "play"
+    try:
+        return WebClang(fetch(CLANG, cache / "packages", registry_of(None)), cache)
+    except UsageError as error:
+        pytest.skip(str(error))
+
+
+def test_exceptions_are_those_of_the_machine(clang: WebClang, project: Project, tmp_path: Path) -> None:
+    (tmp_path / "throwing.cpp").write_text(_THROWING)
+    subprocess.run(["c++", "-std=c++20", tmp_path / "throwing.cpp", "-o", tmp_path / "throwing"], check=True)
+    wanted = subprocess.run([tmp_path / "throwing"], check=True, capture_output=True, text=True).stdout
+    places = {"/work": tmp_path, "/kit": project.root, "/usr": clang.system}
+    for name in ("/work/throwing.cpp", "/kit/framework/web/exceptions.cpp"):
+        named = {INPUT: name, OUTPUT: f"/work/{Path(name).stem}.o"}
+        clang.make([named.get(word, word) for word in clang.compile_command("-O2", [])], places)
+    words: list[str] = []
+    for word in clang.link_command():
+        words += ["/work/throwing.o", "/work/exceptions.o"] if word == INPUT else [word]
+    clang.make(["/work/throwing.wasm" if word == OUTPUT else word for word in words], places)
+    said = clang.program(tmp_path / "throwing.wasm", ["throwing"], {})
+    assert (said.code, said.stdout) == (0, wanted)
+
+
+def test_pictures_are_those_of_the_machine(clang: WebClang, project: Project, kit: BuiltKit, tmp_path: Path) -> None:
+    """Nearly all to the byte: the C library of the page rounds some sines and tangents better than others do."""
+    web = WebKit(project, clang)
+    cases = [(case.scene, case.args) for step in kit.steps for case in step.images]
+    same = 0
+    for scene, args in cases:
+        made = web.picture(project.root / scene, args).read_bytes()
+        words: list[str | Path] = [
+            kit.reference("raytrace"),
+            project.root / scene,
+            *args,
+            "--quiet",
+            "-o",
+            tmp_path / "native.ppm",
+        ]
+        subprocess.run(words, check=True)
+        native = (tmp_path / "native.ppm").read_bytes()
+        same += made == native
+        assert (gaps(parse_ppm(made), parse_ppm(native)) > 0).mean() < 0.0015, (scene, args)
+    assert same >= len(cases) * 0.7
