@@ -16,6 +16,7 @@
 #include "io/files.hpp"
 #include "io/nff_reader.hpp"
 #include "render/accelerator_registry.hpp"
+#include "render/tile_rays.hpp"
 
 namespace raysteps::bench {
 
@@ -122,8 +123,8 @@ void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
     const bool draws = pictures && !side.structure.slow;
     const ProcessorClock drawing;
     if (draws) {
-        RayCounter counter(*side.accelerator);
-        (void)draw(workload.scene, counter, workload.options);
+        TileRays rays_of_picture(*side.accelerator, workload.scene.lights.size());
+        (void)draw(workload.scene, rays_of_picture, workload.options);
     }
     if (warm_up) {
         return;

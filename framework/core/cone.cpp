@@ -35,14 +35,16 @@ Cone::Cone(const End& base, const End& apex, Sidedness sidedness, const Fill& fi
 
 // A point is on the wall when its distance from the axis is base radius + slope * height, height being measured
 // along the axis from the base. The equation is solved from the point of the ray closest to the axis: solved from
-// the ray's origin, the square of a far origin would swallow that of a thin cone's radius.
+// the ray's origin, the square of a far origin would swallow that of a thin cone's radius. Of a ray along the axis it
+// is the closest point that is far away, and its square that would swallow the radius; there the origin is as close.
 std::optional<HitRecord> Cone::intersect(const Ray& ray) const {
     const Vec direction(ray.direction);
     const double rise = glm::dot(direction, axis_);
     const Vec across = direction - rise * axis_;
     const double across2 = glm::dot(across, across);
     const Vec origin = Vec(ray.origin) - Vec(base_.center);
-    const double closest = across2 > 0.0 ? -glm::dot(origin, across) / across2 : 0.0;
+    constexpr double k_along = 1e-8;
+    const double closest = across2 > k_along ? -glm::dot(origin, across) / across2 : 0.0;
 
     const Vec start = origin + closest * direction;
     const double height = glm::dot(start, axis_);

@@ -72,6 +72,28 @@ TEST_CASE("a ray parallel to a cone's side", "[cone]") {
     CHECK_THAT(hit->position, IsNear({-0.375F, 0, 0.625F}));
 }
 
+TEST_CASE("a ray along the axis, or nearly so, is hit where it is and nowhere else", "[cone]") {
+    // The length of this axis is rounded: a unit vector along it is not quite (0, 1, 0).
+    const Cone wide =
+        cone({{-4.396875F, -1.3636732F, -5.915017F}, 0.894019F}, {{-4.396875F, 0.593162F, -5.915017F}, 1.7F});
+    CHECK_FALSE(wide.hit({{-5.6736F, -7.8118F, 2.8384F}, {0, 1, 0}}));
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 10000; ++i) {
+        const glm::vec3 along = random.unit_vector();
+        const glm::vec3 at = random.point(10.0F);
+        const Cone target = cone({at, 0.5F}, {at + along, 0.75F});
+        const glm::vec3 spoke = glm::normalize(glm::cross(along, random.unit_vector()));
+        const glm::vec3 on_wall = at + 0.4F * along + 0.6F * spoke;
+        const float aside = std::pow(10.0F, random.uniform(-9.0F, -3.0F));
+        const glm::vec3 direction = glm::normalize(along + aside * random.unit_vector());
+        const auto hit = target.hit({on_wall - 50.0F * direction, direction});
+        INFO("ray " << i << ", as much as " << aside << " aside from the axis");
+        REQUIRE(hit);
+        CHECK_THAT(hit->position, IsNear(on_wall, 1e-4F));
+    }
+}
+
 TEST_CASE("with negative radii only the inside is there", "[cone]") {
     const auto hit = cone(k_base, k_apex, Cone::Sidedness::inside).hit({{5, 0, 1}, {-1, 0, 0}});
     REQUIRE(hit);

@@ -35,8 +35,17 @@ struct NodeInfo {
 
 using NodeVisitor = std::function<void(const NodeInfo& place)>;
 
+/// What stopped the last of several shadow rays: a number that only the structure itself can read. 0: nothing is known.
+using OccluderHint = std::uint32_t;
+
 class Accelerator : public SceneQuery {
 public:
+    /// As occluded, for one of many shadow rays that resemble each other and share a hint: what stopped the last one
+    /// may be asked first.
+    [[nodiscard]] virtual bool occluded_with_hint(const Ray& ray, float distance, OccluderHint& /*hint*/) const {
+        return occluded(ray, distance);
+    }
+
     [[nodiscard]] virtual AcceleratorStats size() const { return {}; }
 
     /// Shows every box, each before those within it. `wanted` may be null.

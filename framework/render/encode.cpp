@@ -4,10 +4,7 @@
 #include <glm/packing.hpp>
 #include <glm/vec4.hpp>
 
-#include "steps/07-tone-mapping/tone_mapping.hpp"
-
 namespace raysteps {
-namespace {
 
 /// The largest of 0 and each channel, in this order: NaN fails the comparison and becomes 0.
 Rgb8 cut_off(const Color& color) {
@@ -15,16 +12,6 @@ Rgb8 cut_off(const Color& color) {
     const glm::uint packed = glm::packUnorm4x8(light);
     return {static_cast<std::uint8_t>(packed & 0xFFU), static_cast<std::uint8_t>((packed >> 8U) & 0xFFU),
             static_cast<std::uint8_t>((packed >> 16U) & 0xFFU)};
-}
-
-}  // namespace
-
-Rgb8 encode(const Color& color, int step) {
-    if (step < 7) {
-        return cut_off(color);
-    }
-    const Color mapped = tone_map(color);
-    return {to_byte(mapped.r), to_byte(mapped.g), to_byte(mapped.b)};
 }
 
 }  // namespace raysteps

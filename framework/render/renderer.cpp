@@ -9,6 +9,7 @@
 #include "render/encode.hpp"
 #include "render/pixel_samples.hpp"
 #include "render/progress.hpp"
+#include "render/tile_rays.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 
@@ -61,10 +62,12 @@ Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     return mean_color(x, y, integrator, job);
 }
 
-void render_tile(const Rect& tile, Integrator& integrator, Job& job) {
+void render_tile(const Rect& tile, Job& job) {
+    TileRays rays(job.accelerator, job.scene.lights.size());
+    const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            const Color color = color_of_pixel(x, y, integrator, job);
+            const Color color = color_of_pixel(x, y, *integrator, job);
             job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
         }
     }
@@ -72,10 +75,8 @@ void render_tile(const Rect& tile, Integrator& integrator, Job& job) {
 
 void work(Job& job) {
     thread_stats() = Stats{};
-    RayCounter rays(job.accelerator);
-    const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
     for (std::size_t tile = job.next_tile++; tile < job.tiles.size(); tile = job.next_tile++) {
-        render_tile(job.tiles[tile], *integrator, job);
+        render_tile(job.tiles[tile], job);
         const std::scoped_lock lock(job.mutex);
         job.progress.advance();
         if (const TileListener listener = chosen_listener()) {

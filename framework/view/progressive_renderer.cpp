@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/threads.hpp"
+#include "render/tile_rays.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 
@@ -148,7 +149,7 @@ void ProgressiveRenderer::trace_pass(const RenderRequest& request, const Acceler
 
 void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
     const Rect& area = pass.tiles[tile];
-    RayCounter rays(pass.accelerator);
+    TileRays rays(pass.accelerator, scene_.lights.size());
     const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.request.step);
     std::vector<TracedPixel> traced;
     for (int y = area.y; y < area.y + area.height; ++y) {

@@ -1,4 +1,4 @@
-// Eight boxes, triangles or spheres against one ray. Included once for each set of instructions, so without the usual
+// Eight boxes or surfaces against one ray. Included once for each set of instructions, so without the usual
 // guard: this is the guard that the library for them asks for.
 #if defined(RAYSTEPS_WIDE_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAYSTEPS_WIDE_BLOCKS_INL
@@ -54,39 +54,64 @@ HWY_INLINE std::uint32_t bits(M mask, std::size_t at) {
 
 /// A ray as the boxes want it.
 struct BoxRay {
-    explicit BoxRay(const Ray& ray) : origin(ray.origin) {
-        for (int axis = 0; axis < 3; ++axis) {
-            constexpr float k_smallest = 1e-30F;  // a direction of 0 would give 0 * infinity on a box's wall
-            const float along = ray.direction[axis];
-            inverse[axis] = 1.0F / (std::abs(along) < k_smallest ? std::copysign(k_smallest, along) : along);
-            backwards[static_cast<std::size_t>(axis)] = along < 0.0F || (along == 0.0F && std::signbit(along));
+    explicit BoxRay(const Ray& ray) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            constexpr float k_smallest = 1e-20F;  // a direction of 0 would give 0 * infinity on a box's wall
+            const float along = ray.direction[static_cast<int>(axis)];
+            const float inverse = 1.0F / (std::abs(along) < k_smallest ? std::copysign(k_smallest, along) : along);
+            const float offset = ray.origin[static_cast<int>(axis)] * inverse;
+            near_walls[axis] = {axis + (std::signbit(along) ? 3 : 0), inverse * (1.0F - k_distance_slack),
+                                offset * (1.0F - k_distance_slack)};
+            far_walls[axis] = {axis + (std::signbit(along) ? 0 : 3), inverse, offset};
         }
     }
 
-    glm::vec3 origin;
-    glm::vec3 inverse{0.0F};
-    std::array<bool, 3> backwards{};
+    /// The distance of a wall is its coordinate times `inverse`, less `offset`.
+    struct Side {
+        std::size_t wall;  ///< of Node::walls
+        float inverse;
+        float offset;
+    };
+    std::array<Side, 3> near_walls;  ///< with some slack
+    std::array<Side, 3> far_walls;
 };
+
+/// Which of the boxes from `at` on the ray meets before `limit`; where it enters them, with some slack, is `enter`.
+HWY_INLINE M boxes_hit(const Node& node, const BoxRay& ray, float limit, std::size_t at, V& enter) {
+    const auto distance = [&](const BoxRay::Side& side) HWY_ATTR {
+        return hn::MulSub(load(node.walls[side.wall], at), same(side.inverse), same(side.offset));
+    };
+    enter = hn::Max(hn::Max(distance(ray.near_walls[0]), distance(ray.near_walls[1])),
+                    hn::Max(distance(ray.near_walls[2]), hn::Zero(D())));
+    const V leave = hn::Min(hn::Min(distance(ray.far_walls[0]), distance(ray.far_walls[1])),
+                            hn::Min(distance(ray.far_walls[2]), same(limit)));
+    return enter <= leave;
+}
 
 /// The boxes that the ray meets before `limit`, a bit for each; where it enters them is written to `enters`.
 HWY_INLINE std::uint32_t boxes_hit(const Node& node, const BoxRay& ray, float limit, Lanes& enters) {
     std::uint32_t hit = 0;
     for (std::size_t at = 0; at < k_lanes; at += hn::Lanes(D())) {
-        V enter = hn::Zero(D());
-        V leave = same(limit);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const bool back = ray.backwards[axis];
-            const V origin = same(ray.origin[static_cast<int>(axis)]);
-            const V inverse = same(ray.inverse[static_cast<int>(axis)]);
-            const V near_wall = load((back ? node.high : node.low)[axis], at);
-            const V far_wall = load((back ? node.low : node.high)[axis], at);
-            enter = hn::Max(enter, (near_wall - origin) * inverse);
-            leave = hn::Min(leave, (far_wall - origin) * inverse);
-        }
+        V enter;
+        hit |= bits(boxes_hit(node, ray, limit, at, enter), at);
         hn::Store(enter, D(), enters.data() + at);
-        hit |= bits(enter * same(1.0F - k_distance_slack) <= leave, at);
     }
     return hit;
+}
+
+/// As boxes_hit. What they lead to is written to `to`, in the order of the bits; up to eight places are overwritten.
+HWY_INLINE std::uint32_t push_hit(const Node& node, const BoxRay& ray, float limit, Reference* to) {
+    const hn::RebindToUnsigned<D> du;
+    std::uint32_t all = 0;
+    for (std::size_t at = 0; at < k_lanes; at += hn::Lanes(D())) {
+        V enter;
+        const M hit = boxes_hit(node, ray, limit, at, enter);
+        const auto part = hn::Load(du, reinterpret_cast<const std::uint32_t*>(node.to.data() + at));
+        hn::StoreU(hn::Compress(part, hn::RebindMask(du, hit)), du,
+                   reinterpret_cast<std::uint32_t*>(to + std::popcount(all)));
+        all |= bits(hit, at);
+    }
+    return all;
 }
 
 /// A ray as the surfaces want it.
@@ -103,17 +128,20 @@ struct SurfaceRay {
 
 /// What is known of the surfaces of a block, a bit for each.
 struct Verdicts {
-    std::uint32_t sure = 0;      ///< hit between `least` and `most`
+    std::uint32_t sure = 0;      ///< hit between `least` and `most`, before the limit
     std::uint32_t doubtful = 0;  ///< hit or not
     HWY_ALIGN Lanes least;
     HWY_ALIGN Lanes most;
 };
 
-HWY_INLINE void write(Verdicts& verdicts, M sure, M possible, V distance, V error, std::size_t at) {
-    verdicts.sure |= bits(sure, at);
-    verdicts.doubtful |= bits(hn::AndNot(sure, possible), at);
+/// `sure` counts where it is possible.
+HWY_INLINE void write(Verdicts& verdicts, M sure, M possible, V distance, V error, float limit, std::size_t at) {
+    const V most = distance + error;
+    const M before = hn::And(hn::And(sure, possible), most < same(limit));
+    verdicts.sure |= bits(before, at);
+    verdicts.doubtful |= bits(hn::AndNot(before, possible), at);
     hn::Store(distance - error, D(), verdicts.least.data() + at);
-    hn::Store(distance + error, D(), verdicts.most.data() + at);
+    hn::Store(most, D(), verdicts.most.data() + at);
 }
 
 /// Moller and Trumbore (1997), before any division: u, v and w are the weights of the corners times `det`.
@@ -153,7 +181,7 @@ HWY_INLINE void ask_block(const TriangleBlock& block, const SurfaceRay& ray, flo
         const V inverse = same(1.0F) / hn::Max(det, same(1e-37F));
         const V distance = way * inverse;
         const V error = (way_error + distance * det_error) * inverse * same(1.25F);
-        write(verdicts, sure, possible, distance, error, at);
+        write(verdicts, sure, possible, distance, error, limit, at);
     }
 }
 
@@ -183,21 +211,83 @@ HWY_INLINE void ask_block(const SphereBlock& block, const SurfaceRay& ray, float
         const M in_front = nearer > error;
         const M from_within = hn::And(nearer<hn::Neg(error), farther> error);
         const M sure = hn::And(hn::And(possible, square > square_error + square_error), hn::Or(in_front, from_within));
-        write(verdicts, sure, possible, hn::IfThenElse(in_front, nearer, farther), error, at);
+        write(verdicts, sure, possible, hn::IfThenElse(in_front, nearer, farther), error, limit, at);
     }
 }
 
-/// Never sure: only lines that pass the axis at more than the radius are out. (Both are lines here, without ends.)
-HWY_INLINE void ask_block(const ConeBlock& block, const SurfaceRay& ray, float /*limit*/, Verdicts& verdicts) {
+/// Where a line meets the wall of a cone, and whether that counts.
+struct ConeRoot {
+    V distance;
+    M sure;
+    M possible;
+};
+
+/// `most`: the error of the distance; that of the height is at most twice as large.
+HWY_INLINE ConeRoot cone_root(V distance, V most, V height, V length, float limit) {
+    const V slack = most + most;
+    const M sure = hn::And(distance > most, hn::And(height > slack, height < length - slack));
+    const M within = hn::And(height >= hn::Neg(slack), height <= length + slack);
+    const M before = hn::And(distance >= hn::Neg(most), distance - most <= same(limit));
+    return {distance, sure, hn::And(within, before)};
+}
+
+/// As Cone::intersect, from the point of the ray that is closest to the axis: there the wall's radius is `around`. A
+/// ray that runs nearly along the axis or the wall leaves all in doubt that it passes at less than the largest radius.
+HWY_INLINE void ask_block(const ConeBlock& block, const SurfaceRay& ray, float limit, Verdicts& verdicts) {
     const Vec3 direction = same(ray.direction);
     for (std::size_t at = 0; at < k_lanes; at += hn::Lanes(D())) {
         const Vec3 from_base = same(ray.origin) - load(block.base, at);
+        const Vec3 axis = load(block.axis, at);
         const V radius = load(block.radius, at);
-        const Vec3 across = cross(direction, load(block.axis, at));
-        const V error = same(k_rounding) * (sum_of_sizes(from_base) + radius + same(ray.size));
-        const V reach = hn::MulAdd(radius, hn::Sqrt(dot(across, across)), error);
-        const M possible = hn::And(radius >= hn::Zero(D()), hn::Abs(dot(from_base, across)) <= reach);
-        verdicts.doubtful |= bits(possible, at);
+        const V slope = load(block.slope, at);
+        const V length = load(block.length, at);
+        const Vec3 normal = cross(direction, axis);
+        const V across = dot(normal, normal);  // square of the direction's part across the axis
+        const V inverse = same(1.0F) / across;
+        const V beside = dot(from_base, normal);
+        const V rise = dot(direction, axis);
+        const V height = dot(from_base, axis);
+        const V closest = hn::MulSub(height, rise, dot(from_base, direction)) * inverse;
+        const V around = hn::MulAdd(slope, hn::MulAdd(closest, rise, height), radius);
+        const V growth = slope * rise;
+        const V leading = across - growth * growth;
+        const V square = across * around * around - beside * beside * leading * inverse;
+
+        const V steepness = same(1.0F) + hn::Abs(slope);
+        const V size = sum_of_sizes(from_base) + radius + length;
+        const V error = same(k_rounding) * steepness * size;
+        const V rounding = same(k_rounding) * steepness * steepness * inverse;
+        const V point_error = error * inverse;
+        const V square_error = same(4.0F) * point_error * (hn::Abs(around) + hn::Abs(beside) + point_error) +
+                               rounding * (around * around + beside * beside);
+
+        const V largest = hn::Max(radius, hn::MulAdd(slope, length, radius));
+        const M near_axis = beside * beside <= same(2.0F) * (across * largest * largest + error * error);
+        const M met = hn::And(radius >= hn::Zero(D()), near_axis);
+        const M clear = hn::And(across > same(0.01F), leading > same(0.25F) * across);
+        const M open = hn::AndNot(hn::And(clear, square < hn::Neg(square_error)), met);
+        if (hn::AllFalse(D(), open)) {
+            continue;
+        }
+        const V shrink = same(1.0F) / leading;
+        const V half_chord = hn::Sqrt(hn::Max(square, square_error));
+        const V middle = hn::MulAdd(growth * around, shrink, closest);
+        const V half = half_chord * shrink;
+        const V most = point_error + (steepness * point_error + square_error / half_chord +
+                                      rounding * (hn::Abs(growth * around) + half_chord) * shrink) *
+                                         shrink;
+        const ConeRoot near_root =
+            cone_root(middle - half, most, hn::MulAdd(middle - half, rise, height), length, limit);
+        const ConeRoot far_root =
+            cone_root(middle + half, most, hn::MulAdd(middle + half, rise, height), length, limit);
+        const M outside = load(block.outside, at) > hn::Zero(D());
+        const M enters = hn::And(outside, near_root.possible);
+        const M sure_near = hn::And(outside, near_root.sure);
+        const M sure = hn::And(hn::And(clear, square > square_error + square_error),
+                               hn::Or(sure_near, hn::AndNot(enters, far_root.sure)));
+        const M possible = hn::Or(hn::Not(clear), hn::Or(enters, far_root.possible));
+        const V distance = hn::IfThenElse(sure_near, near_root.distance, far_root.distance);
+        write(verdicts, sure, hn::And(open, possible), distance, most, limit, at);
     }
 }
 

@@ -23,8 +23,8 @@ void set(std::array<Lanes, 3>& vectors, std::size_t lane, const glm::vec3& value
 
 void fill(TriangleBlock& block, const SurfaceList& surfaces) {
     block.sliver_bound.fill(-1.0F);
-    for (std::size_t lane = 0; lane < block.count; ++lane) {
-        const auto& triangle = static_cast<const Triangle&>(*surfaces[block.surface[lane]]);
+    for (std::size_t lane = 0; lane < block.surfaces.count; ++lane) {
+        const auto& triangle = static_cast<const Triangle&>(*surfaces[block.surfaces.first + lane]);
         const glm::vec3 ab = triangle.b() - triangle.a();
         const glm::vec3 ac = triangle.c() - triangle.a();
         const float longest = std::max({glm::length(ab), glm::length(ac), glm::distance(triangle.b(), triangle.c())});
@@ -41,8 +41,8 @@ void fill(TriangleBlock& block, const SurfaceList& surfaces) {
 
 void fill(SphereBlock& block, const SurfaceList& surfaces) {
     block.radius.fill(-1.0F);
-    for (std::size_t lane = 0; lane < block.count; ++lane) {
-        const auto& sphere = static_cast<const Sphere&>(*surfaces[block.surface[lane]]);
+    for (std::size_t lane = 0; lane < block.surfaces.count; ++lane) {
+        const auto& sphere = static_cast<const Sphere&>(*surfaces[block.surfaces.first + lane]);
         set(block.center, lane, sphere.center());
         block.radius[lane] = sphere.radius();
     }
@@ -50,12 +50,17 @@ void fill(SphereBlock& block, const SurfaceList& surfaces) {
 
 void fill(ConeBlock& block, const SurfaceList& surfaces) {
     block.radius.fill(-1.0F);
-    for (std::size_t lane = 0; lane < block.count; ++lane) {
-        const auto& cone = static_cast<const Cone&>(*surfaces[block.surface[lane]]);
+    for (std::size_t lane = 0; lane < block.surfaces.count; ++lane) {
+        const auto& cone = static_cast<const Cone&>(*surfaces[block.surfaces.first + lane]);
         set(block.base, lane, cone.base().center);
         const glm::dvec3 axis = glm::dvec3(cone.apex().center) - glm::dvec3(cone.base().center);
-        set(block.axis, lane, glm::vec3(glm::normalize(axis)));
-        block.radius[lane] = std::max(cone.base().radius, cone.apex().radius);
+        const double length = glm::length(axis);
+        const double growth = static_cast<double>(cone.apex().radius) - static_cast<double>(cone.base().radius);
+        set(block.axis, lane, glm::vec3(axis / length));
+        block.radius[lane] = cone.base().radius;
+        block.slope[lane] = static_cast<float>(growth / length);
+        block.length[lane] = static_cast<float>(length);
+        block.outside[lane] = cone.sidedness() == Cone::Sidedness::both ? 1.0F : 0.0F;
     }
 }
 
@@ -88,60 +93,124 @@ int levels_below(std::span<const Item> items) {
     return most;
 }
 
+/// Which of Kind's, without nodes: from 0.
+std::size_t kind_of(const Surface& surface) {
+    const Kind kind = std::visit(
+        ByShape{[](const Sphere*) { return Kind::spheres; }, [](const Triangle*) { return Kind::triangles; },
+                [](const SmoothTriangle*) { return Kind::triangles; }, [](const Cone*) { return Kind::cones; },
+                [](const InwardSphere*) { return Kind::others; }, [](std::monostate) { return Kind::others; }},
+        surface.shape());
+    return static_cast<std::size_t>(kind) - 1;
+}
+
+Box bounds_of(std::span<const Surface* const> surfaces) {
+    Box all;
+    for (const Surface* surface : surfaces) {
+        all.extend(surface->bounds());
+    }
+    return all;
+}
+
+Box common(const Box& a, const Box& b) { return {glm::max(a.min, b.min), glm::min(a.max, b.max)}; }
+
 }  // namespace
+
+float half_area(const Box& box) {
+    const glm::vec3 size = box.max - box.min;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
+void Groups::add(const Surface& surface) {
+    Group& group = groups_[kind_of(surface)];
+    group.box.extend(surface.bounds());
+    ++group.count;
+}
+
+void Groups::add(const Groups& other) {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        if (other.groups_[i].count > 0) {
+            groups_[i].box.extend(other.groups_[i].box);
+            groups_[i].count += other.groups_[i].count;
+        }
+    }
+}
+
+std::size_t Groups::size() const {
+    std::size_t sum = 0;
+    for (const Group& group : groups_) {
+        sum += group.count;
+    }
+    return sum;
+}
+
+std::size_t Groups::kinds() const {
+    std::size_t sum = 0;
+    for (const Group& group : groups_) {
+        sum += group.count > 0 ? 1 : 0;
+    }
+    return sum;
+}
+
+float Groups::cost() const {
+    constexpr std::array k_block_costs{1.0F, 0.8F, 1.5F, 8.0F};
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        const std::size_t blocks = (groups_[i].count + k_lanes - 1) / k_lanes;
+        sum += blocks > 0 ? k_block_costs[i] * static_cast<float>(blocks) * half_area(groups_[i].box) : 0.0F;
+    }
+    return sum;
+}
 
 template <class Block>
 void Builder::add_blocks(Kind kind, std::vector<Block>& blocks, const Box& box, const SurfaceList& surfaces,
                          std::vector<Item>& items) {
-    std::size_t done = 0;
-    while (done < surfaces.size()) {
+    constexpr std::size_t k_most = k_lanes * Reference::k_max_blocks;  // of an item
+    for (std::size_t done = 0; done < surfaces.size(); done += k_most) {
+        const std::size_t end = std::min(surfaces.size(), done + k_most);
         const std::uint32_t first = place(blocks.size());
-        std::uint32_t count = 0;
-        for (; count < Reference::k_max_blocks && done < surfaces.size(); ++count) {
-            Block& block = blocks.emplace_back();
-            for (; block.count < k_lanes && done < surfaces.size(); ++block.count, ++done) {
-                block.surface[block.count] = static_cast<std::uint32_t>(tree_.surfaces.size());
-                tree_.surfaces.push_back(surfaces[done]);
-            }
+        for (std::size_t at = done; at < end; at += k_lanes) {
+            blocks.emplace_back().surfaces = {.first = static_cast<std::uint32_t>(tree_.surfaces.size() + at - done),
+                                              .count = static_cast<std::uint32_t>(std::min(k_lanes, end - at))};
         }
-        items.push_back({.box = box, .to = Reference(kind, first, count)});
+        const std::span<const Surface* const> part(surfaces.data() + done, end - done);
+        tree_.surfaces.insert(tree_.surfaces.end(), part.begin(), part.end());
+        const auto count = static_cast<std::uint32_t>(blocks.size() - first);
+        items.push_back({.box = common(box, bounds_of(part)), .to = Reference(kind, first, count)});
     }
 }
 
 void Builder::add_surfaces(const Box& box, std::span<const Surface* const> surfaces, std::vector<Item>& items) {
-    SurfaceList triangles;
-    SurfaceList spheres;
-    SurfaceList cones;
-    SurfaceList others;
+    std::array<SurfaceList, 4> kinds;
     for (const Surface* surface : surfaces) {
-        std::visit(ByShape{[&](const Sphere*) { spheres.push_back(surface); },
-                           [&](const Triangle*) { triangles.push_back(surface); },
-                           [&](const SmoothTriangle*) { triangles.push_back(surface); },
-                           [&](const Cone*) { cones.push_back(surface); },
-                           [&](const InwardSphere*) { others.push_back(surface); },
-                           [&](std::monostate) { others.push_back(surface); }},
-                   surface->shape());
+        kinds[kind_of(*surface)].push_back(surface);
     }
+    const auto& [triangles, spheres, cones, others] = kinds;
     add_blocks(Kind::triangles, tree_.triangles, box, triangles, items);
     add_blocks(Kind::spheres, tree_.spheres, box, spheres, items);
     add_blocks(Kind::cones, tree_.cones, box, cones, items);
-    for (std::size_t done = 0; done < others.size();) {
+    for (std::size_t done = 0; done < others.size(); done += Reference::k_max_blocks) {
         const std::size_t count = std::min<std::size_t>(Reference::k_max_blocks, others.size() - done);
-        const Reference to(Kind::others, place(tree_.others.size()), static_cast<std::uint32_t>(count));
-        items.push_back({.box = box, .to = to});
-        for (const std::size_t end = done + count; done < end; ++done) {
-            tree_.others.push_back(static_cast<std::uint32_t>(tree_.surfaces.size()));
-            tree_.surfaces.push_back(others[done]);
-        }
+        const std::span<const Surface* const> part(others.data() + done, count);
+        const Reference to(Kind::others, place(tree_.surfaces.size()), static_cast<std::uint32_t>(count));
+        tree_.surfaces.insert(tree_.surfaces.end(), part.begin(), part.end());
+        items.push_back({.box = common(box, bounds_of(part)), .to = to});
     }
 }
 
-void Builder::write_node(Node& node, std::span<const Item> items) const {
+void Builder::write_node(Node& node, std::vector<Item> items) const {
+    // Any-hit searches begin with the last: blocks, and small boxes, end them soonest.
+    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+        const bool a_is_node = a.to.kind() == Kind::node;
+        const bool b_is_node = b.to.kind() == Kind::node;
+        return a_is_node != b_is_node ? a_is_node : half_area(a.box) > half_area(b.box);
+    });
     for (std::size_t lane = 0; lane < k_lanes; ++lane) {
         const bool used = lane < items.size();
         const Box box = used ? items[lane].box.padded(padding_) : Box{};
-        set(node.low, lane, box.min);
-        set(node.high, lane, box.max);
+        for (int axis = 0; axis < 3; ++axis) {
+            node.walls[static_cast<std::size_t>(axis)][lane] = box.min[axis];
+            node.walls[static_cast<std::size_t>(axis) + 3][lane] = box.max[axis];
+        }
         node.to[lane] = used ? items[lane].to : Reference(Kind::node, 0, 0);
     }
     node.count = static_cast<std::uint32_t>(items.size());

@@ -30,7 +30,7 @@ public:
             return;
         }
         if (count_ == sure_.size()) {
-            ask_all();
+            ask_certain();
         }
         sure_[count_++] = sure;
         limit_ = sure.most < limit_ ? sure.most : limit_;
@@ -51,24 +51,30 @@ public:
         return true;
     }
 
-    /// The nearest hit of all.
-    [[nodiscard]] const std::optional<HitRecord>& settle() {
-        ask_all();
+    /// Whether there is one sure hit, and nobody has been asked: mostly so.
+    [[nodiscard]] bool has_one() const { return count_ == 1 && !best_; }
+
+    /// The nearest hit of all: of one, without any copy of its record, and of any number.
+    [[nodiscard]] std::optional<HitRecord> ask_one() const { return sure_.front().surface->hit(ray_); }
+    [[nodiscard]] const std::optional<HitRecord>& ask_all() {
+        ask_certain();
         return best_;
     }
 
     /// Whether a surface that should have been hit surely was not: the bound was too narrow for this ray.
-    [[nodiscard]] bool failed() const { return failed_; }
+    [[nodiscard]] bool failed(const std::optional<HitRecord>& nearest) const {
+        const bool too_far = limit_ < (nearest ? nearest->distance : std::numeric_limits<float>::max());
+        return failed_ || too_far;
+    }
 
 private:
-    void ask_all() {
+    void ask_certain() {
         for (std::size_t i = 0; i < count_; ++i) {
             if (sure_[i].least <= limit_) {
                 const bool hit = ask(*sure_[i].surface);
                 failed_ = failed_ || !hit;
             }
         }
-        failed_ = failed_ || (count_ > 0 && best_ && best_->distance > limit_);
         count_ = 0;
     }
 

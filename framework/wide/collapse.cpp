@@ -1,9 +1,9 @@
 #include "wide/collapse.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 #include "core/rounding.hpp"
-#include "steps/09-bvh/bvh.hpp"
 #include "wide/builder.hpp"
 
 namespace raysteps::wide {
@@ -11,59 +11,86 @@ namespace {
 
 constexpr int k_deepest = 48;  // of the step's levels; what lies deeper is put into one list
 
-/// A binary tree is folded into one of eight: the largest box is opened until there are eight.
+constexpr std::size_t k_largest_leaf = 16;  // of what can be divided further
+constexpr float k_node_cost = 4.0F;         // in tests of a block of triangles; larger: fewer nodes, fuller blocks
+
+/// A binary tree is folded into one of eight where that costs least (Ylitie, Karras and Laine 2017, section 3.1).
 class BvhFolder {
 public:
-    explicit BvhFolder(const Bvh& bvh) : bvh_(bvh), builder_(padding_within(bvh.nodes.front().box)) {
-        count_surfaces();
-    }
+    explicit BvhFolder(const Bvh& bvh)
+        : bvh_(bvh), builder_(padding_within(bvh.nodes.front().box)), plans_(bvh.nodes.size()) {}
 
-    [[nodiscard]] Tree fold() { return builder_.finish(items_below(0, 0)); }
+    [[nodiscard]] Tree fold() {
+        static_cast<void>(plan_below(0, 0));
+        std::vector<Item> items;
+        add_items(0, 0, items);
+        return builder_.finish(items);
+    }
 
 private:
-    /// How many surfaces each node has below it.
-    void count_surfaces() {
-        const std::size_t most = bvh_.nodes.size();
-        std::vector<std::uint32_t> order{0};
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            const BvhNode& node = bvh_.nodes[order[i]];
-            const std::size_t end = std::size_t{node.first} + (node.is_leaf() ? node.count : 2);
-            if (end > (node.is_leaf() ? bvh_.surfaces.size() : most) || order.size() > most) {
-                throw std::invalid_argument("the nodes that build_bvh made are not a tree");
-            }
-            if (!node.is_leaf()) {
-                order.push_back(node.first);
-                order.push_back(node.first + 1);
+    /// What a node becomes where it may become so many items of the wide node above it; at 0 what is in a wide node of
+    /// its own. From 1 to 7: so many of the items are for its first child.
+    using Plan = std::array<std::uint8_t, k_lanes + 1>;
+    static constexpr std::uint8_t k_no_plan = 0;
+    static constexpr std::uint8_t k_blocks = k_lanes;
+    static constexpr std::uint8_t k_node = k_lanes + 1;
+
+    struct Subtree {
+        Groups groups;
+        Plan plan{};
+        std::array<float, k_lanes + 1> costs{};
+
+        Subtree() { costs.fill(std::numeric_limits<float>::infinity()); }
+
+        void offer(std::size_t items, float cost, std::uint8_t what) {
+            if (cost < costs[items]) {
+                costs[items] = cost;
+                plan[items] = what;
             }
         }
-        below_.resize(most);
-        for (auto at = order.rbegin(); at != order.rend(); ++at) {
-            const BvhNode& node = bvh_.nodes[*at];
-            below_[*at] = node.is_leaf() ? node.count : below_[node.first] + below_[node.first + 1];
+    };
+
+    Subtree plan_below(std::uint32_t index, int depth) {
+        if (index >= plans_.size() || plans_[index].front() != k_no_plan) {
+            throw std::invalid_argument("the nodes that build_bvh made are not a tree");
         }
+        const BvhNode& node = bvh_.nodes[index];
+        plans_[index].front() = k_blocks;
+        const bool divided = !node.is_leaf() && depth < k_deepest;
+        Subtree subtree = divided ? joined(plan_below(node.first, depth + 1), plan_below(node.first + 1, depth + 1))
+                                  : undivided(index);
+        if (!divided || subtree.groups.size() <= k_largest_leaf) {
+            for (std::size_t items = subtree.groups.kinds(); items <= k_lanes; ++items) {
+                subtree.offer(items, subtree.groups.cost(), k_blocks);
+            }
+        }
+        subtree.offer(0, subtree.costs[k_lanes] + k_node_cost * half_area(node.box), subtree.plan[k_lanes]);
+        for (std::size_t items = 1; items <= k_lanes; ++items) {
+            subtree.offer(items, subtree.costs[0], k_node);
+        }
+        plans_[index] = subtree.plan;
+        return subtree;
     }
 
-    [[nodiscard]] bool can_be_opened(std::uint32_t index) const {
-        return !bvh_.nodes[index].is_leaf() && below_[index] > k_lanes;
+    static Subtree joined(const Subtree& left, const Subtree& right) {
+        Subtree both;
+        both.groups = left.groups;
+        both.groups.add(right.groups);
+        for (std::size_t items = 2; items <= k_lanes; ++items) {
+            for (std::size_t of_left = 1; of_left < items; ++of_left) {
+                const float cost = left.costs[of_left] + right.costs[items - of_left];
+                both.offer(items, cost, static_cast<std::uint8_t>(of_left));
+            }
+        }
+        return both;
     }
 
-    [[nodiscard]] std::vector<std::uint32_t> opened(std::uint32_t index) const {
-        std::vector<std::uint32_t> parts{index};
-        while (parts.size() < k_lanes) {
-            auto largest = parts.end();
-            for (auto part = parts.begin(); part != parts.end(); ++part) {
-                const bool larger = largest == parts.end() ||
-                                    surface_area(bvh_.nodes[*part].box) > surface_area(bvh_.nodes[*largest].box);
-                largest = can_be_opened(*part) && larger ? part : largest;
-            }
-            if (largest == parts.end()) {
-                break;
-            }
-            const std::uint32_t first = bvh_.nodes[*largest].first;
-            *largest = first;
-            parts.push_back(first + 1);
+    [[nodiscard]] Subtree undivided(std::uint32_t index) const {
+        Subtree subtree;
+        for (const Surface* surface : surfaces_below(index)) {
+            subtree.groups.add(*surface);
         }
-        return parts;
+        return subtree;
     }
 
     [[nodiscard]] SurfaceList surfaces_below(std::uint32_t index) const {
@@ -82,23 +109,25 @@ private:
         return list;
     }
 
-    [[nodiscard]] std::vector<Item> items_below(std::uint32_t index, int depth) {
-        std::vector<Item> items;
-        for (const std::uint32_t part : opened(index)) {
-            const Box& box = bvh_.nodes[part].box;
-            if (can_be_opened(part) && depth < k_deepest) {
-                const Item below = builder_.add_node(items_below(part, depth + 1));
-                items.push_back({.box = box, .to = below.to, .levels = below.levels});
-            } else {
-                builder_.add_surfaces(box, surfaces_below(part), items);
-            }
+    /// As its plan for `most` items says.
+    void add_items(std::uint32_t index, std::size_t most, std::vector<Item>& items) {
+        const std::uint8_t what = plans_[index][most];
+        if (what == k_blocks) {
+            builder_.add_surfaces(bvh_.nodes[index].box, surfaces_below(index), items);
+        } else if (what == k_node) {
+            std::vector<Item> within;
+            add_items(index, 0, within);
+            items.push_back(builder_.add_node(within));
+        } else {
+            const std::uint32_t first = bvh_.nodes[index].first;
+            add_items(first, what, items);
+            add_items(first + 1, (most == 0 ? k_lanes : most) - what, items);
         }
-        return items;
     }
 
     const Bvh& bvh_;
     Builder builder_;
-    std::vector<std::uint32_t> below_;
+    std::vector<Plan> plans_;
 };
 
 void gather(const raysteps::Node& node, SurfaceList& list) {

@@ -15,11 +15,16 @@ public:
     explicit WideTree(Tree tree) : tree_(std::move(tree)) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
-        return wide::closest_hit(tree_, ray);
+        return search_.closest_hit(tree_, ray);
     }
 
     [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
-        return wide::occluded(tree_, ray, distance);
+        OccluderHint hint = 0;
+        return search_.occluded(tree_, ray, distance, hint);
+    }
+
+    [[nodiscard]] bool occluded_with_hint(const Ray& ray, float distance, OccluderHint& hint) const override {
+        return search_.occluded(tree_, ray, distance, hint);
     }
 
     [[nodiscard]] AcceleratorStats size() const override {
@@ -28,6 +33,7 @@ public:
 
 private:
     Tree tree_;
+    Search search_ = best_search();
 };
 
 std::unique_ptr<Accelerator> over_bvh(const SurfaceList& surfaces) {

@@ -23,30 +23,38 @@ HWY_BEFORE_NAMESPACE();
 namespace raysteps::wide::HWY_NAMESPACE {
 namespace {
 
-struct Open {
-    Reference to;
-    float enter;
-};
-
-/// Nodes that wait, the nearest on top.
+/// What waits to be visited, the nearest on top, each with where the ray enters it.
 class Stack {
 public:
-    void push(const Open& open) { entries_[size_++] = open; }
-    [[nodiscard]] bool empty() const { return size_ == 0; }
-    Open pop() { return entries_[--size_]; }
-
-    /// Keeps the entries from `bottom` on in order, the nearest last.
-    void push_in_order(const Open& open, std::size_t bottom) {
+    /// Puts it below those of the entries from `bottom` on that are nearer.
+    void push_in_order(Reference to, float enter, std::size_t bottom) {
         std::size_t at = size_++;
-        for (; at > bottom && entries_[at - 1].enter < open.enter; --at) {
+        for (; at > bottom && entries_[at - 1].enter < enter; --at) {
             entries_[at] = entries_[at - 1];
         }
-        entries_[at] = open;
+        entries_[at] = {to, enter};
     }
+
+    /// Takes the nearest one off that begins before the limit; false where there is none.
+    bool pop(float limit, Reference& to) {
+        while (size_ > 0) {
+            const Entry& entry = entries_[--size_];
+            if (entry.enter <= limit) {
+                to = entry.to;
+                return true;
+            }
+        }
+        return false;
+    }
+
     [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
-    std::array<Open, k_lanes* static_cast<std::size_t>(k_max_levels)> entries_;
+    struct Entry {
+        Reference to;
+        float enter;
+    };
+    std::array<Entry, k_lanes* static_cast<std::size_t>(k_max_levels)> entries_;
     std::size_t size_ = 0;
 };
 
@@ -60,49 +68,89 @@ struct Counts {
     }
 };
 
-/// Calls leaf(reference) for what the ray may meet before limit(), near boxes first, until leaf returns true.
+/// The nearest of what was hit; all else goes onto the stack. Mostly there is nothing else, and nothing to compare.
+HWY_INLINE Reference nearest_hit(const Node& node, const Lanes& enters, std::uint32_t hit, Stack& stack) {
+    auto nearest = static_cast<std::size_t>(std::countr_zero(hit));
+    const std::size_t bottom = stack.size();
+    for (hit &= hit - 1; hit != 0; hit &= hit - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(hit));
+        const bool nearer = enters[lane] < enters[nearest];
+        const std::size_t farther = nearer ? nearest : lane;
+        nearest = nearer ? lane : nearest;
+        stack.push_in_order(node.to[farther], enters[farther], bottom);
+    }
+    return node.to[nearest];
+}
+
+/// Calls leaf(reference) for what the ray may meet before limit(), near boxes first.
 template <class Leaf, class Limit>
 HWY_INLINE void walk(const Tree& tree, const BoxRay& ray, Counts& counts, const Leaf& leaf, const Limit& limit) {
     Stack stack;
-    stack.push({Reference(Kind::node, 0, 0), 0.0F});
-    while (!stack.empty()) {
-        const Open open = stack.pop();
-        if (open.enter * (1.0F - k_distance_slack) > limit()) {
-            continue;
-        }
-        if (open.to.kind() != Kind::node) {
-            if (leaf(open.to)) {
-                return;
+    Reference to(Kind::node, 0, 0);
+    do {
+        while (to.kind() == Kind::node) {
+            const Node& node = tree.nodes[to.first()];
+            counts.boxes += node.count;
+            HWY_ALIGN Lanes enters;
+            const std::uint32_t hit = boxes_hit(node, ray, limit(), enters);
+            if (hit == 0) {
+                break;
             }
-            continue;
+            to = nearest_hit(node, enters, hit, stack);
         }
-        const Node& node = tree.nodes[open.to.first()];
-        counts.boxes += node.count;
-        HWY_ALIGN std::array<float, k_lanes> enters;
-        const std::size_t bottom = stack.size();
-        for (std::uint32_t hit = boxes_hit(node, ray, limit(), enters); hit != 0; hit &= hit - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(hit));
-            stack.push_in_order({node.to[lane], enters[lane]}, bottom);
+        if (to.kind() != Kind::node) {
+            leaf(to);
         }
+    } while (stack.pop(limit(), to));
+}
+
+/// Calls leaf(reference) for `to`, and then for what the ray may meet before the limit in any order, until it returns
+/// true. Returns where that was, or the root.
+template <class Leaf>
+HWY_INLINE Reference walk_any(const Tree& tree, const BoxRay& ray, Counts& counts, float limit, Reference to,
+                              const Leaf& leaf) {
+    const Reference root(Kind::node, 0, 0);
+    std::array<Reference, k_lanes*(static_cast<std::size_t>(k_max_levels) + 2)> stack;
+    std::size_t size = 0;
+    if (to != root) {
+        stack[size++] = root;
+    }
+    for (;;) {
+        if (to.kind() == Kind::node) {
+            const Node& node = tree.nodes[to.first()];
+            counts.boxes += node.count;
+            if (const std::uint32_t hit = push_hit(node, ray, limit, &stack[size]); hit != 0) {
+                to = node.to[static_cast<std::size_t>(std::bit_width(hit)) - 1];  // sooner known than from the stack
+                size += static_cast<std::size_t>(std::popcount(hit)) - 1;
+                continue;
+            }
+        } else if (leaf(to)) {
+            return to;
+        }
+        if (size == 0) {
+            return root;
+        }
+        to = stack[--size];
     }
 }
 
+/// Calls certain(place, least, most) and doubtful(place) for what may be hit before the limit, until one returns true.
 template <class Block, class Doubtful, class Certain>
 HWY_INLINE bool ask_blocks(const std::vector<Block>& blocks, Reference to, const SurfaceRay& ray, float limit,
                            Counts& counts, const Doubtful& doubtful, const Certain& certain) {
     for (std::uint32_t i = to.first(); i < to.first() + to.count(); ++i) {
         const Block& block = blocks[i];
-        counts.surfaces += block.count;
+        counts.surfaces += block.surfaces.count;
         Verdicts verdicts;
         ask_block(block, ray, limit, verdicts);
         for (std::uint32_t left = verdicts.sure; left != 0; left &= left - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-            if (certain(block.surface[lane], verdicts.least[lane], verdicts.most[lane])) {
+            if (certain(block.surfaces.first + lane, verdicts.least[lane], verdicts.most[lane])) {
                 return true;
             }
         }
         for (std::uint32_t left = verdicts.doubtful; left != 0; left &= left - 1) {
-            if (doubtful(block.surface[static_cast<std::size_t>(std::countr_zero(left))])) {
+            if (doubtful(block.surfaces.first + static_cast<std::size_t>(std::countr_zero(left)))) {
                 return true;
             }
         }
@@ -124,7 +172,7 @@ HWY_INLINE bool ask_leaf(const Tree& tree, Reference to, const SurfaceRay& ray, 
         return ask_blocks(tree.cones, to, ray, limit, counts, doubtful, certain);
     }
     for (std::uint32_t i = to.first(); i < to.first() + to.count(); ++i) {
-        if (doubtful(tree.others[i])) {
+        if (doubtful(i)) {
             return true;
         }
     }
@@ -137,11 +185,11 @@ std::optional<HitRecord> search(const Tree& tree, const Ray& ray, bool& failed) 
     Candidates found(ray);
     Counts counts;
     const SurfaceRay surface_ray(ray);
-    const auto doubtful = [&](std::uint32_t at) {
+    const auto doubtful = [&](std::size_t at) {
         found.ask(*tree.surfaces[at]);
         return false;
     };
-    const auto certain = [&](std::uint32_t at, float least, float most) {
+    const auto certain = [&](std::size_t at, float least, float most) {
         if constexpr (careful) {
             found.ask(*tree.surfaces[at]);
         } else {
@@ -153,37 +201,33 @@ std::optional<HitRecord> search(const Tree& tree, const Ray& ray, bool& failed) 
         return ask_leaf(tree, to, surface_ray, found.limit(), counts, doubtful, certain);
     };
     walk(tree, BoxRay(ray), counts, leaf, [&] { return found.limit(); });
-    const std::optional<HitRecord>& hit = found.settle();
-    failed = found.failed();
+    std::optional<HitRecord> hit = !careful && found.has_one() ? found.ask_one() : found.ask_all();
+    failed = found.failed(hit);
     return hit;
 }
 
 std::optional<HitRecord> closest(const Tree& tree, const Ray& ray) {
     bool failed = false;
-    const std::optional<HitRecord> hit = search<false>(tree, ray, failed);
-    return failed ? search<true>(tree, ray, failed) : hit;
+    std::optional<HitRecord> hit = search<false>(tree, ray, failed);
+    if (failed) {
+        hit = search<true>(tree, ray, failed);
+    }
+    return hit;
 }
 
-bool any(const Tree& tree, const Ray& ray, float distance) {
-    bool found = false;
+bool any(const Tree& tree, const Ray& ray, float distance, std::uint32_t& hint) {
     Counts counts;
     const SurfaceRay surface_ray(ray);
-    const auto doubtful = [&](std::uint32_t at) {
+    const auto doubtful = [&](std::size_t at) {
         const std::optional<HitRecord> hit = tree.surfaces[at]->hit(ray);
-        found = hit && hit->distance < distance;
-        return found;
+        return hit && hit->distance < distance;
     };
-    const auto certain = [&](std::uint32_t at, float, float most) {
-        found = most < distance;
-        return found || doubtful(at);
-    };
+    const auto certain = [](std::size_t, float, float) { return true; };
     const auto leaf = [&](Reference to)
                           HWY_ATTR { return ask_leaf(tree, to, surface_ray, distance, counts, doubtful, certain); };
-    walk(tree, BoxRay(ray), counts, leaf, [&] { return distance; });
-    return found;
+    hint = walk_any(tree, BoxRay(ray), counts, distance, Reference(hint), leaf).bits();
+    return hint != 0;
 }
-
-const char* target() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace
 }  // namespace raysteps::wide::HWY_NAMESPACE
@@ -194,17 +238,11 @@ namespace raysteps::wide {
 
 HWY_EXPORT(closest);
 HWY_EXPORT(any);
-HWY_EXPORT(target);
 
-std::optional<HitRecord> closest_hit(const Tree& tree, const Ray& ray) {
-    return HWY_DYNAMIC_DISPATCH(closest)(tree, ray);
+Search best_search() {
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    return {.closest_hit = &HWY_DYNAMIC_DISPATCH(closest), .occluded = &HWY_DYNAMIC_DISPATCH(any)};
 }
-
-bool occluded(const Tree& tree, const Ray& ray, float distance) {
-    return HWY_DYNAMIC_DISPATCH(any)(tree, ray, distance);
-}
-
-const char* instructions() { return HWY_DYNAMIC_DISPATCH(target)(); }
 
 }  // namespace raysteps::wide
 #endif

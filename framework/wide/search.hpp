@@ -12,13 +12,17 @@
 
 namespace raysteps::wide {
 
-/// The nearest hit with distance > 0; of two at the same distance that of the surface which comes first in the scene.
-[[nodiscard]] std::optional<HitRecord> closest_hit(const Tree& tree, const Ray& ray);
+/// The searches for the machine that the program runs on.
+struct Search {
+    /// The nearest hit with distance > 0; of two at the same distance that of the surface which comes first in the
+    /// scene.
+    std::optional<HitRecord> (*closest_hit)(const Tree& tree, const Ray& ray);
 
-/// Whether any surface is hit nearer than `distance`. A surface that is surely hit is not asked itself any more.
-[[nodiscard]] bool occluded(const Tree& tree, const Ray& ray, float distance);
+    /// Whether any surface is hit nearer than `distance`. A surface that is surely hit is not asked itself any more.
+    /// `hint` is 0, or what a search of the same tree left there: that is asked first.
+    bool (*occluded)(const Tree& tree, const Ray& ray, float distance, std::uint32_t& hint);
+};
 
-/// The instructions in use, like "AVX2".
-[[nodiscard]] const char* instructions();
+[[nodiscard]] Search best_search();
 
 }  // namespace raysteps::wide

@@ -6,6 +6,8 @@
 #include "core/stats.hpp"
 #include "core/triangle.hpp"
 #include "render/accelerator_registry.hpp"
+#include "render/renderer.hpp"
+#include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -72,6 +74,39 @@ Ray any_ray(Random& random, const Scene& scene, const Accelerator& brute, float 
     return ray;
 }
 
+/// Cylinders, pointed, cut and flat ones, thin and wide, some seen from inside only.
+Scene scene_of_cones(Random& random, int cones) {
+    Scene scene;
+    for (int i = 0; i < cones; ++i) {
+        const glm::vec3 at = random.point(10.0F);
+        const float length = random.uniform(0.5F, 3.0F) * (i % 4 == 3 ? 0.05F : 1.0F);
+        const float wide = random.uniform(0.1F, 1.0F) * (i % 5 == 4 ? 0.02F : 1.0F);
+        const float narrow = i % 3 == 0 ? wide : i % 3 == 1 ? 0.0F : random.uniform(0.0F, 2.0F) * wide;
+        const glm::vec3 axis = i % 7 == 6 ? glm::vec3(0.0F, 1.0F, 0.0F) : random.unit_vector();
+        const auto sides = i % 11 == 10 ? Cone::Sidedness::inside : Cone::Sidedness::both;
+        scene.add(std::make_unique<Cone>(Cone::End{at, wide}, Cone::End{at + length * axis, narrow}, sides, Fill{}));
+    }
+    return scene;
+}
+
+/// Through a point of the wall, at its end or a little away from it: across, along the wall, along the axis, or so that
+/// it just touches. From far away, from the point itself, or from beside it.
+Ray ray_at_wall(Random& random, const Cone& cone, int number) {
+    const glm::vec3 along = cone.apex().center - cone.base().center;
+    const glm::vec3 spoke = glm::normalize(glm::cross(along, random.unit_vector()));
+    const float share = number % 6 == 5 ? 1.0F : random.uniform(0.0F, 1.0F);
+    const float radius = (1.0F - share) * cone.base().radius + share * cone.apex().radius;
+    const glm::vec3 wall = cone.base().center + share * along + radius * spoke;
+    const glm::vec3 down = along + (cone.apex().radius - cone.base().radius) * spoke;
+    const glm::vec3 around = glm::cross(spoke, down);
+    const std::array directions{random.unit_vector(), down, along, around + random.uniform(-1.0F, 1.0F) * down,
+                                glm::normalize(down) + 1e-3F * random.unit_vector()};
+    const glm::vec3 direction = glm::normalize(directions[static_cast<std::size_t>(number) % directions.size()]);
+    const float away = number % 3 == 0 ? 0.0F : number % 3 == 1 ? random.uniform(0.0F, 3.0F) : 200.0F;
+    const float beside = number % 7 < 3 ? 0.0F : number % 7 == 3 ? 1e-3F : random.uniform(-1e-4F, 1e-4F);
+    return {wall + beside * spoke - away * direction, direction};
+}
+
 }  // namespace
 
 TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the place", "[wide]") {
@@ -93,6 +128,75 @@ TEST_CASE("A wide tree answers as all surfaces do, whatever the scale and the pl
             const float distance = expected && i % 2 == 0 ? expected->distance : scale * random.uniform(0.0F, 60.0F);
             REQUIRE(tree->occluded(ray, distance) == (expected && expected->distance < distance));
         }
+    }
+}
+
+TEST_CASE("A wide tree meets cones as they are, also where a ray touches one or runs along it", "[wide]") {
+    Random random;
+    INFO(random);
+    const Scene scene = scene_of_cones(random, 200);
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        for (int i = 0; i < 20000; ++i) {
+            const Surface& target = *scene.surfaces()[static_cast<std::size_t>(i) % scene.surfaces().size()];
+            const Ray ray = ray_at_wall(random, dynamic_cast<const Cone&>(target), i);
+            INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
+            const std::optional<HitRecord> expected = brute->closest_hit(ray);
+            check_identical(expected, tree->closest_hit(ray));
+            if (expected) {
+                REQUIRE(tree->occluded(ray, std::nextafter(expected->distance, 2.0F * expected->distance)));
+                REQUIRE_FALSE(tree->occluded(ray, expected->distance));
+            }
+        }
+    }
+}
+
+TEST_CASE("What stopped another ray changes no answer", "[wide]") {
+    Random random;
+    INFO(random);
+    const Scene scene = scene_of_all_kinds(random, 300, 1.0F, glm::vec3(0.0F));
+    const auto brute = make_accelerator(Acceleration::none, scene.surfaces());
+    for (const Acceleration kind : wide_trees()) {
+        const auto tree = make_accelerator(kind, scene.surfaces());
+        OccluderHint hint = 0;
+        Stats with_hint;
+        Stats without;
+        for (int i = 0; i < 3000; ++i) {
+            const Ray ray = any_ray(random, scene, *brute, 1.0F, glm::vec3(0.0F), i);
+            const float distance = random.uniform(0.0F, 60.0F);
+            INFO("ray " << i << " from " << text(ray.origin) << " along " << text(ray.direction));
+            const bool expected = brute->occluded(ray, distance);
+            REQUIRE(tree->occluded_with_hint(ray, distance, hint) == expected);
+            REQUIRE((hint != 0) == expected);
+            const Stats before = thread_stats();
+            REQUIRE(tree->occluded_with_hint(ray, distance, hint) == expected);
+            const Stats between = thread_stats();
+            REQUIRE(tree->occluded(ray, distance) == expected);
+            with_hint.box_tests += between.box_tests - before.box_tests;
+            without.box_tests += thread_stats().box_tests - between.box_tests;
+        }
+        INFO("the same ray again needs no boxes where something is in its way");
+        CHECK(with_hint.box_tests < without.box_tests);
+    }
+}
+
+TEST_CASE("What a picture counts with a wide tree is the same for any number of threads", "[wide]") {
+    const Scene scene = balls_on_floor();
+    RenderOptions options;
+    for (const Acceleration kind : wide_trees()) {
+        options.acceleration = kind;
+        options.threads = 1;
+        const Rendering alone = render(scene, options);
+        options.threads = 3;
+        const Rendering together = render(scene, options);
+        CHECK(together.image == alone.image);
+        CHECK(together.stats.surface_tests == alone.stats.surface_tests);
+        CHECK(together.stats.box_tests == alone.stats.box_tests);
+        options.acceleration = Acceleration::none;
+        const Rendering brute = render(scene, options);
+        CHECK(brute.image == alone.image);
+        CHECK(brute.stats.shadow == alone.stats.shadow);
     }
 }
 

@@ -31,15 +31,26 @@ public:
     [[nodiscard]] std::uint32_t first() const { return bits_ & k_max_first; }
     [[nodiscard]] std::uint32_t count() const { return bits_ >> 24U & k_max_blocks; }
 
+    /// The same as one number; 0: to the root.
+    [[nodiscard]] std::uint32_t bits() const { return bits_; }
+    explicit Reference(std::uint32_t bits) : bits_(bits) {}
+
+    bool operator==(const Reference&) const = default;
+
 private:
     std::uint32_t bits_;
 };
 
 /// Up to eight boxes, axis by axis. An empty place holds a box that no ray meets.
 struct alignas(64) Node {
-    std::array<Lanes, 3> low;
-    std::array<Lanes, 3> high;
+    std::array<Lanes, 6> walls;  ///< low x, y, z, then high x, y, z
     std::array<Reference, k_lanes> to;
+    std::uint32_t count = 0;
+};
+
+/// The surfaces of a block, one after the other in Tree::surfaces.
+struct Surfaces {
+    std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
@@ -48,27 +59,27 @@ struct alignas(32) TriangleBlock {
     std::array<Lanes, 3> corner{};
     std::array<Lanes, 3> edge_ab{};
     std::array<Lanes, 3> edge_ac{};
-    Lanes longest{};                               ///< edge
-    Lanes area_bound{};                            ///< |ab| |ac|, at least twice the area
-    Lanes sliver_bound{};                          ///< longest * |ab| |ac| / (twice the area); below 0: an empty place
-    std::array<std::uint32_t, k_lanes> surface{};  ///< place in Tree::surfaces
-    std::uint32_t count = 0;
+    Lanes longest{};       ///< edge
+    Lanes area_bound{};    ///< |ab| |ac|, at least twice the area
+    Lanes sliver_bound{};  ///< longest * |ab| |ac| / (twice the area); below 0: an empty place
+    Surfaces surfaces;
 };
 
 struct alignas(32) SphereBlock {
     std::array<Lanes, 3> center{};
     Lanes radius{};  ///< below 0: an empty place
-    std::array<std::uint32_t, k_lanes> surface{};
-    std::uint32_t count = 0;
+    Surfaces surfaces;
 };
 
-/// Cones and cylinders as the axis' lower end, its unit direction, and the larger radius.
+/// Cones and cylinders as the lower end, the unit direction to the other one, and how the radius grows along it.
 struct alignas(32) ConeBlock {
     std::array<Lanes, 3> base{};
     std::array<Lanes, 3> axis{};
-    Lanes radius{};  ///< below 0: an empty place
-    std::array<std::uint32_t, k_lanes> surface{};
-    std::uint32_t count = 0;
+    Lanes radius{};  ///< of the lower end; below 0: an empty place
+    Lanes slope{};
+    Lanes length{};
+    Lanes outside{};  ///< 1: the wall is there for rays from outside, too; otherwise 0
+    Surfaces surfaces;
 };
 
 /// Levels of nodes that a search is ready for.
@@ -79,13 +90,12 @@ struct Tree {
     std::vector<TriangleBlock> triangles;
     std::vector<SphereBlock> spheres;
     std::vector<ConeBlock> cones;
-    std::vector<std::uint32_t> others;  ///< places in surfaces of what is asked one by one
-    SurfaceList surfaces;
+    SurfaceList surfaces;  ///< those of a block, and others that an item leads to, stand side by side
 
     [[nodiscard]] std::uint64_t bytes() const {
         return nodes.size() * sizeof(Node) + triangles.size() * sizeof(TriangleBlock) +
                spheres.size() * sizeof(SphereBlock) + cones.size() * sizeof(ConeBlock) +
-               others.size() * sizeof(std::uint32_t) + surfaces.size() * sizeof(const Surface*);
+               surfaces.size() * sizeof(const Surface*);
     }
 };
 
