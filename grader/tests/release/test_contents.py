@@ -20,8 +20,8 @@ from raysteps.report.wording import after_the_last
 # solve the steps read it?
 _ROOMS = {
     ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "play", "play/static",
-    "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain", "updater",
-    "watch",
+    "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain",
+    "updater", "watch",
 }  # fmt: skip
 _PARTS = {
     "cli": {
