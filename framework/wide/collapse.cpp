@@ -43,7 +43,7 @@ private:
         Subtree() { costs.fill(std::numeric_limits<float>::infinity()); }
 
         void offer(std::size_t items, float cost, std::uint8_t what) {
-            if (cost < costs[items]) {
+            if (cost < costs[items] || plan[items] == k_no_plan) {  // of boxes too large for areas all cost the same
                 costs[items] = cost;
                 plan[items] = what;
             }
@@ -52,7 +52,7 @@ private:
 
     Subtree plan_below(std::uint32_t index, int depth) {
         if (index >= plans_.size() || plans_[index].front() != k_no_plan) {
-            throw std::invalid_argument("the nodes that build_bvh made are not a tree");
+            refuse();
         }
         const BvhNode& node = bvh_.nodes[index];
         plans_[index].front() = k_blocks;
@@ -93,13 +93,22 @@ private:
         return subtree;
     }
 
+    [[noreturn]] static void refuse() { throw std::invalid_argument("the nodes that build_bvh made are not a tree"); }
+
     [[nodiscard]] SurfaceList surfaces_below(std::uint32_t index) const {
         SurfaceList list;
         std::vector<std::uint32_t> open{index};
         while (!open.empty()) {
+            if (open.back() >= bvh_.nodes.size() || open.size() > bvh_.nodes.size()) {
+                refuse();
+            }
             const BvhNode& node = bvh_.nodes[open.back()];
             open.pop_back();
             if (node.is_leaf()) {
+                if (std::size_t{node.first} + node.count > bvh_.surfaces.size() ||
+                    list.size() + node.count > bvh_.surfaces.size()) {
+                    refuse();
+                }
                 const auto first = bvh_.surfaces.begin() + node.first;
                 list.insert(list.end(), first, first + node.count);
             } else {
