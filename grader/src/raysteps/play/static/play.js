@@ -79,7 +79,7 @@ class Page {
       }
     });
     addEventListener("keydown", (event) => {
-      if ((event.ctrlKey || event.metaKey) && (event.key.toLowerCase() === "s" || event.key === "Enter")) {
+      if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
         event.preventDefault();
         this.run();
       }
@@ -93,21 +93,27 @@ class Page {
   // What is shown, and kept.
 
   async #open() {
-    const wanted = data.steps.find((step) => step.number === location.hash.slice(1)) ?? data.steps[0];
+    const chosen = () => data.steps.find((step) => step.number === location.hash.slice(1)) ?? data.steps[0];
+    const wanted = chosen();
     if (wanted === this.#step) {
       return;
     }
-    const before = this.#step;
+    const handout = await (await fetch(`steps/${wanted.number}.html`)).text();
+    const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
     await this.#keep();
+    if (wanted !== chosen() || wanted === this.#step) {
+      return; // another one was chosen while this one was read
+    }
+    const before = this.#step;
     this.stop();
-    this.#step = wanted;
+    this.#step = wanted; // and its text with it, without a pause: what is kept is always the step's own
+    this.#editor.load(source, wanted.names);
     element("play-step").value = wanted.number;
     document.title = `${wanted.number} ${wanted.title} · Raysteps`;
     element("play-file").textContent = wanted.path;
-    this.#editor.load((await this.#work.read(wanted.id)) ?? wanted.stub, wanted.names);
-    const handout = await fetch(`steps/${wanted.number}.html`);
-    element("play-handout").innerHTML = await handout.text();
+    element("play-handout").innerHTML = handout;
     element("play-handout").scrollTop = 0;
+    element("play-hint").disabled = !wanted.hints.length;
     for (const room of ["play-first", "play-pictures", "play-tests", "play-problems", "play-hints"]) {
       element(room).replaceChildren();
     }
@@ -136,9 +142,10 @@ class Page {
   }
 
   async #reset() {
-    await this.#work.write(`${this.#step.id} before its reset`, this.#editor.text);
-    await this.#work.forget(this.#step.id);
-    this.#editor.load(this.#step.stub, this.#step.names);
+    const step = this.#step;
+    await this.#work.write(`${step.id} before its reset`, this.#editor.text);
+    this.#editor.load(step.stub, step.names);
+    await this.#work.forget(step.id);
     await this.run();
   }
 

@@ -50,7 +50,11 @@ export class Compiler {
         this.#answer = null;
         resolve({ program: null, says, ...result });
       };
-      const timer = setTimeout(() => this.stop(`The compiler was stopped after ${limit} s.`), 1000 * limit);
+      const timer = setTimeout(() => {
+        if (job === this.#lastJob) {
+          this.stop(`The compiler was stopped after ${limit} s.`);
+        }
+      }, 1000 * limit);
       this.#answer = (data) => {
         if (data.stopped) {
           end(data);
