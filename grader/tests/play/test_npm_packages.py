@@ -79,6 +79,15 @@ def test_a_package_is_loaded_down_once(registry: _Registry, tmp_path: Path) -> N
     assert registry.asked == ["/npm/@some/editor/-/editor-1.2.3.tgz"]
 
 
+def test_of_two_commands_at_once_one_is_quicker(registry: _Registry, tmp_path: Path) -> None:
+    def meanwhile(_text: str) -> None:
+        (tmp_path / _PACKAGE.folder).mkdir(exist_ok=True)
+        (tmp_path / _PACKAGE.folder / "of-the-other").touch()
+
+    assert (fetch(_PACKAGE, tmp_path, registry.address, meanwhile) / "of-the-other").is_file()
+    assert [path.name for path in tmp_path.iterdir()] == [_PACKAGE.folder]
+
+
 def test_another_package_than_the_one_that_is_known_is_not_unpacked(registry: _Registry, tmp_path: Path) -> None:
     registry.files = dict.fromkeys(registry.files, _tarball(b"export const two = 2;\n"))
     with pytest.raises(UsageError, match="is not what the kit knows"):

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.error import HTTPError
+from urllib.request import urlopen
 
 import pytest
 from browser import Watched
@@ -76,6 +78,19 @@ def server(tmp_path: Path) -> Iterator[PlayServer]:
     found = PlayServer(tmp_path)
     yield found
     found.close()
+
+
+def test_nothing_is_served_from_beside_the_folder(server: PlayServer, tmp_path: Path) -> None:
+    (tmp_path / "page").mkdir()
+    server.folder = (tmp_path / "page").resolve()
+    (tmp_path / "beside.html").touch()
+    (tmp_path / "page" / "leads-there.html").symlink_to(tmp_path / "beside.html")
+    (tmp_path / "page" / "index.html").touch()
+    with urlopen(server.address) as answer:
+        assert answer.status == 200
+    for place in ("leads-there.html", "../beside.html", "%2e%2e/beside.html", "..%2fbeside.html", "..%5cbeside.html"):
+        with pytest.raises(HTTPError, match="404"):
+            urlopen(server.address + place)
 
 
 def _open(watched: Watched, server: PlayServer) -> "Page":

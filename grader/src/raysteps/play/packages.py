@@ -213,8 +213,9 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
         _unpack(data, new)
         (top,) = new.iterdir()
         top.rename(folder)
-    except FileExistsError:
-        pass  # another command was quicker
+    except OSError:
+        if not folder.is_dir():  # or else another command was quicker
+            raise
     finally:
         shutil.rmtree(new, ignore_errors=True)
     return folder

@@ -97,10 +97,10 @@ def packed(content: Mapping[str, bytes]) -> bytes:
     return gzip.compress(data.getvalue(), 6, mtime=0)
 
 
-def _squeezed(path: Path, cache: Path) -> bytes:
-    """A large file, compressed once."""
-    target = cache / f"{path.name}.gz"
-    if not target.is_file() or target.stat().st_mtime < path.stat().st_mtime:
+def _squeezed(path: Path) -> bytes:
+    """A large file whose content never changes, compressed once."""
+    target = path.with_name(f"{path.name}.gz")
+    if not target.is_file():
         write_bytes(target, gzip.compress(path.read_bytes(), 6, mtime=0))
     return target.read_bytes()
 
@@ -169,7 +169,7 @@ class PlayPage:
         parts = self._kit.parts()
         self._say("packing the compiler and its headers")
         kit = {
-            "clang": self._write("clang.wasm.gz", _squeezed(self._clang.wasm, self._cache)),
+            "clang": self._write("clang.wasm.gz", _squeezed(self._clang.wasm)),
             "system": self._write("system.tar.gz", packed(_system(self._clang, self._kit, self._project))),
             "parts": self._write("kit.tar.gz", packed(parts.files)),
             "objects": parts.objects,
@@ -214,7 +214,7 @@ class PlayPage:
     def _compiled(self, step: Step) -> dict[str, Any]:
         includes = first_includes(pristine_stub(self._project, step))
         made = self._kit.headers(step, includes)
-        name = self._write(f"steps/{step.number}.pch.gz", _squeezed(made, made.parent))
+        name = self._write(f"steps/{step.number}.pch.gz", _squeezed(made))
         source = f"/kit/steps/{step.path.as_posix()}"
         return {
             "number": step.number,
@@ -251,13 +251,14 @@ class PlayPage:
         args = case.args if self._project.has_reference or case.has_tree else (*case.args, "--accel", "none")
         scene = self._project.root / case.scene
         name = f"pictures/{step.number}/{case.name}.png"
-        self._written.add(name)
         if self._project.has_reference:
             made = self._kit.picture(scene, args)
-            if not (self.folder / name).is_file() or (self.folder / name).stat().st_mtime < made.stat().st_mtime:
-                write_png(parse_ppm(made.read_bytes()), self.folder / name)
+            picture = made.with_suffix(".png")
+            if not picture.is_file():
+                write_png(parse_ppm(made.read_bytes()), picture)
         else:
-            self._write(name, reference_image_path(self._project, step, case).read_bytes())
+            picture = reference_image_path(self._project, step, case)
+        self._write(name, picture.read_bytes())
         height, width, _ = read_png(self.folder / name).shape
         return {
             "name": case.name,
@@ -288,7 +289,7 @@ class PlayServer(LocalServer):
 
     def __init__(self, folder: Path, port: int = 0) -> None:
         super().__init__(port, _Handler)
-        self.folder = folder
+        self.folder = folder.resolve()
         self.start()
 
 
@@ -298,7 +299,8 @@ class _Handler(LocalHandler):
     def get(self, rest: list[str]) -> None:
         path = self.server.folder.joinpath(*(rest if rest != [""] else ["index.html"]))
         kind = _KINDS.get(path.suffix)
-        if kind is None or not path.is_file():
+        is_inside = path.resolve().is_relative_to(self.server.folder)  # a part may hold a \\, a separator on Windows
+        if kind is None or not is_inside or not path.is_file():
             self.nothing()
             return
         self.head(200, kind, path.stat().st_size)

@@ -60,7 +60,9 @@ class WebClang:
             try:
                 new.rename(folder)
             except OSError:
-                shutil.rmtree(new)  # another command was quicker
+                shutil.rmtree(new)
+                if not folder.is_dir():  # or else another command was quicker
+                    raise
         return folder
 
     @cached_property

@@ -139,7 +139,10 @@ class WebKit:
             found = next((folder / place for folder in folders for place in places if (folder / place).exists()), None)
             (target / name).parent.mkdir(parents=True, exist_ok=True)
             if found is not None:
-                (shutil.copytree if found.is_dir() else shutil.copyfile)(found, target / name)
+                new = target / f"{name}.new"  # a copy that was interrupted is made anew
+                shutil.rmtree(new, ignore_errors=True)
+                (shutil.copytree if found.is_dir() else shutil.copyfile)(found, new)
+                new.rename(target / name)
             elif name.startswith("catch2/"):
                 fetch_header(CATCH2, target / name, self._say)
             else:
