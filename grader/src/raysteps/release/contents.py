@@ -170,6 +170,7 @@ _DOCS = {  # what a student looks up
     "maps.md",
     "pages.md",
     "paper.md",
+    "play.md",
     "students.md",
     "view.md",
     "watch.md",
