@@ -11,7 +11,7 @@ struct Stats {
     std::uint64_t reflect = 0;        ///< mirrored rays
     std::uint64_t refract = 0;        ///< rays bent by glass, total internal reflection included
     std::uint64_t surface_tests = 0;  ///< calls of Surface::hit
-    std::uint64_t box_tests = 0;      ///< calls of Box::hit
+    std::uint64_t box_tests = 0;      ///< calls of Box::hit, and what searches add to BoxTests
 
     [[nodiscard]] std::uint64_t rays() const { return eye + shadow + reflect + refract; }
 
