@@ -6,6 +6,8 @@
 #include <atomic>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -194,18 +196,23 @@ private:
             return;
         }
         const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-        auto* corner = static_cast<float*>(rtcSetNewGeometryBuffer(
-            geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * list.size()));
-        auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-            geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), list.size()));
-        unsigned next = 0;
+        const std::size_t corners = 3 * list.size();
+        const std::span coordinates(
+            static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                        3 * sizeof(float), corners)),
+            3 * corners);
+        const std::span indices(
+            static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                           3 * sizeof(unsigned), list.size())),
+            corners);
+        std::iota(indices.begin(), indices.end(), 0U);
+        std::size_t next = 0;
         for (const Surface* surface : list) {
             const auto& triangle = static_cast<const Triangle&>(*surface);
             for (const glm::vec3& point : {triangle.a(), triangle.b(), triangle.c()}) {
                 for (int axis = 0; axis < 3; ++axis) {
-                    *corner++ = point[axis];
+                    coordinates[next++] = point[axis];
                 }
-                *index++ = next++;
             }
         }
         attach(geometry, kind);
@@ -217,14 +224,17 @@ private:
             return;
         }
         const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT));
-        auto* number = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                   RTC_FORMAT_FLOAT4, 4 * sizeof(float), list.size()));
+        const std::span numbers(
+            static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                                        4 * sizeof(float), list.size())),
+            4 * list.size());
+        std::size_t next = 0;
         for (const Surface* surface : list) {
             const auto& sphere = static_cast<const Sphere&>(*surface);
             for (int axis = 0; axis < 3; ++axis) {
-                *number++ = sphere.center()[axis];
+                numbers[next++] = sphere.center()[axis];
             }
-            *number++ = sphere.radius();
+            numbers[next++] = sphere.radius();
         }
         attach(geometry, k_sphere);
     }
