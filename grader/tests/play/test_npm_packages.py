@@ -32,12 +32,13 @@ _PACKAGE = Package("@some/editor", "1.2.3", base64.b64encode(hashlib.sha512(_DAT
 
 
 class _Registry(http.server.ThreadingHTTPServer):
-    """Gives what it has; `cut` bytes of each answer do not come."""
+    """Gives what it has; `cut` bytes of each answer do not come, or else its length is told as `length`."""
 
     def __init__(self) -> None:
         super().__init__(("127.0.0.1", 0), _Answer)
         self.files: dict[str, bytes] = {"/npm/@some/editor/-/editor-1.2.3.tgz": _DATA}
         self.cut = 0
+        self.length: str | None = None
         self.asked: list[str] = []
         threading.Thread(target=self.serve_forever, args=(0.05,), daemon=True).start()
 
@@ -53,7 +54,7 @@ class _Answer(http.server.BaseHTTPRequestHandler):
         self.server.asked.append(self.path)
         data = self.server.files.get(self.path)
         self.send_response(200 if data is not None else 404)
-        self.send_header("Content-Length", str(len(data or b"")))
+        self.send_header("Content-Length", self.server.length or str(len(data or b"")))
         self.end_headers()
         self.wfile.write((data or b"")[: len(data or b"") - self.server.cut])
 
@@ -101,6 +102,10 @@ def test_half_a_package_is_none(registry: _Registry, tmp_path: Path) -> None:
         fetch(_PACKAGE, tmp_path / "cache", registry.address)
     assert not (tmp_path / "cache").exists()
     registry.cut = 0
+    registry.length = "many"
+    with pytest.raises(UsageError, match=r"[0-9]+ bytes came, many were announced"):
+        fetch(_PACKAGE, tmp_path / "cache", registry.address)
+    registry.length = None
     assert fetch(_PACKAGE, tmp_path / "cache", registry.address).is_dir()
 
 

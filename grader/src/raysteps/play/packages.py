@@ -17,6 +17,7 @@ from pathlib import Path
 
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_bytes
+from raysteps.common.text import shorten
 
 REGISTRY = "https://registry.npmjs.org"
 _SECONDS = 60  # without a byte
@@ -167,8 +168,8 @@ def _loaded(address: str, heard: Callable[[int], None]) -> bytes:
             if data.tell() > _MAX_BYTES:
                 raise OSError("it is larger than any package that is asked for")
         length = answer.headers.get("Content-Length")
-        if length is not None and int(length) != data.tell():
-            raise OSError(f"only {data.tell()} of {length} bytes came")
+        if length is not None and length.strip() != str(data.tell()):
+            raise OSError(f"{data.tell()} bytes came, {shorten(length, 20)} were announced")
         return data.getvalue()
 
 
