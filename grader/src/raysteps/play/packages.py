@@ -144,11 +144,13 @@ class Header:
 
     address: str
     sha512: str
+    instead: str  # what helps whom the address does not
 
 
 CATCH2 = Header(  # the last of version 2, for machines that have version 3 without its sources
     "https://raw.githubusercontent.com/catchorg/Catch2/v2.13.10/single_include/catch2/catch.hpp",
     "t92KzOLTLob1NWx7fpanLGrssFKa8pp6uFuN+xZJ1RC8/hF/V2kbdXg8qQ/SHDR/ZMnPbUuZbWhvgvCBhA6Jyw==",
+    "Where Catch2 of version 2 is installed, its own header is taken",
 )
 
 
@@ -179,22 +181,22 @@ def _unpack(data: bytes, folder: Path) -> None:
         archive.extractall(folder, filter="data")
 
 
-def _checked(address: str, sha512: str, say: Callable[[str], None]) -> bytes:
-    """What comes from there is not believed: it has the hash that the kit knows, or it is not used."""
+def _checked(address: str, sha512: str, instead: str, say: Callable[[str], None]) -> bytes:
+    """What comes from there is not believed: it has the hash that the kit knows, or it is not used. `instead` says
+    what helps where this address does not."""
     try:
         data = _loaded(address, lambda done: say(f"loading down {address.rpartition('/')[2]}, {done / 1e6:.1f} MB"))
     except (OSError, http.client.HTTPException) as error:
         inner = getattr(error, "reason", None)  # of an error of urllib
         why = reason(inner if isinstance(inner, OSError) else error)
         raise UsageError(
-            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names "
-            "a mirror of npm's"
+            f"{address}: cannot be loaded down: {why}. Is there a network connection? {instead}"
         ) from error
     found = base64.b64encode(hashlib.sha512(data).digest()).decode("ascii")
     if found != sha512:
         raise UsageError(
-            f"{address}: is not what the kit knows: its SHA-512 is {found[:12]}..., expected {sha512[:12]}...; try "
-            "again, or another --registry"
+            f"{address}: is not what the kit knows: its SHA-512 is {found[:12]}..., expected {sha512[:12]}.... "
+            f"Try again. {instead}"
         )
     return data
 
@@ -207,7 +209,7 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
     address = f"{registry}/{package.address}"
     if not re.match(r"https?://[^/]", address):
         raise UsageError(f"{registry}: expected a registry's address, such as {REGISTRY}")
-    data = _checked(address, package.sha512, say)
+    data = _checked(address, package.sha512, "--registry names a mirror of npm's", say)
     cache.mkdir(parents=True, exist_ok=True)
     new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
     try:
@@ -224,4 +226,4 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
 
 def fetch_header(header: Header, target: Path, say: Callable[[str], None] = lambda text: None) -> None:
     """Writes the file."""
-    write_bytes(target, _checked(header.address, header.sha512, say))
+    write_bytes(target, _checked(header.address, header.sha512, header.instead, say))

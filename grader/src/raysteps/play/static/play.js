@@ -439,7 +439,7 @@ class Page {
       : { passed: false, message: whyNothing(ran, "The picture") };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
-      Object.assign(verdict, this.#work_of(JSON.parse(new TextDecoder().decode(stats)).share_tested, picture.maxShare));
+      Object.assign(verdict, this.#judgeWork(JSON.parse(new TextDecoder().decode(stats)).share_tested, picture.maxShare));
     }
     const sign = shown.root.querySelector("h3 > span");
     sign.textContent = verdict.passed ? " ✓ right" : mine ? " ✗ wrong" : " ✗ missing";
@@ -451,7 +451,7 @@ class Page {
     return verdict;
   }
 
-  #work_of(share, most) {
+  #judgeWork(share, most) {
     if (!share) {
       return { passed: false, message: data.words.noTests };
     }
