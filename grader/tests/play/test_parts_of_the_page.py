@@ -37,6 +37,7 @@ def test_what_a_source_includes_first(project: Project, steps: list[Step]) -> No
     text = '// mine\n#include "a.hpp"\n\n  #include <vector>  \nint x;\n#include <map>\n'
     assert first_includes(text) == '#include "a.hpp"\n#include <vector>\n'
     assert first_includes("int x;\n") == ""
+    assert first_includes(text.replace("\n", "\r\n")) == first_includes(text)
     for step in steps:
         assert first_includes(pristine_stub(project, step)).startswith(f'#include "steps/{step.id}/')
 
@@ -64,14 +65,15 @@ _PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <script type="module" src="check.js"></script>"""
 _CHECK = """import { readReport } from "./report.js";
 import { compare, readPpm } from "./pictures.js";
+import { firstIncludes } from "./includes.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
-window.checks = { readReport, judge: (mine, reference, most) => compare(picture(mine), picture(reference), most) };
+window.checks = { readReport, firstIncludes, judge: (mine, reference, most) => compare(picture(mine), picture(reference), most) };
 """
 
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[PlayServer]:
-    for name in ("report.js", "pictures.js"):
+    for name in ("report.js", "pictures.js", "includes.js"):
         (tmp_path / name).write_bytes(files("raysteps.play").joinpath("static", name).read_bytes())
     (tmp_path / "index.html").write_text(_PAGE)
     (tmp_path / "check.js").write_text(_CHECK)
@@ -134,6 +136,30 @@ def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server
             assert one["failure"] == failure
     assert page.evaluate("checks.readReport('<Catch2TestRun><TestCase/></Catch2TestRun>')") is None
     assert page.evaluate("checks.readReport('<Catch2TestRun>')") is None
+
+
+def test_the_page_finds_the_same_first_includes(
+    watched: Watched, server: PlayServer, project: Project, steps: list[Step]
+) -> None:
+    page = _open(watched, server)
+    sources = [
+        "",
+        "int x;\n#include <map>\n",
+        "#include <map>",
+        '\t#  include "a.hpp" // mine \n\n \t\n// and\n#include <vector>\t \nint x;\n#include <map>\n',
+        "#include <map>\n#if 1\n#include <set>\n#endif\n",
+        "#include <map>\n#define A\n#include <set>\n",
+        "#include <map>\n/* mine */\n#include <set>\n",
+        "#include <map> /* one\n#include <set>\n*/\n",
+        "#pragma once\n#include <map>\n",
+        "#include <map>\r#include <set>\n\r\r\n#include <list>\n",
+        "// \u2028#include <set>\n\u00a0\n#include <map>\n",
+        "#include <map>\u00a0\x0b\n\x0c\n#include <set>\n",
+        "\ufeff#include <map>\n",
+        *(pristine_stub(project, step) for step in steps),
+    ]
+    for source in [*sources, *(source.replace("\n", "\r\n") for source in sources)]:
+        assert page.evaluate("text => checks.firstIncludes(text)", source) == first_includes(source), source
 
 
 @pytest.mark.parametrize(

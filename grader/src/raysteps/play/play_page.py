@@ -130,14 +130,15 @@ def _system(clang: WebClang, kit: WebKit, project: Project) -> dict[str, bytes]:
     return found | {f"kit/{path.relative_to(project.root).as_posix()}": path.read_bytes() for path in own}
 
 
-_FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\n)*")
+_FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\r?\n)*")
 
 
 def first_includes(source: str) -> str:
-    """What a source includes before anything else stands in it; the page finds it in the same way."""
+    """What a source includes before anything else stands in it; includes.js finds it in the same way."""
     found = _FIRST.match(source)
     assert found is not None  # it takes nothing, too
-    return "".join(f"{line.strip()}\n" for line in found[0].splitlines() if line.strip().startswith("#"))
+    lines = [line.lstrip(" \t").rstrip(" \t\r") for line in found[0].split("\n")]
+    return "".join(f"{line}\n" for line in lines if line.startswith("#"))
 
 
 class PlayPage:
