@@ -102,6 +102,25 @@ def _open(watched: Watched, server: PlayServer) -> "Page":
     return page
 
 
+_WORKER = """import "./report.js";
+fetch("report.js").then(() => postMessage("came"), () => postMessage("refused"));"""
+_ASK = """name => new Promise(resolve => {
+  const worker = new Worker(name, { type: "module" });
+  worker.onmessage = ({ data }) => resolve(data);
+})"""
+
+
+@pytest.mark.parametrize(("name", "wanted"), [("compiler.js", "came"), ("runner.js", "refused")])
+def test_a_worker_may_do_what_it_needs(
+    watched: Watched, server: PlayServer, tmp_path: Path, name: str, wanted: str
+) -> None:
+    (tmp_path / name).write_text(_WORKER)
+    page = _open(watched, server)
+    assert page.evaluate(_ASK, name) == wanted
+    with urlopen(server.address) as answer:
+        assert answer.headers["Content-Security-Policy"] is None  # it stands in the page
+
+
 def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server: PlayServer) -> None:
     page = _open(watched, server)
     cases = "".join(

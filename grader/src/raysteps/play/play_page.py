@@ -283,6 +283,9 @@ _KINDS = {
     ".nff": "text/plain; charset=utf-8",
     ".gz": "application/octet-stream",
 }
+# A worker has the policy that its script came with, not its page's. Only the one that compiles asks for more files.
+_SCRIPT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'"
+_COMPILER_POLICY = f"{_SCRIPT_POLICY}; connect-src 'self'"
 
 
 class PlayServer(LocalServer):
@@ -304,6 +307,7 @@ class _Handler(LocalHandler):
         if kind is None or not is_inside or not path.is_file():
             self.nothing()
             return
-        self.head(200, kind, path.stat().st_size)
+        policy = (_COMPILER_POLICY if rest == ["compiler.js"] else _SCRIPT_POLICY) if path.suffix == ".js" else None
+        self.head(200, kind, path.stat().st_size, policy)
         with path.open("rb") as file:
             shutil.copyfileobj(file, self.wfile)
