@@ -118,13 +118,13 @@ def test_where_there_is_no_package_the_address_is_said(registry: _Registry, tmp_
 
 
 def test_one_header_is_checked_as_well(registry: _Registry, tmp_path: Path) -> None:
-    header = Header(f"{registry.address}/{_PACKAGE.address}", _PACKAGE.sha512, "Or install it")
+    header = Header("catch2-2", f"{registry.address}/{_PACKAGE.address}", _PACKAGE.sha512, "Or install it")
     fetch_header(header, tmp_path / "catch2" / "catch.hpp")
     assert (tmp_path / "catch2" / "catch.hpp").read_bytes() == _DATA
     with pytest.raises(UsageError, match="is not what the kit knows"):
         fetch_header(replace(header, sha512=CATCH2.sha512), tmp_path / "other.hpp")
     assert not (tmp_path / "other.hpp").exists()
-    with pytest.raises(UsageError, match="cannot be loaded down.*Or install it") as told:
+    with pytest.raises(UsageError, match=r"cannot be loaded down.*Or install it") as told:
         fetch_header(replace(header, address=f"{registry.address}/none"), tmp_path / "other.hpp")
     assert "--registry" not in str(told.value)
 

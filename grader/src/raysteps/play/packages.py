@@ -142,12 +142,14 @@ EDITOR = (
 class Header:
     """One file, where its makers publish it."""
 
+    folder: str  # its name in the cache
     address: str
     sha512: str
     instead: str  # what helps whom the address does not
 
 
 CATCH2 = Header(  # the last of version 2, for machines that have version 3 without its sources
+    "catch2-2.13.10",
     "https://raw.githubusercontent.com/catchorg/Catch2/v2.13.10/single_include/catch2/catch.hpp",
     "t92KzOLTLob1NWx7fpanLGrssFKa8pp6uFuN+xZJ1RC8/hF/V2kbdXg8qQ/SHDR/ZMnPbUuZbWhvgvCBhA6Jyw==",
     "Where Catch2 of version 2 is installed, its own header is taken",

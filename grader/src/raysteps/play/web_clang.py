@@ -48,6 +48,15 @@ class WebClang:
         self._cache = cache
         self._say = say
 
+    @property
+    def used(self) -> list[Path]:
+        """What it keeps in the cache."""
+        return [self.system, self._for_this_machine]
+
+    @property
+    def _for_this_machine(self) -> Path:
+        return self._cache / f"{self._package.name}-wasmtime-{version('wasmtime')}"
+
     @cached_property
     def system(self) -> Path:
         """Headers and libraries, which programs know as /usr."""
@@ -79,8 +88,9 @@ class WebClang:
         """Compiled for this machine once; that takes most of a minute."""
         import wasmtime
 
-        path = self._cache / f"{self._package.name}-wasmtime-{version('wasmtime')}.bin"
-        with one_at_a_time(path.with_suffix(".lock"), lambda: self._say("waiting for another command")):
+        place = self._for_this_machine
+        path = place.with_name(f"{place.name}.bin")
+        with one_at_a_time(place.with_name(f"{place.name}.lock"), lambda: self._say("waiting for another command")):
             if path.is_file():
                 try:
                     return wasmtime.Module.deserialize_file(self._engine, str(path))
