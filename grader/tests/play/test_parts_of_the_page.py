@@ -1,6 +1,7 @@
 """What the page is made of: handouts, modules, the words of reports. The whole page: test_play_page.py."""
 
 import json
+from argparse import Namespace
 from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
@@ -11,7 +12,10 @@ from urllib.request import urlopen
 import pytest
 from browser import Watched
 from catch2_words import COMPARISONS
+from rich.console import Console
 
+from raysteps.cli import play
+from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -67,7 +71,8 @@ _CHECK = """import { readReport } from "./report.js";
 import { compare, readPpm } from "./pictures.js";
 import { firstIncludes } from "./includes.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
-window.checks = { readReport, firstIncludes, judge: (mine, reference, most) => compare(picture(mine), picture(reference), most) };
+const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
+window.checks = { readReport, firstIncludes, judge };
 """
 
 
@@ -93,6 +98,23 @@ def test_nothing_is_served_from_beside_the_folder(server: PlayServer, tmp_path: 
     for place in ("leads-there.html", "../beside.html", "%2e%2e/beside.html", "..%2fbeside.html", "..%5cbeside.html"):
         with pytest.raises(HTTPError, match="404"):
             urlopen(server.address + place)
+
+
+def test_a_port_that_is_taken_is_told_before_a_page_is_made(
+    server: PlayServer, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(play, "PlayPage", lambda *_: pytest.fail("the page is made"))
+    monkeypatch.setattr(play, "end_as_interrupted", lambda: None)
+    options = Namespace(port=server.port, registry=None, no_open=True)
+    with pytest.raises(UsageError, match=rf"--port {server.port}: .*What you write on the page is kept by its port"):
+        play.run(project, options, Console(quiet=True))
+
+
+def test_before_there_is_a_page_there_is_nothing() -> None:
+    found = PlayServer()
+    with pytest.raises(HTTPError, match="404"):
+        urlopen(found.address)
+    found.close()
 
 
 def _open(watched: Watched, server: PlayServer) -> "Page":

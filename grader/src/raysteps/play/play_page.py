@@ -288,11 +288,11 @@ _COMPILER_POLICY = f"{_SCRIPT_POLICY}; connect-src 'self'"
 
 
 class PlayServer(LocalServer):
-    """Runs in a thread until it is closed."""
+    """Runs in a thread until it is closed. Without a folder it only keeps the port, until there is one."""
 
-    def __init__(self, folder: Path, port: int = 0) -> None:
+    def __init__(self, folder: Path | None = None, port: int = 0) -> None:
         super().__init__(port, _Handler)
-        self.folder = folder.resolve()
+        self.folder = folder
         self.start()
 
 
@@ -300,9 +300,13 @@ class _Handler(LocalHandler):
     server: PlayServer
 
     def get(self, rest: list[str]) -> None:
-        path = self.server.folder.joinpath(*(rest if rest != [""] else ["index.html"]))
+        if self.server.folder is None:
+            self.nothing()
+            return
+        folder = self.server.folder.resolve()
+        path = folder.joinpath(*(rest if rest != [""] else ["index.html"]))
         kind = _KINDS.get(path.suffix)
-        is_inside = path.resolve().is_relative_to(self.server.folder)  # a part may hold a \\, a separator on Windows
+        is_inside = path.resolve().is_relative_to(folder)  # a part may hold a \\, a separator on Windows
         if kind is None or not is_inside or not path.is_file():
             self.nothing()
             return
