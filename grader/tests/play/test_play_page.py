@@ -83,11 +83,16 @@ def _says(page: "Page", pattern: str, timeout: float = 60_000) -> None:
     expect(page.locator("#play-status")).to_have_text(re.compile(pattern), timeout=timeout)
 
 
-def _type(page: "Page", text: str) -> None:
-    """In place of all that is there, and saves."""
+def _write(page: "Page", text: str) -> None:
+    """In place of all that is there."""
     page.locator(".cm-content").click()
     page.keyboard.press("ControlOrMeta+a")
     page.keyboard.insert_text(text)
+
+
+def _type(page: "Page", text: str) -> None:
+    """Writes, and saves."""
+    _write(page, text)
     page.keyboard.press("ControlOrMeta+s")
 
 
@@ -172,16 +177,42 @@ def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, st
     expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed")
 
 
-def test_the_stub_comes_back(page: "Page", project: Project, steps: list[Step]) -> None:
-    from playwright.sync_api import expect
-
-    _type(page, "int broken")
-    _says(page, r"It does not compile\.")
+def _begin_again(page: "Page") -> None:
     page.get_by_role("button", name="Begin again").click()
     page.locator("dialog").get_by_role("button", name="Begin again").click()
+
+
+def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project, steps: list[Step]) -> None:
+    from playwright.sync_api import expect
+
+    back = page.get_by_role("button", name="Bring back what I wrote")
+    expect(back).to_be_hidden()
+    _type(page, "int broken")
+    _says(page, r"It does not compile\.")
+    _begin_again(page)
     _says(page, r"0 of 12 tests pass")
     expect(page.locator("#play-tests summary").first).to_have_text("12 wait for a function that is not written yet")
-    assert _source(page).split() == pristine_stub(project, steps[0]).split()
+    stub = pristine_stub(project, steps[0]).split()
+    assert _source(page).split() == stub
+    _begin_again(page)  # where nothing was written, nothing is lost
+    page.reload()
+    _says(page, r"0 of 12 tests pass", timeout=_STARTED)
+    assert _source(page).split() == stub
+    assert_accessible(page)
+    back.focus()
+    page.keyboard.press("Enter")
+    _says(page, r"It does not compile\.")
+    assert _source(page).split() == ["int", "broken"]
+    expect(back).to_be_hidden()
+    expect(page.locator(".cm-content")).to_be_focused()
+    _begin_again(page)
+    _says(page, r"0 of 12 tests pass")
+    _type(page, "int other")
+    _says(page, r"It does not compile\.")
+    back.click()  # and what was written meanwhile takes its place
+    expect(page.locator(".cm-content")).to_have_text("int broken")
+    back.click()
+    expect(page.locator(".cm-content")).to_have_text("int other")
 
 
 @pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])

@@ -11,6 +11,7 @@ const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
 const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
+const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
 
 /** The functions of a source that still say that they are not written. */
 function unfinished(source) {
@@ -78,6 +79,7 @@ class Page {
         this.#reset();
       }
     });
+    element("play-back").addEventListener("click", () => this.#bringBack());
     addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
         event.preventDefault();
@@ -100,6 +102,7 @@ class Page {
     }
     const handout = await (await fetch(`steps/${wanted.number}.html`)).text();
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
+    const old = await this.#work.read(replaced(wanted));
     await this.#keep();
     if (wanted !== chosen() || wanted === this.#step) {
       return; // another one was chosen while this one was read
@@ -118,6 +121,7 @@ class Page {
       element(room).replaceChildren();
     }
     element("play-console").textContent = "";
+    this.#offer(old);
     if (before) {
       await this.run();
     }
@@ -141,11 +145,40 @@ class Page {
     return step === this.#step ? this.#editor.text : ((await this.#work.read(step.id)) ?? step.stub);
   }
 
+  /** A text that was replaced. */
+  #offer(old) {
+    element("play-back").hidden = !old || old === this.#step.stub;
+  }
+
   async #reset() {
     const step = this.#step;
-    await this.#work.write(`${step.id} before its reset`, this.#editor.text);
+    const old = this.#editor.text;
+    if (old === step.stub) {
+      return; // what was replaced before can still be brought back
+    }
+    await this.#work.write(replaced(step), old);
+    if (step !== this.#step) {
+      return;
+    }
     this.#editor.load(step.stub, step.names);
+    this.#offer(old);
     await this.#work.forget(step.id);
+    await this.run();
+  }
+
+  /** And what stands there now can be brought back in its place. */
+  async #bringBack() {
+    const step = this.#step;
+    const text = await this.#work.read(replaced(step));
+    if (step !== this.#step) {
+      return;
+    }
+    const old = this.#editor.text;
+    this.#editor.load(text, step.names);
+    this.#editor.focus(); // the button may be gone
+    this.#offer(old);
+    await this.#work.write(step.id, text);
+    await this.#work.write(replaced(step), old);
     await this.run();
   }
 
