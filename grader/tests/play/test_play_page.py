@@ -215,6 +215,41 @@ def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project
     expect(page.locator(".cm-content")).to_have_text("int other")
 
 
+def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer) -> None:
+    watched.allowed.append(server.address)
+    page = watched.open("about:blank")
+    page.route("**/clang.wasm.gz", lambda route: route.abort())
+    page.goto(server.address)
+    _says(page, r"the compiler cannot be loaded: .* Press Run to try again")
+    page.unroute("**/clang.wasm.gz")
+    page.get_by_role("button", name="Run").click()
+    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=_STARTED)
+
+
+def test_every_step_keeps_its_text_when_steps_change_quickly(
+    page: "Page", project: Project, steps: list[Step], tmp_path: Path
+) -> None:
+    from playwright.sync_api import expect
+
+    texts = ["// mine", *(pristine_stub(project, step) for step in steps[1:3])]
+    _write(page, texts[0])
+    page.evaluate("""() => {
+        addEventListener("hashchange", () => { location.hash = "#03"; }, { once: true });
+        location.hash = "#02";
+    }""")
+    page.wait_for_function("location.hash === '#03'")
+    for number in (3, 2, 1, 2, 3):
+        page.evaluate("number => { location.hash = `#0${number}`; }", number)
+        expect(page.locator("#play-file")).to_have_text(f"steps/{steps[number - 1].path.as_posix()}")
+        expect(page.locator("#play-step")).to_have_value(f"0{number}")
+        begins = 30  # words: the editor holds no more of a long text than is seen
+        assert _source(page).split()[:begins] == texts[number - 1].split()[:begins]
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as zip").click()
+    download.value.save_as(tmp_path / "my-steps.zip")
+    assert load_submission(tmp_path / "my-steps.zip", steps).sources == {steps[0].id: texts[0].encode()}
+
+
 @pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])
 def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[str, str], number: int) -> None:
     step = steps[number - 1]

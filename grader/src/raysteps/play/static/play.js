@@ -67,7 +67,7 @@ class Page {
     element("play-step").addEventListener("change", (event) => {
       location.hash = event.target.value;
     });
-    addEventListener("hashchange", () => this.#open());
+    addEventListener("hashchange", () => this.#open().catch((error) => this.tellFault(error)));
     addEventListener("pagehide", () => this.#keep());
     element("play-run").addEventListener("click", () => this.run());
     element("play-stop").addEventListener("click", () => this.stop());
@@ -87,8 +87,6 @@ class Page {
       }
     });
     await this.#open();
-    this.#say("busy", "Loading the compiler ...");
-    await this.#compiler.prepare();
     await this.run();
   }
 
@@ -213,9 +211,19 @@ class Page {
       room.textContent = text;
     }
     element("play-stop").disabled = phase !== "busy";
+    element("play-loading").hidden ||= phase !== "busy";
+  }
+
+  /** What the page itself could not do. */
+  tellFault(error) {
+    const what = "Is its server still there? Press Run to try again, or load the page again.";
+    this.#say("bad", `The page has a fault: ${error.message}. ${what}`);
   }
 
   #loading({ name, done, total }) {
+    if (element("play-status").dataset.phase !== "busy") {
+      return; // nobody waits for it
+    }
     const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
     const bar = element("play-loading");
     bar.hidden = total > 0 && done >= total;
@@ -241,8 +249,14 @@ class Page {
     const start = performance.now();
     try {
       await this.#keep();
+      this.#say("busy", "Loading the compiler ...");
+      await this.#compiler.prepare();
+      const sources = await this.#sourcesFor(step);
+      if (run !== this.#run) {
+        return; // or else its job would end the one of a newer run
+      }
       this.#say("busy", "Compiling ...");
-      const built = await this.#build(step);
+      const built = await this.#compiler.build(step.number, sources, COMPILE_SECONDS);
       if (run !== this.#run) {
         return;
       }
@@ -264,18 +278,18 @@ class Page {
       }
     } catch (error) {
       if (run === this.#run) {
-        this.#say("bad", `The page has a fault: ${error.message}`);
+        this.tellFault(error);
       }
     }
   }
 
-  async #build(step) {
+  async #sourcesFor(step) {
     const own = data.model === "reference" ? [step] : data.steps.filter((one) => one.number <= step.number);
     const sources = {};
     for (const one of own) {
       sources[one.number] = await this.#sourceOf(one);
     }
-    return this.#compiler.build(step.number, sources, COMPILE_SECONDS);
+    return sources;
   }
 
   #tellProblems(step, built) {
@@ -472,7 +486,8 @@ class Page {
       : { passed: false, message: whyNothing(ran, "The picture") };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
-      Object.assign(verdict, this.#judgeWork(JSON.parse(new TextDecoder().decode(stats)).share_tested, picture.maxShare));
+      const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));
+      Object.assign(verdict, this.#judgeWork(share, picture.maxShare));
     }
     const sign = shown.root.querySelector("h3 > span");
     sign.textContent = verdict.passed ? " ✓ right" : mine ? " ✗ wrong" : " ✗ missing";
@@ -518,4 +533,5 @@ class Page {
   }
 }
 
-await new Page().start();
+const page = new Page();
+page.start().catch((error) => page.tellFault(error));
