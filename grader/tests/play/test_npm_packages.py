@@ -32,12 +32,13 @@ _PACKAGE = Package("@some/editor", "1.2.3", base64.b64encode(hashlib.sha512(_DAT
 
 
 class _Registry(http.server.ThreadingHTTPServer):
-    """Gives what it has; `cut` bytes of each answer do not come."""
+    """Gives what it has; `cut` bytes of each answer do not come, or else its length is told as `length`."""
 
     def __init__(self) -> None:
         super().__init__(("127.0.0.1", 0), _Answer)
         self.files: dict[str, bytes] = {"/npm/@some/editor/-/editor-1.2.3.tgz": _DATA}
         self.cut = 0
+        self.length: str | None = None
         self.asked: list[str] = []
         threading.Thread(target=self.serve_forever, args=(0.05,), daemon=True).start()
 
@@ -53,7 +54,7 @@ class _Answer(http.server.BaseHTTPRequestHandler):
         self.server.asked.append(self.path)
         data = self.server.files.get(self.path)
         self.send_response(200 if data is not None else 404)
-        self.send_header("Content-Length", str(len(data or b"")))
+        self.send_header("Content-Length", self.server.length or str(len(data or b"")))
         self.end_headers()
         self.wfile.write((data or b"")[: len(data or b"") - self.server.cut])
 
@@ -101,6 +102,10 @@ def test_half_a_package_is_none(registry: _Registry, tmp_path: Path) -> None:
         fetch(_PACKAGE, tmp_path / "cache", registry.address)
     assert not (tmp_path / "cache").exists()
     registry.cut = 0
+    registry.length = "many"
+    with pytest.raises(UsageError, match=r"[0-9]+ bytes came, many were announced"):
+        fetch(_PACKAGE, tmp_path / "cache", registry.address)
+    registry.length = None
     assert fetch(_PACKAGE, tmp_path / "cache", registry.address).is_dir()
 
 
@@ -113,12 +118,15 @@ def test_where_there_is_no_package_the_address_is_said(registry: _Registry, tmp_
 
 
 def test_one_header_is_checked_as_well(registry: _Registry, tmp_path: Path) -> None:
-    header = Header(f"{registry.address}/{_PACKAGE.address}", _PACKAGE.sha512)
+    header = Header("catch2-2", f"{registry.address}/{_PACKAGE.address}", _PACKAGE.sha512, "Or install it")
     fetch_header(header, tmp_path / "catch2" / "catch.hpp")
     assert (tmp_path / "catch2" / "catch.hpp").read_bytes() == _DATA
     with pytest.raises(UsageError, match="is not what the kit knows"):
         fetch_header(replace(header, sha512=CATCH2.sha512), tmp_path / "other.hpp")
     assert not (tmp_path / "other.hpp").exists()
+    with pytest.raises(UsageError, match=r"cannot be loaded down.*Or install it") as told:
+        fetch_header(replace(header, address=f"{registry.address}/none"), tmp_path / "other.hpp")
+    assert "--registry" not in str(told.value)
 
 
 def test_the_registry_is_the_one_that_was_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,7 @@
 """What the page is made of: handouts, modules, the words of reports. The whole page: test_play_page.py."""
 
 import json
+from argparse import Namespace
 from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
@@ -11,7 +12,10 @@ from urllib.request import urlopen
 import pytest
 from browser import Watched
 from catch2_words import COMPARISONS
+from rich.console import Console
 
+from raysteps.cli import play
+from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -37,6 +41,7 @@ def test_what_a_source_includes_first(project: Project, steps: list[Step]) -> No
     text = '// mine\n#include "a.hpp"\n\n  #include <vector>  \nint x;\n#include <map>\n'
     assert first_includes(text) == '#include "a.hpp"\n#include <vector>\n'
     assert first_includes("int x;\n") == ""
+    assert first_includes(text.replace("\n", "\r\n")) == first_includes(text)
     for step in steps:
         assert first_includes(pristine_stub(project, step)).startswith(f'#include "steps/{step.id}/')
 
@@ -64,14 +69,16 @@ _PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <script type="module" src="check.js"></script>"""
 _CHECK = """import { readReport } from "./report.js";
 import { compare, readPpm } from "./pictures.js";
+import { firstIncludes } from "./includes.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
-window.checks = { readReport, judge: (mine, reference, most) => compare(picture(mine), picture(reference), most) };
+const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
+window.checks = { readReport, firstIncludes, judge };
 """
 
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[PlayServer]:
-    for name in ("report.js", "pictures.js"):
+    for name in ("report.js", "pictures.js", "includes.js"):
         (tmp_path / name).write_bytes(files("raysteps.play").joinpath("static", name).read_bytes())
     (tmp_path / "index.html").write_text(_PAGE)
     (tmp_path / "check.js").write_text(_CHECK)
@@ -93,11 +100,47 @@ def test_nothing_is_served_from_beside_the_folder(server: PlayServer, tmp_path: 
             urlopen(server.address + place)
 
 
+def test_a_port_that_is_taken_is_told_before_a_page_is_made(
+    server: PlayServer, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(play, "PlayPage", lambda *_: pytest.fail("the page is made"))
+    monkeypatch.setattr(play, "end_as_interrupted", lambda: None)
+    options = Namespace(port=server.port, registry=None, no_open=True)
+    with pytest.raises(UsageError, match=rf"--port {server.port}: .*What you write on the page is kept by its port"):
+        play.run(project, options, Console(quiet=True))
+
+
+def test_before_there_is_a_page_there_is_nothing() -> None:
+    found = PlayServer()
+    with pytest.raises(HTTPError, match="404"):
+        urlopen(found.address)
+    found.close()
+
+
 def _open(watched: Watched, server: PlayServer) -> "Page":
     watched.allowed.append(server.address)
     page = watched.open(server.address)
     page.wait_for_function("'checks' in window")
     return page
+
+
+_WORKER = """import "./report.js";
+fetch("report.js").then(() => postMessage("came"), () => postMessage("refused"));"""
+_ASK = """name => new Promise(resolve => {
+  const worker = new Worker(name, { type: "module" });
+  worker.onmessage = ({ data }) => resolve(data);
+})"""
+
+
+@pytest.mark.parametrize(("name", "wanted"), [("compiler.js", "came"), ("runner.js", "refused")])
+def test_a_worker_may_do_what_it_needs(
+    watched: Watched, server: PlayServer, tmp_path: Path, name: str, wanted: str
+) -> None:
+    (tmp_path / name).write_text(_WORKER)
+    page = _open(watched, server)
+    assert page.evaluate(_ASK, name) == wanted
+    with urlopen(server.address) as answer:
+        assert answer.headers["Content-Security-Policy"] is None  # it stands in the page
 
 
 def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server: PlayServer) -> None:
@@ -134,6 +177,30 @@ def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server
             assert one["failure"] == failure
     assert page.evaluate("checks.readReport('<Catch2TestRun><TestCase/></Catch2TestRun>')") is None
     assert page.evaluate("checks.readReport('<Catch2TestRun>')") is None
+
+
+def test_the_page_finds_the_same_first_includes(
+    watched: Watched, server: PlayServer, project: Project, steps: list[Step]
+) -> None:
+    page = _open(watched, server)
+    sources = [
+        "",
+        "int x;\n#include <map>\n",
+        "#include <map>",
+        '\t#  include "a.hpp" // mine \n\n \t\n// and\n#include <vector>\t \nint x;\n#include <map>\n',
+        "#include <map>\n#if 1\n#include <set>\n#endif\n",
+        "#include <map>\n#define A\n#include <set>\n",
+        "#include <map>\n/* mine */\n#include <set>\n",
+        "#include <map> /* one\n#include <set>\n*/\n",
+        "#pragma once\n#include <map>\n",
+        "#include <map>\r#include <set>\n\r\r\n#include <list>\n",
+        "// \u2028#include <set>\n\u00a0\n#include <map>\n",
+        "#include <map>\u00a0\x0b\n\x0c\n#include <set>\n",
+        "\ufeff#include <map>\n",
+        *(pristine_stub(project, step) for step in steps),
+    ]
+    for source in [*sources, *(source.replace("\n", "\r\n") for source in sources)]:
+        assert page.evaluate("text => checks.firstIncludes(text)", source) == first_includes(source), source
 
 
 @pytest.mark.parametrize(

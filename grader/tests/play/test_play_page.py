@@ -83,11 +83,16 @@ def _says(page: "Page", pattern: str, timeout: float = 60_000) -> None:
     expect(page.locator("#play-status")).to_have_text(re.compile(pattern), timeout=timeout)
 
 
-def _type(page: "Page", text: str) -> None:
-    """In place of all that is there, and saves."""
+def _write(page: "Page", text: str) -> None:
+    """In place of all that is there."""
     page.locator(".cm-content").click()
     page.keyboard.press("ControlOrMeta+a")
     page.keyboard.insert_text(text)
+
+
+def _type(page: "Page", text: str) -> None:
+    """Writes, and saves."""
+    _write(page, text)
     page.keyboard.press("ControlOrMeta+s")
 
 
@@ -172,16 +177,77 @@ def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, st
     expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed")
 
 
-def test_the_stub_comes_back(page: "Page", project: Project, steps: list[Step]) -> None:
-    from playwright.sync_api import expect
-
-    _type(page, "int broken")
-    _says(page, r"It does not compile\.")
+def _begin_again(page: "Page") -> None:
     page.get_by_role("button", name="Begin again").click()
     page.locator("dialog").get_by_role("button", name="Begin again").click()
+
+
+def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project, steps: list[Step]) -> None:
+    from playwright.sync_api import expect
+
+    back = page.get_by_role("button", name="Bring back what I wrote")
+    expect(back).to_be_hidden()
+    _type(page, "int broken")
+    _says(page, r"It does not compile\.")
+    _begin_again(page)
     _says(page, r"0 of 12 tests pass")
     expect(page.locator("#play-tests summary").first).to_have_text("12 wait for a function that is not written yet")
-    assert _source(page).split() == pristine_stub(project, steps[0]).split()
+    stub = pristine_stub(project, steps[0]).split()
+    assert _source(page).split() == stub
+    _begin_again(page)  # where nothing was written, nothing is lost
+    page.reload()
+    _says(page, r"0 of 12 tests pass", timeout=_STARTED)
+    assert _source(page).split() == stub
+    assert_accessible(page)
+    back.focus()
+    page.keyboard.press("Enter")
+    _says(page, r"It does not compile\.")
+    assert _source(page).split() == ["int", "broken"]
+    expect(back).to_be_hidden()
+    expect(page.locator(".cm-content")).to_be_focused()
+    _begin_again(page)
+    _says(page, r"0 of 12 tests pass")
+    _type(page, "int other")
+    _says(page, r"It does not compile\.")
+    back.click()  # and what was written meanwhile takes its place
+    expect(page.locator(".cm-content")).to_have_text("int broken")
+    back.click()
+    expect(page.locator(".cm-content")).to_have_text("int other")
+
+
+def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer) -> None:
+    watched.allowed.append(server.address)
+    page = watched.open("about:blank")
+    page.route("**/clang.wasm.gz", lambda route: route.abort())
+    page.goto(server.address)
+    _says(page, r"the compiler cannot be loaded: .* Press Run to try again")
+    page.unroute("**/clang.wasm.gz")
+    page.get_by_role("button", name="Run").click()
+    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=_STARTED)
+
+
+def test_every_step_keeps_its_text_when_steps_change_quickly(
+    page: "Page", project: Project, steps: list[Step], tmp_path: Path
+) -> None:
+    from playwright.sync_api import expect
+
+    texts = ["// mine", *(pristine_stub(project, step) for step in steps[1:3])]
+    _write(page, texts[0])
+    page.evaluate("""() => {
+        addEventListener("hashchange", () => { location.hash = "#03"; }, { once: true });
+        location.hash = "#02";
+    }""")
+    page.wait_for_function("location.hash === '#03'")
+    for number in (3, 2, 1, 2, 3):
+        page.evaluate("number => { location.hash = `#0${number}`; }", number)
+        expect(page.locator("#play-file")).to_have_text(f"steps/{steps[number - 1].path.as_posix()}")
+        expect(page.locator("#play-step")).to_have_value(f"0{number}")
+        begins = 30  # words: the editor holds no more of a long text than is seen
+        assert _source(page).split()[:begins] == texts[number - 1].split()[:begins]
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as zip").click()
+    download.value.save_as(tmp_path / "my-steps.zip")
+    assert load_submission(tmp_path / "my-steps.zip", steps).sources == {steps[0].id: texts[0].encode()}
 
 
 @pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])

@@ -34,14 +34,16 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         sys.stdout.flush()
 
     end_as_interrupted()
-    folder = PlayPage(project, registry_of(arguments.registry), paced(say)).make()
     try:
-        server = PlayServer(folder, arguments.port)
+        server = PlayServer(port=arguments.port)  # before the page is made, which may take minutes
     except UsageError as error:
         raise UsageError(f"{error}. What you write on the page is kept by its port") from error
     try:
+        folder = PlayPage(project, registry_of(arguments.registry), paced(say)).make()
         with suppress(KeyboardInterrupt), ExitStack() as stack:
+            server.folder = folder
             say(f"Page: {server.address}")
+            say(f"Its files: {folder}")
             say("Ctrl-C ends it. What you write on the page is kept in your browser.")
             if not arguments.no_open and on_a_desktop():
                 stack.enter_context(shown_in_browser(server.address))

@@ -108,13 +108,16 @@ class LocalHandler(BaseHTTPRequestHandler):
     def log_message(self, format: str, *args: object) -> None:  # noqa: A002  (the name that it has)
         """The terminal belongs to who typed the command."""
 
-    def head(self, code: int, kind: str, length: int | None = None) -> None:
+    def head(self, code: int, kind: str, length: int | None = None, policy: str | None = None) -> None:
+        """`policy` is for what brings none with it: a page has its own."""
         self.send_response(code)
         self.send_header("Content-Type", kind)
         if length is not None:
             self.send_header("Content-Length", str(length))
         for name, value in _HEADERS.items():
             self.send_header(name, value)
+        if policy is not None:
+            self.send_header("Content-Security-Policy", policy)
         self.end_headers()
 
     def answer(self, code: int, text: str, kind: str = "text/plain; charset=utf-8") -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_bytes
+from raysteps.common.text import shorten
 
 REGISTRY = "https://registry.npmjs.org"
 _SECONDS = 60  # without a byte
@@ -141,13 +142,17 @@ EDITOR = (
 class Header:
     """One file, where its makers publish it."""
 
+    folder: str  # its name in the cache
     address: str
     sha512: str
+    instead: str  # what helps whom the address does not
 
 
 CATCH2 = Header(  # the last of version 2, for machines that have version 3 without its sources
+    "catch2-2.13.10",
     "https://raw.githubusercontent.com/catchorg/Catch2/v2.13.10/single_include/catch2/catch.hpp",
     "t92KzOLTLob1NWx7fpanLGrssFKa8pp6uFuN+xZJ1RC8/hF/V2kbdXg8qQ/SHDR/ZMnPbUuZbWhvgvCBhA6Jyw==",
+    "Where Catch2 of version 2 is installed, its own header is taken",
 )
 
 
@@ -167,8 +172,8 @@ def _loaded(address: str, heard: Callable[[int], None]) -> bytes:
             if data.tell() > _MAX_BYTES:
                 raise OSError("it is larger than any package that is asked for")
         length = answer.headers.get("Content-Length")
-        if length is not None and int(length) != data.tell():
-            raise OSError(f"only {data.tell()} of {length} bytes came")
+        if length is not None and length.strip() != str(data.tell()):
+            raise OSError(f"{data.tell()} bytes came, {shorten(length, 20)} were announced")
         return data.getvalue()
 
 
@@ -178,22 +183,22 @@ def _unpack(data: bytes, folder: Path) -> None:
         archive.extractall(folder, filter="data")
 
 
-def _checked(address: str, sha512: str, say: Callable[[str], None]) -> bytes:
-    """What comes from there is not believed: it has the hash that the kit knows, or it is not used."""
+def _checked(address: str, sha512: str, instead: str, say: Callable[[str], None]) -> bytes:
+    """What comes from there is not believed: it has the hash that the kit knows, or it is not used. `instead` says
+    what helps where this address does not."""
     try:
         data = _loaded(address, lambda done: say(f"loading down {address.rpartition('/')[2]}, {done / 1e6:.1f} MB"))
     except (OSError, http.client.HTTPException) as error:
         inner = getattr(error, "reason", None)  # of an error of urllib
         why = reason(inner if isinstance(inner, OSError) else error)
         raise UsageError(
-            f"{address}: cannot be loaded down: {why}. Is there a network connection? --registry names "
-            "a mirror of npm's"
+            f"{address}: cannot be loaded down: {why}. Is there a network connection? {instead}"
         ) from error
     found = base64.b64encode(hashlib.sha512(data).digest()).decode("ascii")
     if found != sha512:
         raise UsageError(
-            f"{address}: is not what the kit knows: its SHA-512 is {found[:12]}..., expected {sha512[:12]}...; try "
-            "again, or another --registry"
+            f"{address}: is not what the kit knows: its SHA-512 is {found[:12]}..., expected {sha512[:12]}.... "
+            f"Try again. {instead}"
         )
     return data
 
@@ -206,7 +211,7 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
     address = f"{registry}/{package.address}"
     if not re.match(r"https?://[^/]", address):
         raise UsageError(f"{registry}: expected a registry's address, such as {REGISTRY}")
-    data = _checked(address, package.sha512, say)
+    data = _checked(address, package.sha512, "--registry names a mirror of npm's", say)
     cache.mkdir(parents=True, exist_ok=True)
     new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
     try:
@@ -223,4 +228,4 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
 
 def fetch_header(header: Header, target: Path, say: Callable[[str], None] = lambda text: None) -> None:
     """Writes the file."""
-    write_bytes(target, _checked(header.address, header.sha512, say))
+    write_bytes(target, _checked(header.address, header.sha512, header.instead, say))

@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.files import write_bytes, write_if_changed
+from raysteps.common.files import one_at_a_time, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
 from raysteps.course.manifest import ImageCase, Step, course_steps
@@ -21,6 +21,7 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
+from raysteps.play.cache import clear, written_once
 from raysteps.play.packages import CLANG, EDITOR, fetch
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
@@ -130,14 +131,15 @@ def _system(clang: WebClang, kit: WebKit, project: Project) -> dict[str, bytes]:
     return found | {f"kit/{path.relative_to(project.root).as_posix()}": path.read_bytes() for path in own}
 
 
-_FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\n)*")
+_FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\r?\n)*")
 
 
 def first_includes(source: str) -> str:
-    """What a source includes before anything else stands in it; the page finds it in the same way."""
+    """What a source includes before anything else stands in it; includes.js finds it in the same way."""
     found = _FIRST.match(source)
     assert found is not None  # it takes nothing, too
-    return "".join(f"{line.strip()}\n" for line in found[0].splitlines() if line.strip().startswith("#"))
+    lines = [line.lstrip(" \t").rstrip(" \t\r") for line in found[0].split("\n")]
+    return "".join(f"{line}\n" for line in lines if line.startswith("#"))
 
 
 class PlayPage:
@@ -151,27 +153,33 @@ class PlayPage:
         self._packages = self._cache / "packages"
         self._clang = WebClang(fetch(CLANG, self._packages, registry, say), self._cache, say)
         self._kit = WebKit(project, self._clang, say)
-        self.folder = self._cache / "site"
-        self._written: set[str] = set()
+        self._content: dict[str, bytes] = {}
 
-    def _write(self, name: str, data: bytes) -> str:
-        self._written.add(name)
-        write_if_changed(self.folder / name, data)
+    def _add(self, name: str, data: bytes) -> str:
+        self._content[name] = data
         return name
 
     def make(self) -> Path:
-        """The folder, in which index.html is the page."""
+        """The folder, in which index.html is the page. A page that is served already keeps its own."""
+        with one_at_a_time(self._cache / ".lock", lambda: self._say("waiting for another command")):
+            self._collect()
+            folder = written_once(self._cache, "site", self._content)
+            packages = [self._packages / package.folder for package in (CLANG, *EDITOR)]
+            clear(self._cache, [folder, *packages, *self._clang.used, *self._kit.used])
+        return folder
+
+    def _collect(self) -> None:
         for name, data in _editor(self._packages, self._registry, self._say):
-            self._write(name, data)
+            self._add(name, data)
         for path in files("raysteps.play").joinpath("static").iterdir():
-            self._write(path.name, with_places(path.read_text("utf-8"), "./editor/").encode())
+            self._add(path.name, with_places(path.read_text("utf-8"), "./editor/").encode())
         steps = course_steps(self._project)
         parts = self._kit.parts()
         self._say("packing the compiler and its headers")
         kit = {
-            "clang": self._write("clang.wasm.gz", _squeezed(self._clang.wasm)),
-            "system": self._write("system.tar.gz", packed(_system(self._clang, self._kit, self._project))),
-            "parts": self._write("kit.tar.gz", packed(parts.files)),
+            "clang": self._add("clang.wasm.gz", _squeezed(self._clang.wasm)),
+            "system": self._add("system.tar.gz", packed(_system(self._clang, self._kit, self._project))),
+            "parts": self._add("kit.tar.gz", packed(parts.files)),
             "objects": parts.objects,
             "input": INPUT,
             "output": OUTPUT,
@@ -201,20 +209,12 @@ class PlayPage:
             data=content,
             module="play.js",
         )
-        self._write("index.html", page.encode())
-        self._forget_others()
-        return self.folder
-
-    def _forget_others(self) -> None:
-        """What an older page had."""
-        for path in self.folder.rglob("*"):
-            if path.is_file() and path.relative_to(self.folder).as_posix() not in self._written:
-                path.unlink()
+        self._add("index.html", page.encode())
 
     def _compiled(self, step: Step) -> dict[str, Any]:
         includes = first_includes(pristine_stub(self._project, step))
         made = self._kit.headers(step, includes)
-        name = self._write(f"steps/{step.number}.pch.gz", _squeezed(made))
+        name = self._add(f"steps/{step.number}.pch.gz", _squeezed(made))
         source = f"/kit/steps/{step.path.as_posix()}"
         return {
             "number": step.number,
@@ -226,12 +226,12 @@ class PlayPage:
         found = self._project.root / path
         if not found.is_file():
             return path
-        return self._write(f"figures/{found.name}", found.read_bytes())
+        return self._add(f"figures/{found.name}", found.read_bytes())
 
     def _described(self, step: Step, steps: list[Step]) -> dict[str, Any]:
         text = (self._project.steps / step.id / "README.md").read_text("utf-8")
         numbers = {other.id: other.number for other in steps}
-        self._write(f"steps/{step.number}.html", handout(text, numbers, self._figure).encode())
+        self._add(f"steps/{step.number}.html", handout(text, numbers, self._figure).encode())
         headers = [path.read_text("utf-8") for path in sorted((self._project.steps / step.id).glob("*.hpp"))]
         return {
             "number": step.number,
@@ -258,11 +258,11 @@ class PlayPage:
                 write_png(parse_ppm(made.read_bytes()), picture)
         else:
             picture = reference_image_path(self._project, step, case)
-        self._write(name, picture.read_bytes())
-        height, width, _ = read_png(self.folder / name).shape
+        self._add(name, picture.read_bytes())
+        height, width, _ = read_png(picture).shape
         return {
             "name": case.name,
-            "scene": self._write(f"scenes/{scene.name}", scene.read_bytes()),
+            "scene": self._add(f"scenes/{scene.name}", scene.read_bytes()),
             "args": list(args),
             "reference": name,
             "width": width,
@@ -282,14 +282,17 @@ _KINDS = {
     ".nff": "text/plain; charset=utf-8",
     ".gz": "application/octet-stream",
 }
+# A worker has the policy that its script came with, not its page's. Only the one that compiles asks for more files.
+_SCRIPT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'"
+_COMPILER_POLICY = f"{_SCRIPT_POLICY}; connect-src 'self'"
 
 
 class PlayServer(LocalServer):
-    """Runs in a thread until it is closed."""
+    """Runs in a thread until it is closed. Without a folder it only keeps the port, until there is one."""
 
-    def __init__(self, folder: Path, port: int = 0) -> None:
+    def __init__(self, folder: Path | None = None, port: int = 0) -> None:
         super().__init__(port, _Handler)
-        self.folder = folder.resolve()
+        self.folder = folder
         self.start()
 
 
@@ -297,12 +300,17 @@ class _Handler(LocalHandler):
     server: PlayServer
 
     def get(self, rest: list[str]) -> None:
-        path = self.server.folder.joinpath(*(rest if rest != [""] else ["index.html"]))
+        if self.server.folder is None:
+            self.nothing()
+            return
+        folder = self.server.folder.resolve()
+        path = folder.joinpath(*(rest if rest != [""] else ["index.html"]))
         kind = _KINDS.get(path.suffix)
-        is_inside = path.resolve().is_relative_to(self.server.folder)  # a part may hold a \\, a separator on Windows
+        is_inside = path.resolve().is_relative_to(folder)  # a part may hold a \\, a separator on Windows
         if kind is None or not is_inside or not path.is_file():
             self.nothing()
             return
-        self.head(200, kind, path.stat().st_size)
+        policy = (_COMPILER_POLICY if rest == ["compiler.js"] else _SCRIPT_POLICY) if path.suffix == ".js" else None
+        self.head(200, kind, path.stat().st_size, policy)
         with path.open("rb") as file:
             shutil.copyfileobj(file, self.wfile)

@@ -25,7 +25,7 @@ INPUT, OUTPUT = "/work/input", "/work/output"  # in a command, where files are n
 
 
 @dataclass(frozen=True)
-class Said:
+class ProgramResult:
     """How a program ended, and what it printed."""
 
     code: int
@@ -47,6 +47,15 @@ class WebClang:
         self._package = package
         self._cache = cache
         self._say = say
+
+    @property
+    def used(self) -> list[Path]:
+        """What it keeps in the cache."""
+        return [self.system, self._for_this_machine]
+
+    @property
+    def _for_this_machine(self) -> Path:
+        return self._cache / f"{self._package.name}-wasmtime-{version('wasmtime')}"
 
     @cached_property
     def system(self) -> Path:
@@ -79,8 +88,9 @@ class WebClang:
         """Compiled for this machine once; that takes most of a minute."""
         import wasmtime
 
-        path = self._cache / f"{self._package.name}-wasmtime-{version('wasmtime')}.bin"
-        with one_at_a_time(path.with_suffix(".lock"), lambda: self._say("waiting for another command")):
+        place = self._for_this_machine
+        path = place.with_name(f"{place.name}.bin")
+        with one_at_a_time(place.with_name(f"{place.name}.lock"), lambda: self._say("waiting for another command")):
             if path.is_file():
                 try:
                     return wasmtime.Module.deserialize_file(self._engine, str(path))
@@ -91,17 +101,17 @@ class WebClang:
             write_bytes(path, bytes(module.serialize()))
             return module
 
-    def llvm(self, words: Sequence[str], places: Mapping[str, Path]) -> Said:
+    def llvm(self, words: Sequence[str], places: Mapping[str, Path]) -> ProgramResult:
         """One of its programs: clang++, wasm-ld, ar."""
         return self._run(self._llvm, words, places)
 
-    def program(self, wasm: Path, words: Sequence[str], places: Mapping[str, Path]) -> Said:
+    def program(self, wasm: Path, words: Sequence[str], places: Mapping[str, Path]) -> ProgramResult:
         """One that was linked."""
         from wasmtime import Module
 
         return self._run(Module.from_file(self._engine, str(wasm)), words, places)
 
-    def _run(self, module: Any, words: Sequence[str], places: Mapping[str, Path]) -> Said:
+    def _run(self, module: Any, words: Sequence[str], places: Mapping[str, Path]) -> ProgramResult:
         from wasmtime import ExitTrap, FuncType, Linker, Store, Trap, ValType, WasiConfig
 
         with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -123,10 +133,10 @@ class WebClang:
             except ExitTrap as end:
                 code = end.code
             except Trap as trap:
-                return Said(-1, "", f"{said[1].read_text('utf-8', 'replace')}{trap}")
+                return ProgramResult(-1, "", f"{said[1].read_text('utf-8', 'replace')}{trap}")
             del store  # which closes the files
             stdout, stderr = (path.read_text("utf-8", "replace") if path.is_file() else "" for path in said)
-            return Said(code, stdout, stderr)
+            return ProgramResult(code, stdout, stderr)
 
     def make(self, words: Sequence[str], places: Mapping[str, Path]) -> None:
         """Runs a program that has no reason to fail."""

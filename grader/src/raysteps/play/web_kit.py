@@ -5,7 +5,6 @@ import json
 import os
 import re
 import shlex
-import shutil
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -17,6 +16,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.project import Project
+from raysteps.play.cache import written_once
 from raysteps.play.packages import CATCH2, fetch_header
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.toolchain.build_kit import read_given_tests, tested_functions
@@ -127,27 +127,37 @@ class WebKit:
         self.steps = read_all_steps(project)
         self.model = "reference" if project.has_reference else "stub"
         self._cache = project.build / "play"
+        self._used: set[Path] = set()
+
+    @property
+    def used(self) -> list[Path]:
+        """What the kit took from the cache or put there so far."""
+        return [*self._used, self.libraries]
+
+    def _header(self, name: str) -> Path:
+        """The folder or file of a library, where it is installed."""
+        places = [folder / place for folder in self._sources.folders_of_others() for place in _HEADERS[name]]
+        found = next((place for place in places if place.exists()), None)
+        if found is None and name.startswith("catch2/"):
+            found = self._cache / "packages" / CATCH2.folder / "catch.hpp"
+            self._used.add(found.parent)
+            if not found.is_file():
+                fetch_header(CATCH2, found, self._say)
+        if found is None:
+            raise UsageError(f"{name}: its headers are not where CMake found them; is the library installed?")
+        return found
 
     @cached_property
     def libraries(self) -> Path:
-        """The headers of GLM, Catch2 and stb_image_write by themselves: beside them lie those of this system."""
-        target = self._cache / "libraries"
-        folders = self._sources.folders_of_others()
-        for name, places in _HEADERS.items():
-            if (target / name).exists():
-                continue
-            found = next((folder / place for folder in folders for place in places if (folder / place).exists()), None)
-            (target / name).parent.mkdir(parents=True, exist_ok=True)
-            if found is not None:
-                new = target / f"{name}.new"  # a copy that was interrupted is made anew
-                shutil.rmtree(new, ignore_errors=True)
-                (shutil.copytree if found.is_dir() else shutil.copyfile)(found, new)
-                new.rename(target / name)
-            elif name.startswith("catch2/"):
-                fetch_header(CATCH2, target / name, self._say)
-            else:
-                raise UsageError(f"{name}: its headers are not where CMake found them; is the library installed?")
-        return target
+        """The headers of GLM, Catch2 and stb_image_write by themselves: beside them lie those of this system. The
+        folder's name changes with every byte of them."""
+        content: dict[str, bytes] = {}
+        for name in _HEADERS:
+            found = self._header(name)
+            for path in sorted(found.rglob("*")) if found.is_dir() else [found]:
+                if path.is_file():
+                    content[(Path(name) / path.relative_to(found)).as_posix()] = path.read_bytes()
+        return written_once(self._cache, "libraries", content)
 
     @cached_property
     def _places(self) -> dict[str, Path]:
@@ -156,10 +166,10 @@ class WebKit:
     @cached_property
     def _headers_mark(self) -> bytes:
         """Changes with every header."""
-        digest = hashlib.sha256(self._clang.wasm.parent.parent.name.encode())
+        digest = hashlib.sha256(f"{self._clang.wasm.parent.parent.name}\0{self.libraries.name}\0".encode())
         own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
-        for path in sorted([*own, *self.libraries.glob("*/*.hpp")]):
-            digest.update(f"{path.name}\0".encode() + path.read_bytes())
+        for path in sorted(own):
+            digest.update(f"{self._name(path)}\0".encode() + path.read_bytes())
         return digest.digest()
 
     def _name(self, path: Path) -> str:
@@ -168,7 +178,12 @@ class WebKit:
     def _mark(self, source: Path, command: Sequence[str]) -> str:
         digest = hashlib.sha256(self._headers_mark)
         digest.update("\0".join(command).encode() + source.read_bytes())
-        return digest.hexdigest()[:24]
+        return digest.hexdigest()
+
+    def _object(self, mark: str, ending: str) -> Path:
+        place = self._cache / "objects" / mark[:24]
+        self._used.add(place)
+        return place.with_suffix(f".{ending}")
 
     @cached_property
     def _commands(self) -> dict[tuple[str, bool], list[str]]:
@@ -181,7 +196,7 @@ class WebKit:
         """The object."""
         source = wanted.source
         words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags]
-        target = self._cache / "objects" / f"{self._mark(self._project.root / source.path, words)}.o"
+        target = self._object(self._mark(self._project.root / source.path, words), "o")
         if not target.is_file():
             self._compile(words, f"{_KIT}/{source.path}", target)
         return target
@@ -246,7 +261,7 @@ class WebKit:
         return target
 
     def _kept(self, ending: str, *marks: str) -> Path:
-        return self._cache / "objects" / f"{hashlib.sha256(' '.join(marks).encode()).hexdigest()[:24]}.{ending}"
+        return self._object(hashlib.sha256(" ".join(marks).encode()).hexdigest(), ending)
 
     def parts(self) -> Parts:
         """All objects, by the paths that the linker in the page knows them by."""

@@ -1,6 +1,7 @@
 // The worker that compiles: clang and the linker, the headers, and the kit as objects. What it is asked is a step and
 // the sources that are the student's own; what it answers is a program, or what the compiler says.
 
+import { firstIncludes } from "./includes.js";
 import { Files, runProgram } from "./wasi.js";
 
 const files = new Files();
@@ -45,16 +46,6 @@ async function prepare(message) {
   files.unpack(parts);
   files.write("/work/empty", new Uint8Array());
   postMessage({ ready: true, clang: message.clang ? null : clang });
-}
-
-/** What a source includes before anything else stands in it. */
-function firstIncludes(source) {
-  const [first] = /^(?:[ \t]*(?:#[ \t]*include[^\n]*|\/\/[^\n]*)?\n)*/.exec(source);
-  const lines = first.split("\n").map((line) => line.trim());
-  return lines
-    .filter((line) => line.startsWith("#"))
-    .map((line) => `${line}\n`)
-    .join("");
 }
 
 /** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */

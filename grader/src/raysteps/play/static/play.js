@@ -11,6 +11,7 @@ const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
 const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
+const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
 
 /** The functions of a source that still say that they are not written. */
 function unfinished(source) {
@@ -66,7 +67,7 @@ class Page {
     element("play-step").addEventListener("change", (event) => {
       location.hash = event.target.value;
     });
-    addEventListener("hashchange", () => this.#open());
+    addEventListener("hashchange", () => this.#open().catch((error) => this.tellFault(error)));
     addEventListener("pagehide", () => this.#keep());
     element("play-run").addEventListener("click", () => this.run());
     element("play-stop").addEventListener("click", () => this.stop());
@@ -78,6 +79,7 @@ class Page {
         this.#reset();
       }
     });
+    element("play-back").addEventListener("click", () => this.#bringBack());
     addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
         event.preventDefault();
@@ -85,8 +87,6 @@ class Page {
       }
     });
     await this.#open();
-    this.#say("busy", "Loading the compiler ...");
-    await this.#compiler.prepare();
     await this.run();
   }
 
@@ -100,6 +100,7 @@ class Page {
     }
     const handout = await (await fetch(`steps/${wanted.number}.html`)).text();
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
+    const old = await this.#work.read(replaced(wanted));
     await this.#keep();
     if (wanted !== chosen() || wanted === this.#step) {
       return; // another one was chosen while this one was read
@@ -118,6 +119,7 @@ class Page {
       element(room).replaceChildren();
     }
     element("play-console").textContent = "";
+    this.#offer(old);
     if (before) {
       await this.run();
     }
@@ -141,11 +143,40 @@ class Page {
     return step === this.#step ? this.#editor.text : ((await this.#work.read(step.id)) ?? step.stub);
   }
 
+  /** A text that was replaced. */
+  #offer(old) {
+    element("play-back").hidden = !old || old === this.#step.stub;
+  }
+
   async #reset() {
     const step = this.#step;
-    await this.#work.write(`${step.id} before its reset`, this.#editor.text);
+    const old = this.#editor.text;
+    if (old === step.stub) {
+      return; // what was replaced before can still be brought back
+    }
+    await this.#work.write(replaced(step), old);
+    if (step !== this.#step) {
+      return;
+    }
     this.#editor.load(step.stub, step.names);
+    this.#offer(old);
     await this.#work.forget(step.id);
+    await this.run();
+  }
+
+  /** And what stands there now can be brought back in its place. */
+  async #bringBack() {
+    const step = this.#step;
+    const text = await this.#work.read(replaced(step));
+    if (step !== this.#step) {
+      return;
+    }
+    const old = this.#editor.text;
+    this.#editor.load(text, step.names);
+    this.#editor.focus(); // the button may be gone
+    this.#offer(old);
+    await this.#work.write(step.id, text);
+    await this.#work.write(replaced(step), old);
     await this.run();
   }
 
@@ -180,9 +211,19 @@ class Page {
       room.textContent = text;
     }
     element("play-stop").disabled = phase !== "busy";
+    element("play-loading").hidden ||= phase !== "busy";
+  }
+
+  /** What the page itself could not do. */
+  tellFault(error) {
+    const what = "Is its server still there? Press Run to try again, or load the page again.";
+    this.#say("bad", `The page has a fault: ${error.message}. ${what}`);
   }
 
   #loading({ name, done, total }) {
+    if (element("play-status").dataset.phase !== "busy") {
+      return; // nobody waits for it
+    }
     const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
     const bar = element("play-loading");
     bar.hidden = total > 0 && done >= total;
@@ -208,8 +249,14 @@ class Page {
     const start = performance.now();
     try {
       await this.#keep();
+      this.#say("busy", "Loading the compiler ...");
+      await this.#compiler.prepare();
+      const sources = await this.#sourcesFor(step);
+      if (run !== this.#run) {
+        return; // or else its job would end the one of a newer run
+      }
       this.#say("busy", "Compiling ...");
-      const built = await this.#build(step);
+      const built = await this.#compiler.build(step.number, sources, COMPILE_SECONDS);
       if (run !== this.#run) {
         return;
       }
@@ -231,18 +278,18 @@ class Page {
       }
     } catch (error) {
       if (run === this.#run) {
-        this.#say("bad", `The page has a fault: ${error.message}`);
+        this.tellFault(error);
       }
     }
   }
 
-  async #build(step) {
+  async #sourcesFor(step) {
     const own = data.model === "reference" ? [step] : data.steps.filter((one) => one.number <= step.number);
     const sources = {};
     for (const one of own) {
       sources[one.number] = await this.#sourceOf(one);
     }
-    return this.#compiler.build(step.number, sources, COMPILE_SECONDS);
+    return sources;
   }
 
   #tellProblems(step, built) {
@@ -439,7 +486,8 @@ class Page {
       : { passed: false, message: whyNothing(ran, "The picture") };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
-      Object.assign(verdict, this.#work_of(JSON.parse(new TextDecoder().decode(stats)).share_tested, picture.maxShare));
+      const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));
+      Object.assign(verdict, this.#judgeWork(share, picture.maxShare));
     }
     const sign = shown.root.querySelector("h3 > span");
     sign.textContent = verdict.passed ? " ✓ right" : mine ? " ✗ wrong" : " ✗ missing";
@@ -451,7 +499,7 @@ class Page {
     return verdict;
   }
 
-  #work_of(share, most) {
+  #judgeWork(share, most) {
     if (!share) {
       return { passed: false, message: data.words.noTests };
     }
@@ -485,4 +533,5 @@ class Page {
   }
 }
 
-await new Page().start();
+const page = new Page();
+page.start().catch((error) => page.tellFault(error));

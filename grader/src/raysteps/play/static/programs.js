@@ -1,7 +1,7 @@
 // The workers that compile and run, and what is done when one of them does not answer: it is ended, and another one
 // takes its place. The page itself never waits.
 
-/** Compiles and links. One job at a time; a new one ends an old one. */
+/** Compiles and links, once it is prepared. One job at a time; a new one ends an old one. */
 export class Compiler {
   #kit;
   #loading;
@@ -17,9 +17,18 @@ export class Compiler {
     this.#loading = loading;
   }
 
-  /** Loads all that it takes, once. */
+  /** Loads all that it takes, once; what failed is tried again by the next call. */
   prepare() {
-    this.#ready ??= new Promise((resolve, reject) => {
+    this.#ready ??= this.#start().catch((error) => {
+      this.#worker.terminate();
+      this.#ready = null;
+      throw new Error(`the compiler cannot be loaded: ${error.message}`);
+    });
+    return this.#ready;
+  }
+
+  #start() {
+    return new Promise((resolve, reject) => {
       this.#worker = new Worker("compiler.js", { type: "module" });
       this.#worker.onerror = (event) => reject(new Error(event.message || "the compiler could not be started"));
       this.#worker.onmessage = ({ data }) => {
@@ -36,12 +45,10 @@ export class Compiler {
       };
       this.#worker.postMessage({ kit: this.#kit, clang: this.#clang });
     });
-    return this.#ready;
   }
 
   /** `{program, says: [{number, code, text}], seconds}`; `stopped` where somebody ended it, or its time was over. */
   async build(number, sources, limit) {
-    await this.prepare();
     const job = ++this.#lastJob;
     const says = [];
     return new Promise((resolve, reject) => {
@@ -78,7 +85,7 @@ export class Compiler {
       this.#worker.terminate();
       this.#ready = null;
       this.#answer({ stopped: reason });
-      this.prepare();
+      this.prepare().catch(() => {}); // the next run says why
     }
   }
 }

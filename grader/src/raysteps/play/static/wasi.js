@@ -310,7 +310,7 @@ class Process {
     return OK;
   }
 
-  #list_folder(node, at, room, first, used) {
+  #listFolder(node, at, room, first, used) {
     const encoder = new TextEncoder();
     let to = 0;
     [...node.nodes].forEach(([name, one], index) => {
@@ -351,7 +351,7 @@ class Process {
   }
 
   #calls() {
-    const in_folder =
+    const inFolder =
       (call) =>
       (descriptor, at, length, ...rest) => {
         const place = this.#relative(descriptor, at, length);
@@ -441,7 +441,7 @@ class Process {
       },
       fd_readdir: (descriptor, at, room, cookie, used) => {
         const open = this.#open.get(descriptor);
-        return open?.kind === FOLDER ? this.#list_folder(open.node, at, room, Number(cookie), used) : NOT_A_FOLDER;
+        return open?.kind === FOLDER ? this.#listFolder(open.node, at, room, Number(cookie), used) : NOT_A_FOLDER;
       },
       path_open: (descriptor, _follow, at, length, wanted, _rights, _inherited, flags, result) => {
         const place = this.#relative(descriptor, at, length);
@@ -452,7 +452,7 @@ class Process {
         const node = place ? this.#files.find(place.path, place.from) : BAD_DESCRIPTOR;
         return typeof node === "number" ? node : this.#stat(node, result);
       },
-      path_create_directory: in_folder(({ path, from }) => {
+      path_create_directory: inFolder(({ path, from }) => {
         const { folder, name } = this.#files.place(path, from);
         if (!(folder instanceof FolderNode)) {
           return NOT_THERE;
@@ -463,8 +463,8 @@ class Process {
         folder.nodes.set(name, new FolderNode());
         return OK;
       }),
-      path_unlink_file: in_folder((place) => this.#unlink(place)),
-      path_remove_directory: in_folder((place) => this.#unlink(place)),
+      path_unlink_file: inFolder((place) => this.#unlink(place)),
+      path_remove_directory: inFolder((place) => this.#unlink(place)),
       path_readlink: () => INVALID,
       path_rename: (oldFolder, oldAt, oldLength, newFolder, newAt, newLength) => {
         const from = this.#relative(oldFolder, oldAt, oldLength);
