@@ -6,7 +6,7 @@ import pytest
 
 from raysteps.course.project import Project
 from raysteps.play import web_kit
-from raysteps.play.cache import clear, written_once
+from raysteps.play.packages import clear, written_once
 from raysteps.play.web_clang import WebClang
 from raysteps.play.web_kit import WebKit
 

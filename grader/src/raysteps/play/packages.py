@@ -1,9 +1,11 @@
-"""The packages of others that the page needs, from the npm registry: pinned by their hashes, and loaded down once."""
+"""What is kept in build/play: the packages of others that the page needs, from the npm registry, pinned by their hashes
+and loaded down once, and what the page is made of."""
 
 import base64
 import hashlib
 import http.client
 import io
+import json
 import os
 import re
 import shutil
@@ -11,12 +13,13 @@ import tarfile
 import tempfile
 import urllib.error
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.files import write_bytes
+from raysteps.common.files import write_bytes, write_json
 from raysteps.common.text import shorten
 
 REGISTRY = "https://registry.npmjs.org"
@@ -229,3 +232,51 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
 def fetch_header(header: Header, target: Path, say: Callable[[str], None] = lambda text: None) -> None:
     """Writes the file."""
     write_bytes(target, _checked(header.address, header.sha512, header.instead, say))
+
+
+# What this page and the last one that was another are made of stays, for who goes back.
+
+_RECORD = "used.json"
+
+
+def clear(cache: Path, used: Iterable[Path]) -> None:
+    """Removes the rest from the folders in which `used` lie, folders or files; these are named without their ending,
+    and all of such a name belong together."""
+    now = sorted({path.relative_to(cache).as_posix() for path in used})
+    record = cache / _RECORD
+    lists = json.loads(record.read_text("utf-8")) if record.is_file() else []
+    if lists[:1] != [now]:
+        lists = [now, *lists[:1]]
+        write_json(record, lists)
+    kept = {name for some in lists for name in some} | {record.stem}
+    for folder in {(cache / name).parent for name in kept}:
+        for path in folder.iterdir():
+            name = path.relative_to(cache).as_posix()
+            is_kept = any(f"{name}.".startswith(f"{one}.") or one.startswith(f"{name}/") for one in kept)
+            if is_kept or path.name.startswith("."):  # somebody is writing it
+                continue
+            with suppress(OSError):  # on Windows somebody may have it open
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def written_once(cache: Path, name: str, content: Mapping[str, bytes]) -> Path:
+    """A folder of these files, by their paths. Its name changes with every byte, so it never has to be changed."""
+    digest = hashlib.sha256()
+    for path, data in sorted(content.items()):
+        digest.update(f"{path}\0{len(data)}\0".encode() + data)
+    folder = cache / f"{name}-{digest.hexdigest()[:12]}"
+    if not folder.is_dir():
+        cache.mkdir(parents=True, exist_ok=True)
+        new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
+        try:
+            new.chmod(0o755)
+            for path, data in content.items():
+                (new / path).parent.mkdir(parents=True, exist_ok=True)
+                (new / path).write_bytes(data)
+            new.rename(folder)
+        except OSError:
+            if not folder.is_dir():  # or else another command was quicker
+                raise
+        finally:
+            shutil.rmtree(new, ignore_errors=True)
+    return folder

@@ -21,8 +21,7 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
-from raysteps.play.cache import clear, written_once
-from raysteps.play.packages import CLANG, EDITOR, fetch
+from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page

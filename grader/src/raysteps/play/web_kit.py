@@ -16,8 +16,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.project import Project
-from raysteps.play.cache import written_once
-from raysteps.play.packages import CATCH2, fetch_header
+from raysteps.play.packages import CATCH2, fetch_header, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.toolchain.build_kit import read_given_tests, tested_functions
 from raysteps.toolchain.catch2 import parse_report
