@@ -72,7 +72,7 @@ class Sources:
     def __init__(self, project: Project) -> None:
         tree = release_tree(project)
         with tree.locked():
-            tree.configure()
+            tree.configure(again=True)  # only a build looks for new sources by itself
         self._root = project.root.resolve()
         text = (tree.folder / "compile_commands.json").read_text(encoding="utf-8")
         self._entries = [(Path(entry["file"]), _words_of(entry)) for entry in json.loads(text)]
