@@ -149,7 +149,7 @@ struct Search {
     const Ray& ray;
     glm::vec3 inverse = 1.0F / ray.direction;
     BoxTests tests{ray};
-    std::optional<HitRecord> hit{};
+    std::optional<HitRecord> hit = std::nullopt;
     float distance = std::numeric_limits<float>::infinity();  // of the hit
     std::size_t order = 0;                                    // of its surface
 
