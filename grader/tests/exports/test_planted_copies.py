@@ -37,20 +37,24 @@ def _alike(compared: Comparison) -> set[tuple[int, int]]:
     return {(pair.first, pair.second) for pair in compared.pairs if pair.value >= LOOK}
 
 
-@pytest.mark.parametrize("seed", [11, 12, 13])
 def test_copies_stand_above_honest_work(
-    project: Project, steps: list[Step], public: frozenset[str], compared: Compare, seed: int
+    project: Project, steps: list[Step], public: frozenset[str], compared: Compare
 ) -> None:
-    draw = random.Random(seed)
-    honest = honest_class(project, steps, ["corpus", "second_corpus"], draw)
-    copies = plants(honest, public, draw)
-    every = [*(Plant("", one, frozenset({at})) for at, one in enumerate(honest)), *copies]
-    handed = [Handed(f"{at} {one.kind}", one.sources) for at, one in enumerate(every)]
-    true = {(a, b) for a, b in itertools.combinations(range(len(every)), 2) if every[a].originals & every[b].originals}
-    alike = _alike(compared(handed))
-    assert alike - true == set(), f"seed {seed}: honest"
-    missed = [(handed[a].name, handed[b].name) for a, b in sorted(true - alike)]
-    assert len(missed) <= len(true) // 8, f"seed {seed}: {missed}"
+    """Of three classes together: one in eight may be missed."""
+    missed, amount = [], 0
+    for seed in (11, 12, 13):
+        draw = random.Random(seed)
+        honest = honest_class(project, steps, ["corpus", "second_corpus"], draw)
+        copies = plants(honest, public, draw)
+        every = [*(Plant("", one, frozenset({at})) for at, one in enumerate(honest)), *copies]
+        handed = [Handed(f"{at} {one.kind}", one.sources) for at, one in enumerate(every)]
+        pairs = itertools.combinations(range(len(every)), 2)
+        true = {(a, b) for a, b in pairs if every[a].originals & every[b].originals}
+        alike = _alike(compared(handed))
+        assert alike - true == set(), f"seed {seed}: honest"
+        missed += [(seed, handed[a].name, handed[b].name) for a, b in sorted(true - alike)]
+        amount += len(true)
+    assert len(missed) <= amount // 8, missed
 
 
 @pytest.mark.parametrize("step", ["02-intersection", "06-octree", "09-bvh"])
