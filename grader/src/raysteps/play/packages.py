@@ -13,8 +13,8 @@ import tarfile
 import tempfile
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -206,6 +206,21 @@ def _checked(address: str, sha512: str, instead: str, say: Callable[[str], None]
     return data
 
 
+@contextmanager
+def new_folder(folder: Path) -> Iterator[Path]:
+    """A place to make the folder in, under any name; it gets its own when it is whole, unless another command was
+    quicker."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent, ignore_cleanup_errors=True) as name:
+        yield Path(name)
+        (top,) = Path(name).iterdir()
+        try:
+            top.rename(folder)
+        except OSError:
+            if not folder.is_dir():
+                raise
+
+
 def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], None] = lambda text: None) -> Path:
     """The folder of the package's files; loaded down from the registry where the cache lacks it."""
     folder = cache / package.folder
@@ -215,17 +230,8 @@ def fetch(package: Package, cache: Path, registry: str, say: Callable[[str], Non
     if not re.match(r"https?://[^/]", address):
         raise UsageError(f"{registry}: expected a registry's address, such as {REGISTRY}")
     data = _checked(address, package.sha512, "--registry names a mirror of npm's", say)
-    cache.mkdir(parents=True, exist_ok=True)
-    new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
-    try:
+    with new_folder(folder) as new:
         _unpack(data, new)
-        (top,) = new.iterdir()
-        top.rename(folder)
-    except OSError:
-        if not folder.is_dir():  # or else another command was quicker
-            raise
-    finally:
-        shutil.rmtree(new, ignore_errors=True)
     return folder
 
 
@@ -266,17 +272,10 @@ def written_once(cache: Path, name: str, content: Mapping[str, bytes]) -> Path:
         digest.update(f"{path}\0{len(data)}\0".encode() + data)
     folder = cache / f"{name}-{digest.hexdigest()[:12]}"
     if not folder.is_dir():
-        cache.mkdir(parents=True, exist_ok=True)
-        new = Path(tempfile.mkdtemp(prefix=".new-", dir=cache))
-        try:
-            new.chmod(0o755)
+        with new_folder(folder) as new:
+            whole = new / folder.name
+            whole.mkdir()
             for path, data in content.items():
-                (new / path).parent.mkdir(parents=True, exist_ok=True)
-                (new / path).write_bytes(data)
-            new.rename(folder)
-        except OSError:
-            if not folder.is_dir():  # or else another command was quicker
-                raise
-        finally:
-            shutil.rmtree(new, ignore_errors=True)
+                (whole / path).parent.mkdir(parents=True, exist_ok=True)
+                (whole / path).write_bytes(data)
     return folder

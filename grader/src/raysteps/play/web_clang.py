@@ -1,7 +1,6 @@
 """The compiler of the page, run here by the same bytes: what the page is given was made by what it compiles with."""
 
 import shlex
-import shutil
 import tarfile
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -14,6 +13,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import one_at_a_time, write_bytes
 from raysteps.common.text import shorten
+from raysteps.play.packages import new_folder
 
 # Exceptions are the engine's own; floats are as exact as everywhere in the kit, so that pictures are the same.
 _FLAGS = ("-std=c++20", "-DNDEBUG", "-ffp-contract=off", "-fwasm-exceptions", "-mllvm", "-wasm-use-legacy-eh=false")
@@ -62,16 +62,8 @@ class WebClang:
         """Headers and libraries, which programs know as /usr."""
         folder = self._cache / f"{self._package.name}-system"
         if not folder.is_dir():
-            self._cache.mkdir(parents=True, exist_ok=True)
-            new = Path(tempfile.mkdtemp(prefix=".new-", dir=self._cache))
-            with tarfile.open(self._package / "gen" / "llvm-resources.tar") as archive:
-                archive.extractall(new, filter="data")
-            try:
-                new.rename(folder)
-            except OSError:
-                shutil.rmtree(new)
-                if not folder.is_dir():  # or else another command was quicker
-                    raise
+            with new_folder(folder) as new, tarfile.open(self._package / "gen" / "llvm-resources.tar") as archive:
+                archive.extractall(new / folder.name, filter="data")
         return folder
 
     @cached_property
