@@ -15,33 +15,30 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from jinja2 import BytecodeCache, Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment, FileSystemBytecodeCache, PackageLoader, StrictUndefined
 from jinja2.bccache import Bucket
 from markupsafe import Markup
 from PIL import Image
 
 from raysteps import __version__
 from raysteps.common.errors import reason
-from raysteps.common.files import write_bytes
 
 _UNSAFE = {ord(sign): f"\\u{ord(sign):04x}" for sign in "<>&\u2028\u2029"}
 _ENDING = re.compile(r"</|<!--", re.IGNORECASE)
 
 
-class _Compiled(BytecodeCache):
+class _Compiled(FileSystemBytecodeCache):
     """Templates are kept as Python keeps its modules: compiled, beside them, where that can be written to."""
 
-    def _place(self, bucket: Bucket) -> Path:
-        return Path(__file__).parent / "templates" / "__pycache__" / f"{bucket.key}.jinja"
-
-    def load_bytecode(self, bucket: Bucket) -> None:
-        with suppress(OSError), self._place(bucket).open("rb") as file:
-            bucket.load_bytecode(file)  # unless the template has changed since
+    def __init__(self) -> None:
+        self._folder = Path(__file__).parent / "templates" / "__pycache__"
+        super().__init__(str(self._folder), "%s.jinja")
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         with suppress(OSError):
             if not sys.dont_write_bytecode:
-                write_bytes(self._place(bucket), bucket.bytecode_to_string())
+                self._folder.mkdir(exist_ok=True)
+                super().dump_bytecode(bucket)
 
 
 @cache
