@@ -309,7 +309,8 @@ Node build_octree(const SurfaceList& surfaces) {
     Node root{.box = all.padded(padding), .surfaces = large, .children = {}};
     if (!others.empty()) {
         // Off centre: people model on grids, and what ends in the very middle would be in the cells on both sides.
-        const Box box{bounds_of(others).min - 4.0F * padding, bounds_of(others).max + 8.0F * padding};
+        const Box tight = bounds_of(others);
+        const Box box{tight.min - 4.0F * padding, tight.max + 8.0F * padding};
         const std::uint64_t most_references = k_max_references * others.size();
         Node* const below = &root.children.emplace_back();
         build_all(
