@@ -4,7 +4,7 @@ worker that is linked with a mistake."""
 import json
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -231,6 +231,36 @@ def test_a_hang_costs_no_more_than_its_budget(project: Project, steps: list[Step
     assert result.outcome == "timeout"
     assert worker.used - without.used <= 8
     assert _complexity(result) < 10
+
+
+@dataclass
+class _Waiting:
+    """A worker whose runs take so many seconds of the clock and hardly any of a processor."""
+
+    worker: Ask
+    seconds: float
+    runs: int = 0
+
+    def __call__(self, questions: bytes, seconds: float) -> TaskResult:
+        self.runs += 1
+        ran = self.worker(questions, seconds)
+        return replace(ran, outcome=replace(ran.outcome, seconds=self.seconds), cpu_seconds=0.01)
+
+
+def test_a_busy_machine_shows_the_same_example(project: Project, steps: list[Step], tmp_path: Path) -> None:
+    quick, busy = (_Waiting(FakeWorker(_unclamped), seconds) for seconds in (0.01, 0.5))
+    first = _judge_toned(project, steps, tmp_path / "1", quick)["tone_map"]
+    assert _judge_toned(project, steps, tmp_path / "2", busy)["tone_map"].given == first.given
+    assert quick.runs == busy.runs
+
+
+def test_a_program_that_sleeps_comes_to_an_end(project: Project, steps: list[Step], tmp_path: Path) -> None:
+    awake, asleep = (_Waiting(FakeWorker(_unclamped), seconds) for seconds in (0.01, 21.0))
+    assert _judge_toned(project, steps, tmp_path / "1", awake)["tone_map"].given
+    assert _judge_toned(project, steps, tmp_path / "2", asleep)["tone_map"].given
+    step, judged = _step(steps, "07"), _Waiting(FakeWorker(_unclamped), 21.0)
+    run_hidden_tests(step, _plan(project, step), judged, FakeWorker(_right), _SEED)
+    assert asleep.runs == judged.runs + 1 < awake.runs
 
 
 @pytest.mark.parametrize("garbage", ["", "x", "1 2", "9" * 5000, "--1 0 0", "\u2603 \x00 \x1b[31m", "threw \x1b[2J"])

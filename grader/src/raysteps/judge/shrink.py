@@ -1,7 +1,5 @@
 """The smallest counterexample: a wrong case, made simpler as long as it stays wrong in the same way."""
 
-import math
-import time
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
@@ -31,21 +29,20 @@ _RUN_SECONDS = 2.0
 
 @dataclass
 class CpuBudget:
-    """Seconds that a student's program may run for the examples of a step. Time in which it waits for a processor does
-    not count, so that a busy machine shows the same examples; but a program that sleeps, and a judge that is slow, come
-    to an end too: after `longest` seconds on the clock, from the first run on."""
+    """Seconds that a student's program may run for the examples of a step. Those in which it waits for a processor do
+    not count, nor does what the judge itself takes, so that a busy machine shows the same examples; but a program that
+    sleeps comes to an end, too: `idle` is how long it may do so."""
 
     left: float = 8.0
-    longest: float = 20.0
-    end: float = math.inf
+    idle: float = 20.0
 
     def next_run(self) -> float:
-        now = time.monotonic()
-        self.end = min(self.end, now + self.longest)
-        return _RUN_SECONDS if self.left > 0 and now < self.end else 0.0
+        return _RUN_SECONDS if min(self.left, self.idle) > 0 else 0.0
 
-    def spend(self, seconds: float) -> None:
+    def spend(self, seconds: float, passed: float) -> None:
+        """Of one run: seconds of a processor, and of the clock."""
         self.left -= seconds
+        self.idle -= max(0.0, passed - seconds)
 
 
 # Which of many candidates are wrong in the same way as a known case, and which of these is beyond doubt.
@@ -103,7 +100,7 @@ class ShrinkOracle:
         runs = 3 if go_on else 1
         while len(replies) < len(cases) and runs > 0 and seconds > 0:
             part = answers_until_trouble(self._student, cases[len(replies) :], seconds)
-            self._budget.spend(part.seconds)
+            self._budget.spend(part.seconds, part.passed)
             seconds, runs = self._budget.next_run(), runs - 1
             replies += part.replies
         return replies + [None] * (len(cases) - len(replies))

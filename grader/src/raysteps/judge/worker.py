@@ -73,10 +73,11 @@ class Reply:
 
 @dataclass(frozen=True)
 class Replies:
-    """One for each case, and the seconds that the worker ran."""
+    """One for each case, and the seconds that the worker ran; `passed`: of the clock, where the others are not."""
 
     replies: list[Reply]
     seconds: float
+    passed: float = 0.0
 
 
 def _read(lines: Sequence[str], first: int, last: int) -> list[Reply]:
@@ -171,7 +172,7 @@ def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Re
     replies, trouble = _what_came(ran, cases, 0)
     if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
         replies = [*replies, trouble]
-    return Replies(replies[: len(cases)], ran.outcome.seconds if ran.hung else ran.cpu_seconds)
+    return Replies(replies[: len(cases)], seconds if ran.hung else ran.cpu_seconds, ran.outcome.seconds)
 
 
 # One case with what came of it.
