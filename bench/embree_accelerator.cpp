@@ -1,6 +1,10 @@
 #include "bench/embree_accelerator.hpp"
 
+#if RAYSTEPS_EMBREE == 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <array>
 #include <atomic>
@@ -37,9 +41,38 @@ using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Releaser<rt
 /// The kit's surfaces by what Embree makes of them. Each list is one geometry; place in the list is Embree's primID.
 enum Kind : unsigned { k_flat, k_smooth, k_sphere, k_other, k_kinds };
 
+// The two versions ask in different ways.
+#if RAYSTEPS_EMBREE == 4
+using QueryContext = RTCRayQueryContext;
+
+void begin(QueryContext& context) { rtcInitRayQueryContext(&context); }
+
+void intersect(RTCScene scene, QueryContext& context, RTCRayHit& asked) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &asked, &arguments);
+}
+
+void occluded(RTCScene scene, QueryContext& context, RTCRay& asked) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &asked, &arguments);
+}
+#else
+using QueryContext = RTCIntersectContext;
+
+void begin(QueryContext& context) { rtcInitIntersectContext(&context); }
+
+void intersect(RTCScene scene, QueryContext& context, RTCRayHit& asked) { rtcIntersect1(scene, &context, &asked); }
+
+void occluded(RTCScene scene, QueryContext& context, RTCRay& asked) { rtcOccluded1(scene, &context, &asked); }
+#endif
+
 /// What goes along with one question, and what a callback of Embree's finds in it.
 struct Context {
-    RTCIntersectContext embree;  // first: callbacks get its address
+    QueryContext embree;  // first: callbacks get its address
     Ray ray;
     HitRecord hit;  ///< of the nearest surface of kind other so far
 };
@@ -127,7 +160,7 @@ public:
         Context context = context_of(ray);
         RTCRayHit answer{embree_ray(ray, std::numeric_limits<float>::infinity()), {}};
         answer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_.get(), &context.embree, &answer);
+        intersect(scene_.get(), context.embree, answer);
         if (answer.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return std::nullopt;
         }
@@ -137,7 +170,7 @@ public:
     [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
         Context context = context_of(ray);
         RTCRay asked = embree_ray(ray, distance);
-        rtcOccluded1(scene_.get(), &context.embree, &asked);
+        raysteps::bench::occluded(scene_.get(), context.embree, asked);
         return asked.tfar < 0.0F;
     }
 
@@ -158,7 +191,7 @@ private:
 
     static Context context_of(const Ray& ray) {
         Context context;
-        rtcInitIntersectContext(&context.embree);
+        begin(context.embree);
         context.ray = ray;
         return context;
     }
