@@ -27,8 +27,8 @@ from tools.selftest.programs import (
     WINDOW,
     asan_checks,
     build_check,
-    clang_checks,
     command,
+    fuzz_checks,
     install,
     program_checks,
     same_pictures_check,
@@ -105,7 +105,7 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     changed = [place for place in names if not all(stamps.has_passed(name, digests[name]) for name in names[place])]
     if not changed:
         return Report("passed", UNCHANGED)
-    spread = ["-n", str((os.cpu_count() or 1) + 1)]  # one more than processors: many tests wait for programs
+    spread = ["-n", str(2 * (os.cpu_count() or 1))]  # twice as many as processors: tests mostly wait for programs
     spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
     files = {place: place.removeprefix("grader/") for place in changed}
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -200,11 +200,11 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     name = f"pytest, with grading from end to end{f', {_SLOW_TESTS}' if full else ''}"
     checks.append(Check(name, lambda: run_pytest(project, stamps, marks)))
     if full:
-        more = [*clang_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
+        more = [*fuzz_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
         more += lint_checks(project, (TIDY,))
         checks += sorted(more, key=lambda check: check.beside)  # builds first, each on the whole machine
     else:
         later = Report("skipped", "run: ./raysteps test --full")
-        names = ("sanitizers", "build everything with clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
+        names = ("sanitizers and clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
         checks += [Check(name, lambda: later) for name in (_SLOW_TESTS, *names)]
     return run_checks(checks, console, stamps)
