@@ -114,6 +114,11 @@ def test_the_camera_is_the_students(
     _says(words, r"half_width 1\.1547, half_height 0\.5774")
     _drag(page, edge, (0, -200))
     _says(words, r"half_height 2\.1445")  # 130 degrees: no further
+    page.get_by_role("slider", name="Width").fill("8")
+    page.get_by_role("slider", name="Pixel x", exact=True).fill("7")
+    _says(words, r"pixel \(7, 0\)")
+    page.get_by_role("slider", name="Width").fill("2")
+    _says(words, r"pixel \(1, 0\)")
     assert_accessible(page)
     _figure(page, "camera").get_by_role("button", name="Back to the start").click()
     _says(words, direction)

@@ -166,15 +166,15 @@ class Figure {
       const kept = min + step * Math.round((Math.min(max, Math.max(min, value)) - min) / step);
       this.#values[name] = Number(Math.min(max, kept).toFixed(6));
     }
-    for (const [name, most] of Object.entries(this.#description.most?.(this.#values) ?? {})) {
-      this.#inputs[name].input.max = most;
-      this.#values[name] = Math.min(most, this.#values[name]);
-    }
     this.#showNumbers();
     this.#ask();
   }
 
   #showNumbers() {
+    for (const [name, most] of Object.entries(this.#description.most?.(this.#values) ?? {})) {
+      this.#inputs[name].input.max = most;
+      this.#values[name] = Math.min(most, this.#values[name]);
+    }
     for (const [name, { input, output, unit }] of Object.entries(this.#inputs)) {
       input.value = this.#values[name];
       output.textContent = said(this.#values[name]) + unit;
