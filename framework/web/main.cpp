@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "figures.hpp"
 #include "render/renderer.hpp"
 
 int raytrace_main(int argc, char** argv);
@@ -28,8 +29,12 @@ void tell_page(const raysteps::Rect& tile, const raysteps::Image& image) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 0 && std::string_view(argv[0]) == "test") {
+    const std::string_view program = argc > 0 ? argv[0] : "";
+    if (program == "test") {
         return test_main(argc, argv);
+    }
+    if (program == "figure") {
+        return raysteps::figure_main(argc, argv);
     }
     raysteps::set_tile_listener(tell_page);
     return raytrace_main(argc, argv);

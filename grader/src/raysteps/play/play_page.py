@@ -204,7 +204,7 @@ class PlayPage:
             "Raysteps",
             {},
             scripts=(*COMPARE_SCRIPTS, "watch-parts"),
-            styles=(*COMPARE_STYLES, "watch", "play"),
+            styles=(*COMPARE_STYLES, "watch", "play", "figures"),
             data=content,
             module="play.js",
         )

@@ -1,6 +1,7 @@
 // The page to work in: chooses a step, keeps its source, and after each save compiles it, runs its tests and draws.
 
 import { Editor } from "./editor.js";
+import { Figures } from "./figures.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner } from "./programs.js";
 import { readReport } from "./report.js";
@@ -53,6 +54,7 @@ class Page {
   #compiler;
   #tester = new Runner();
   #painter = new Runner();
+  #figures = new Figures();
   #keepTimer = 0;
   #run = 0; // counts runs: what an older one finds is not shown
   #files = new Map();
@@ -114,6 +116,7 @@ class Page {
     element("play-file").textContent = wanted.path;
     element("play-handout").innerHTML = handout;
     element("play-handout").scrollTop = 0;
+    this.#figures.open(wanted.number, element("play-handout"));
     element("play-hint").disabled = !wanted.hints.length;
     for (const room of ["play-first", "play-pictures", "play-tests", "play-problems", "play-hints"]) {
       element(room).replaceChildren();
@@ -266,6 +269,10 @@ class Page {
         return;
       }
       const module = await WebAssembly.compile(built.program);
+      if (run !== this.#run) {
+        return;
+      }
+      this.#figures.built(module);
       this.#say("busy", "Testing and drawing ...");
       element("play-console").textContent = "";
       const current = () => run === this.#run;

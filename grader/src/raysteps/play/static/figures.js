@@ -1,0 +1,328 @@
+// Live figures: what the functions of the student's last build say to the reader's numbers, drawn in the handout. This
+// is how a figure is moved, asked and described; what each of them draws stands in drawings.js.
+
+import { drawingsOf, said } from "./drawings.js";
+import { Runner } from "./programs.js";
+
+const SECONDS = 4; // for one answer
+const SVG = "http://www.w3.org/2000/svg";
+const MARGIN = 12; // around what a view shows, in its own pixels
+const WIDTH = 320;
+let lastId = 0;
+
+function svg(tag, attributes = {}, ...children) {
+  const node = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    node.setAttribute(name, value);
+  }
+  node.append(...children);
+  return node;
+}
+
+/** What a view shows: the world's x runs to the right, y up; both have the same scale unless the view has its own. */
+class View {
+  #scene = svg("g", { "aria-hidden": "true" });
+  #box;
+  #scale;
+
+  constructor(description) {
+    const [left, bottom, right, top] = description.box;
+    const scale = (WIDTH - 2 * MARGIN) / (right - left);
+    this.#box = description.box;
+    this.#scale = [scale, description.stretch ?? scale];
+    const height = 2 * MARGIN + (top - bottom) * this.#scale[1];
+    this.draw = description.draw;
+    this.node = svg("svg", { viewBox: `0 0 ${WIDTH} ${height}`, role: "group", "aria-label": description.label });
+    this.node.append(this.#scene);
+  }
+
+  /** Where a point of the world is. */
+  at([x, y]) {
+    const [left, , , top] = this.#box;
+    return [MARGIN + (x - left) * this.#scale[0], MARGIN + (top - y) * this.#scale[1]];
+  }
+
+  /** The point of the world below a pointer. */
+  under(event) {
+    const seen = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.node.getScreenCTM().inverse());
+    const [left, , , top] = this.#box;
+    return [left + (seen.x - MARGIN) / this.#scale[0], top - (seen.y - MARGIN) / this.#scale[1]];
+  }
+
+  clear() {
+    this.#scene.replaceChildren();
+  }
+
+  #add(tag, look, attributes) {
+    this.#scene.append(svg(tag, { class: `live-${look}`, ...attributes }));
+  }
+
+  /** A line through points of the world. */
+  line(points, look) {
+    const places = points.filter((point) => point.every(Number.isFinite)).map((point) => this.at(point).join(","));
+    this.#add("polyline", look, { points: places.join(" ") });
+  }
+
+  /** A line with a head at its end. */
+  arrow(from, to, look) {
+    this.line([from, to], look);
+    const [[x0, y0], [x1, y1]] = [this.at(from), this.at(to)];
+    const length = Math.hypot(x1 - x0, y1 - y0);
+    if (length > 1) {
+      const [x, y] = [(8 * (x1 - x0)) / length, (8 * (y1 - y0)) / length];
+      const head = [x1, y1, x1 - x - y / 2, y1 - y + x / 2, x1 - x + y / 2, y1 - y - x / 2];
+      this.#add("polygon", `${look} live-head`, { points: head.join(" ") });
+    }
+  }
+
+  dot(point, look, radius = 4) {
+    const [cx, cy] = this.at(point);
+    if (Number.isFinite(cx + cy)) {
+      this.#add("circle", look, { cx, cy, r: radius });
+    }
+  }
+
+  circle(center, radius, look) {
+    const [cx, cy] = this.at(center);
+    this.#add("circle", look, { cx, cy, r: radius * this.#scale[0] });
+  }
+
+  words(point, text) {
+    const [x, y] = this.at(point);
+    this.#scene.append(svg("text", { class: "live-words", x, y }, text));
+  }
+
+  /** A rectangle between two corners, filled with red, green and blue in bytes. */
+  swatch(corner, other, bytes) {
+    const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
+    this.#add("rect", "swatch", { x, y, width: x1 - x, height: y1 - y, fill: `rgb(${bytes.join(" ")})` });
+  }
+}
+
+/** One figure: sliders, views with handles, and a text that says what is seen. */
+class Figure {
+  #description;
+  #values = {};
+  #inputs = {};
+  #views = [];
+  #handles = [];
+  #says;
+  #ask;
+
+  /** `ask` is called when the reader has changed a number. */
+  constructor(description, ask) {
+    this.#description = description;
+    this.#ask = ask;
+    const title = `live-${++lastId}`;
+    this.#says = make("p", { class: "live-says", role: "status" }, "");
+    this.node = make(
+      "section",
+      { class: "live", "aria-labelledby": title, "data-figure": description.name },
+      make("h3", { id: title }, description.title),
+      make("p", {}, description.intro),
+      make("div", { class: "live-views" }),
+      this.#says,
+      make("div", { class: "live-sliders" }),
+    );
+    for (const [name, number] of Object.entries(description.numbers)) {
+      this.#values[name] = number.start;
+      this.node.querySelector(".live-sliders").append(this.#slider(name, number));
+    }
+    for (const one of description.views) {
+      const view = new View(one);
+      this.#views.push(view);
+      this.node.querySelector(".live-views").append(view.node);
+      for (const handle of one.handles) {
+        this.#addHandle(view, handle);
+      }
+    }
+    const back = make("button", { type: "button" }, "Back to the start");
+    back.addEventListener("click", () => {
+      const starts = Object.entries(description.numbers).map(([name, { start }]) => [name, start]);
+      this.#change(Object.fromEntries(starts));
+    });
+    this.node.append(back);
+    this.#showNumbers();
+    this.tell("It waits for your first build: write the functions, then press Run.");
+  }
+
+  get words() {
+    return [this.#description.name, ...this.#description.ask(this.#values)].map(String);
+  }
+
+  #slider(name, { label, min, max, step, unit = "" }) {
+    const id = `live-${++lastId}`;
+    const input = make("input", { id, type: "range", min, max, step });
+    const output = make("output", { for: id, "aria-hidden": "true" });
+    input.addEventListener("input", () => this.#change({ [name]: Number(input.value) }));
+    this.#inputs[name] = { input, output, unit };
+    return make("div", {}, make("label", { for: id }, label), " ", output, input);
+  }
+
+  /** Keeps each number to its steps, and within its bounds. */
+  #change(wanted) {
+    for (const [name, value] of Object.entries(wanted)) {
+      const { min, max, step } = this.#description.numbers[name];
+      const kept = min + step * Math.round((Math.min(max, Math.max(min, value)) - min) / step);
+      this.#values[name] = Number(Math.min(max, kept).toFixed(6));
+    }
+    this.#showNumbers();
+    this.#ask();
+  }
+
+  #showNumbers() {
+    for (const [name, most] of Object.entries(this.#description.most?.(this.#values) ?? {})) {
+      this.#inputs[name].input.max = most;
+      this.#values[name] = Math.min(most, this.#values[name]);
+    }
+    for (const [name, { input, output, unit }] of Object.entries(this.#inputs)) {
+      input.value = this.#values[name];
+      output.textContent = said(this.#values[name]) + unit;
+    }
+    for (const { node, view, handle } of this.#handles) {
+      const [x, y] = view.at(handle.place(this.#values));
+      node.setAttribute("transform", `translate(${x} ${y})`);
+      const [name] = handle.moves;
+      node.setAttribute("aria-valuenow", this.#values[name]);
+      node.setAttribute("aria-valuemin", this.#inputs[name].input.min);
+      node.setAttribute("aria-valuemax", this.#inputs[name].input.max);
+      const texts = handle.moves.map((one) => `${this.#description.numbers[one].label} ${said(this.#values[one])}`);
+      node.setAttribute("aria-valuetext", texts.join(", "));
+    }
+  }
+
+  #addHandle(view, handle) {
+    const node = svg("g", { class: "live-handle", role: "slider", tabindex: 0, "aria-label": handle.label });
+    node.append(svg("circle", { r: 22, class: "live-reach" }), svg("circle", { r: 7, class: "live-grip" }));
+    view.node.append(node);
+    this.#handles.push({ node, view, handle });
+    node.addEventListener("pointerdown", (event) => {
+      event.preventDefault();
+      const nearest = this.#nearest(view, event);
+      nearest.focus();
+      nearest.setPointerCapture(event.pointerId);
+    });
+    node.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false }); // no scrolling instead
+    node.addEventListener("pointermove", (event) => {
+      if (node.hasPointerCapture(event.pointerId)) {
+        this.#change(handle.drag(view.under(event), this.#values));
+      }
+    });
+    node.addEventListener("keydown", (event) => {
+      const [across, up = across] = handle.moves;
+      const of = { ArrowRight: [across, 1], ArrowLeft: [across, -1], ArrowUp: [up, 1], ArrowDown: [up, -1] };
+      if (event.key in of) {
+        event.preventDefault();
+        const [name, by] = of[event.key];
+        const sign = name === up ? (handle.upwards ?? 1) : 1;
+        const { step, stride = step } = this.#description.numbers[name];
+        this.#change({ [name]: this.#values[name] + by * sign * stride });
+      }
+    });
+  }
+
+  /** Handles that lie one above the other are told apart by where they are taken. */
+  #nearest(view, event) {
+    const [x, y] = view.at(view.under(event));
+    const far = ({ handle }) => {
+      const [atX, atY] = view.at(handle.place(this.#values));
+      return Math.hypot(atX - x, atY - y);
+    };
+    const mine = this.#handles.filter((one) => one.view === view);
+    return mine.reduce((best, one) => (far(one) < far(best) ? one : best)).node;
+  }
+
+  /** Only words. */
+  tell(text) {
+    for (const view of this.#views) {
+      view.clear();
+    }
+    this.node.dataset.state = "waiting";
+    this.#says.textContent = text;
+  }
+
+  show(answer) {
+    for (const view of this.#views) {
+      view.clear();
+      view.draw(view, this.#values, answer);
+    }
+    this.node.dataset.state = "drawn";
+    this.#says.textContent = this.#description.says(this.#values, answer);
+  }
+}
+
+/** Why there is no answer. */
+function whyNot(ran) {
+  const missing = [...(ran.stderr ?? "").matchAll(/: (\S+) is not written yet/g)].map(([, name]) => name);
+  if (missing.length) {
+    return `It waits for ${missing.join(" and ")}: not written yet.`;
+  }
+  if (ran.stopped) {
+    return `Your code gave no answer within ${SECONDS} s. Is there an endless loop?`;
+  }
+  return ran.crashed ? `Your code crashed: ${ran.crashed}.` : ran.code ? `Your code gave up: ${ran.stderr.trim()}` : "";
+}
+
+/** The figures of the step that is shown. */
+export class Figures {
+  #runner = new Runner();
+  #figures = [];
+  #module = null;
+  #waiting = new Set(); // figures whose numbers have changed since they were asked
+  #isAsking = false;
+
+  /** Puts the figures of a step below the worked example of its handout. */
+  open(number, handout) {
+    this.stop();
+    this.#module = null;
+    this.#figures = drawingsOf(number).map((one) => {
+      const figure = new Figure(one, () => this.#ask(figure));
+      return figure;
+    });
+    const titles = [...handout.querySelectorAll("h2")];
+    const next = titles[titles.findIndex((one) => one.textContent === "A worked example") + 1];
+    for (const { node } of this.#figures) {
+      handout.insertBefore(node, next ?? null);
+    }
+  }
+
+  /** Draws with what was built. */
+  built(module) {
+    this.stop();
+    this.#module = module;
+    for (const figure of this.#figures) {
+      this.#ask(figure);
+    }
+  }
+
+  stop() {
+    this.#waiting.clear();
+    this.#runner.stop("hand");
+  }
+
+  /** One question at a time; of several that come meanwhile the last. */
+  async #ask(figure) {
+    if (!this.#module) {
+      return;
+    }
+    this.#waiting.add(figure);
+    if (this.#isAsking) {
+      return;
+    }
+    this.#isAsking = true;
+    for (const next of this.#waiting) {
+      this.#waiting.delete(next);
+      const task = { module: this.#module, words: ["figure", ...next.words], files: {}, wanted: [] };
+      const ran = await this.#runner.run(task, SECONDS);
+      if (ran.stopped !== "hand") {
+        const reason = whyNot(ran);
+        if (reason) {
+          next.tell(reason);
+        } else {
+          next.show(JSON.parse(ran.stdout.trim().split("\n").at(-1)));
+        }
+      }
+    }
+    this.#isAsking = false;
+  }
+}

@@ -1,0 +1,185 @@
+"""Live figures: dragged in a real browser, they say the numbers of the handouts, by what the student wrote."""
+
+import re
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, TypeAlias
+
+import pytest
+from browser import Watched, assert_accessible, assert_no_sideways_scrolling
+
+from raysteps.common.errors import UsageError
+from raysteps.course.manifest import Step
+from raysteps.course.project import Project
+from raysteps.play.packages import registry_of
+from raysteps.play.play_page import PlayPage, PlayServer
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator, Page
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
+
+_PATIENCE = 120_000  # milliseconds until a compiler that is new to the browser has compiled something
+Opened: TypeAlias = "Callable[..., Page]"
+
+
+@pytest.fixture(scope="module")
+def server(project: Project) -> Iterator[PlayServer]:
+    try:
+        found = PlayServer(PlayPage(project, registry_of(None)).make())
+    except UsageError as error:
+        if "cannot be loaded down" not in str(error):
+            raise
+        pytest.skip(str(error))
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def opened(watched: Watched, server: PlayServer) -> Opened:
+    """The page at a step, when its stub was compiled."""
+
+    def at(number: str, width: int = 1440, *, touch: bool = False) -> "Page":
+        watched.allowed.append(server.address)
+        page = watched.open(f"{server.address}#{number}", width=width, touch=touch)
+        _says(page.locator("#play-status"), r"0 of \d+ tests pass")
+        return page
+
+    return at
+
+
+def _says(room: "Locator", pattern: str) -> None:
+    from playwright.sync_api import expect
+
+    expect(room).to_have_text(re.compile(pattern), timeout=_PATIENCE)
+
+
+def _figure(page: "Page", name: str) -> "Locator":
+    return page.locator(f"[data-figure={name}]")
+
+
+def _words(page: "Page", name: str) -> "Locator":
+    return _figure(page, name).locator(".live-says")
+
+
+def _write(page: "Page", text: str) -> None:
+    page.locator(".cm-content").click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.insert_text(text)
+    page.keyboard.press("ControlOrMeta+s")
+
+
+def _drag(page: "Page", handle: "Locator", to: "Locator | tuple[float, float]") -> None:
+    """To the middle of something, or by so many pixels."""
+    handle.scroll_into_view_if_needed()
+    x, y = _middle(handle)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    to_x, to_y = (x + to[0], y + to[1]) if isinstance(to, tuple) else _middle(to)
+    page.mouse.move(to_x, to_y, steps=4)
+    page.mouse.up()
+
+
+def _middle(thing: "Locator") -> tuple[float, float]:
+    box = thing.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def _states(project: Project, step: Step, words: str) -> str:
+    """A pattern for words that the handout states, too."""
+    text = (project.steps / step.id / "README.md").read_text("utf-8")
+    assert words in re.sub(r"\s+", " ", text)
+    return re.escape(words)
+
+
+def test_the_camera_is_the_students(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("01")
+    words = _words(page, "camera")
+    _says(words, "It waits for view_frame and primary_ray: not written yet")
+    assert_accessible(page)
+    right = solved["01-camera-rays"]
+    _write(page, right)
+    direction = _states(project, steps[0], "(0.8018, 0.2673, -0.5345)")
+    _says(words, rf"half_width 2, half_height 1\. The ray through pixel \(3, 0\) has the direction {direction}")
+    pixel = _figure(page, "camera").get_by_role("slider", name="Pixel of the ray")
+    pixel.press("ArrowDown")
+    _says(words, r"pixel \(3, 1\) has the direction \(0\.8018, -0\.2673, -0\.5345\)")
+    _drag(page, pixel, (0, -60))
+    _says(words, rf"pixel \(3, 0\) has the direction {direction}")
+    edge = _figure(page, "camera").get_by_role("slider", name="Upper edge of the window")
+    for _ in range(6):
+        edge.press("ArrowDown")  # 60 degrees: the window of the second question is 1.15 high
+    _says(words, r"half_width 1\.1547, half_height 0\.5774")
+    _drag(page, edge, (0, -200))
+    _says(words, r"half_height 2\.1445")  # 130 degrees: no further
+    page.get_by_role("slider", name="Width").fill("8")
+    page.get_by_role("slider", name="Pixel x", exact=True).fill("7")
+    _says(words, r"pixel \(7, 0\)")
+    page.get_by_role("slider", name="Width").fill("2")
+    _says(words, r"pixel \(1, 0\)")
+    assert_accessible(page)
+    _figure(page, "camera").get_by_role("button", name="Back to the start").click()
+    _says(words, direction)
+    _write(page, right.replace("glm::tan(", "2.0F * glm::tan("))
+    _says(words, r"half_width 4, half_height 2")
+
+
+def test_code_that_hangs_or_crashes_ends_no_page(opened: Opened, solved: dict[str, str]) -> None:
+    page = opened("07")
+    words = _words(page, "tone")
+    right = solved["07-tone-mapping"]
+    begin = "Color tone_map(const Color& color) {"
+    assert begin in right
+    _write(page, right.replace(begin, f"{begin} volatile bool on = color.r > 4.0F; while (on) {{}}"))
+    _says(words, r"Is there an endless loop\?")
+    _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ __builtin_trap(); }}"))
+    _says(words, r"Your code crashed: unreachable")
+    _write(page, right)
+    _says(words, r"bytes \(191, 153, 51\)")
+
+
+def test_a_ray_meets_the_sphere_and_the_triangle_of_the_handout(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("02")
+    sphere, triangle = _words(page, "sphere"), _words(page, "triangle")
+    _says(sphere, "It waits for Sphere::intersect: not written yet")
+    _write(page, solved["02-intersection"])
+    assert _states(project, steps[1], "distance = 6, position = (4, 2, 7), normal = (3, 0, 4) / 5 = (0.6, 0, 0.8)")
+    _says(sphere, r"a hit at the distance 6, position \(4, 2, 7\), normal \(0\.6, 0, 0\.8\), from the front")
+    assert _states(project, steps[1], "t = 5, position = (1, 1, 0)")
+    _says(triangle, r"along \(0\.6, 0, -0\.8\): a hit at the distance 5, position \(1, 1, 0\), normal \(0, 0, 1\)")
+    origin = _figure(page, "sphere").get_by_role("slider", name="Origin of the ray")
+    for _ in range(20):
+        origin.press("ArrowDown")  # to z = 3, where it is aimed at, and inside
+    origin.press("ArrowUp")
+    _says(sphere, r"From \(4, 2, 3\.5\) along \(0, 0, -1\): a hit at the distance 4\.5, .* from the back")
+    _drag(page, origin, (200, 0))
+    _says(sphere, r"From \(10, 2, 3\.5\)")
+    assert_accessible(page)
+
+
+def test_the_tone_curve_is_dragged_by_a_finger(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("07", width=390, touch=True)
+    words = _words(page, "tone")
+    _says(words, "It waits for tone_map and to_byte: not written yet")
+    _write(page, solved["07-tone-mapping"])
+    worked = _states(project, steps[6], "(191, 153, 51)")
+    _says(words, rf"becomes \(0\.75, 0\.6, 0\.2\), bytes {worked}.* it would be \(255, 255, 64\)")
+    assert _states(project, steps[6], "(255, 255, 64)")
+    red = _figure(page, "tone").get_by_role("slider", name="Light, red", exact=True).first
+    red.scroll_into_view_if_needed()
+    x, y = _middle(red)
+    touch = page.context.new_cdp_session(page)
+    for kind, at in (("touchStart", x), ("touchMove", x + 40), ("touchMove", 385)):
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": at, "y": y}]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    _says(words, r"The light \(5, 1\.5, 0\.25\) becomes \(0\.8333, ")
+    page.get_by_role("slider", name="Exposure").fill("0")
+    _says(words, r"bytes \(0, 0, 0\)")
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
