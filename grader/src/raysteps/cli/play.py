@@ -39,7 +39,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if arguments.out is not None:
         refuse_to_publish(project, arguments.out)  # before the page is made, which may take minutes
         publish(PlayPage(project, registry_of(arguments.registry), paced(say)).make(), arguments.out)
-        say(f"The page is in {arguments.out}. Put this folder on any web space that is asked by https.")
+        say(f"The page is in {arguments.out}. Put this folder on any web space.")
         return 0
     try:
         server = PlayServer(port=arguments.port)  # before the page is made, which may take minutes
