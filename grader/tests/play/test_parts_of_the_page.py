@@ -20,7 +20,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.images.compare import compare, parse_ppm
-from raysteps.play.play_page import PlayServer, first_includes, handout, with_places
+from raysteps.play.play_page import PlayServer, first_includes, handout, publish, refuse_to_publish, with_places
 from raysteps.toolchain.catch2 import parse_report
 
 if TYPE_CHECKING:
@@ -105,9 +105,37 @@ def test_a_port_that_is_taken_is_told_before_a_page_is_made(
 ) -> None:
     monkeypatch.setattr(play, "PlayPage", lambda *_: pytest.fail("the page is made"))
     monkeypatch.setattr(play, "end_as_interrupted", lambda: None)
-    options = Namespace(port=server.port, registry=None, no_open=True)
+    options = Namespace(port=server.port, registry=None, no_open=True, out=None)
     with pytest.raises(UsageError, match=rf"--port {server.port}: .*What you write on the page is kept by its port"):
         play.run(project, options, Console(quiet=True))
+
+
+def test_a_page_with_the_reference_is_not_published(
+    project: Project, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(play, "PlayPage", lambda *_: pytest.fail("the page is made"))
+    monkeypatch.setattr(play, "end_as_interrupted", lambda: None)
+    options = Namespace(port=0, registry=None, no_open=True, out=tmp_path / "public")
+    with pytest.raises(UsageError, match=r"reference's steps and must not be published; make a students' kit"):
+        play.run(project, options, Console(quiet=True))
+    assert not (tmp_path / "public").exists()
+
+
+def test_a_page_is_published_where_nothing_else_is(tmp_path: Path) -> None:
+    made = tmp_path / "site"
+    (made / "steps").mkdir(parents=True)
+    (made / "steps" / "01.html").write_text("one", "utf-8")
+    kit = Project(tmp_path / "kit")  # without solutions
+    (tmp_path / "empty").mkdir()
+    for name in ("new/play", "empty"):
+        refuse_to_publish(kit, tmp_path / name)
+        publish(made, tmp_path / name)
+        assert (tmp_path / name / "steps" / "01.html").read_text("utf-8") == "one"
+        with pytest.raises(UsageError, match="is not empty; expected a new or empty folder"):
+            refuse_to_publish(kit, tmp_path / name)
+    with pytest.raises(UsageError, match="expected a new or empty folder"):
+        refuse_to_publish(kit, made / "steps" / "01.html")
+    assert {path.name for path in tmp_path.iterdir()} == {"site", "new", "empty"}
 
 
 def test_before_there_is_a_page_there_is_nothing() -> None:

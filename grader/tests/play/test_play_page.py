@@ -5,8 +5,10 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.error import HTTPError
@@ -20,7 +22,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.play.packages import registry_of
-from raysteps.play.play_page import PlayPage, PlayServer
+from raysteps.play.play_page import PlayPage, PlayServer, publish
 from raysteps.submission.load import load_submission
 
 if TYPE_CHECKING:
@@ -224,6 +226,26 @@ def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer
     page.unroute("**/clang.wasm.gz")
     page.get_by_role("button", name="Run").click()
     _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=_STARTED)
+
+
+def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, solved: dict[str, str]) -> None:
+    """A plain server of files, which knows nothing of the page; and the page lies below a path."""
+    publish(site, tmp_path / "of a course" / "play")
+
+    class Plain(SimpleHTTPRequestHandler):
+        def log_message(self, format: str, *args: object) -> None:  # noqa: A002  (the name that it has)
+            """Says nothing."""
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Plain, directory=tmp_path)) as server:
+        threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True).start()
+        address = f"http://127.0.0.1:{server.server_address[1]}"
+        folder = f"{address}/of%20a%20course/play/"
+        watched.allowed += [folder, f"blob:{address}"]
+        page = watched.open(folder)
+        _says(page, r"0 of 12 tests pass", timeout=_STARTED)
+        _type(page, solved["01-camera-rays"])
+        _says(page, r"Step 01 is right")
+        server.shutdown()
 
 
 def test_every_step_keeps_its_text_when_steps_change_quickly(

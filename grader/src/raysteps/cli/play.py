@@ -4,6 +4,7 @@ import argparse
 import sys
 import threading
 from contextlib import ExitStack, suppress
+from pathlib import Path
 
 from rich.console import Console
 
@@ -12,7 +13,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.local_server import end_as_interrupted, shown_in_browser
 from raysteps.course.project import Project
 from raysteps.play.packages import REGISTRY, registry_of
-from raysteps.play.play_page import PlayPage, PlayServer
+from raysteps.play.play_page import PlayPage, PlayServer, publish, refuse_to_publish
 from raysteps.toolchain.kit_artifacts import paced
 
 _PORT = 8471  # a browser keeps what it is given by this number, too: it has to be the same every time
@@ -24,16 +25,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--port", type=port, default=_PORT, metavar="N", help=f"of the page ({_PORT}); your work is kept by it")
     add("--no-open", action="store_true", help="do not open the page in a browser")
     add("--registry", metavar="URL", help=f"where npm packages are loaded down from, once ({REGISTRY})")
+    add("--out", type=Path, metavar="DIR", help="write the page into a new or empty folder, to be published")
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
-    """Makes the page, and serves it until somebody ends it."""
+    """Makes the page, and serves it until somebody ends it, or writes it where it is to be published."""
 
     def say(text: str) -> None:
         console.print(text, highlight=False, markup=False, soft_wrap=True)
         sys.stdout.flush()
 
     end_as_interrupted()
+    if arguments.out is not None:
+        refuse_to_publish(project, arguments.out)  # before the page is made, which may take minutes
+        publish(PlayPage(project, registry_of(arguments.registry), paced(say)).make(), arguments.out)
+        say(f"The page is in {arguments.out}. Put this folder on any web space.")
+        return 0
     try:
         server = PlayServer(port=arguments.port)  # before the page is made, which may take minutes
     except UsageError as error:

@@ -12,6 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
@@ -21,7 +22,7 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
-from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
+from raysteps.play.packages import CLANG, EDITOR, clear, fetch, new_folder, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
@@ -269,6 +270,28 @@ class PlayPage:
             "maxWrong": case.max_wrong,
             "maxShare": case.max_share,
         }
+
+
+# Published, on any web space.
+
+
+def refuse_to_publish(project: Project, out: Path) -> None:
+    """The whole kit's page holds the reference's steps as objects, which say how they are written."""
+    if project.has_reference:
+        raise UsageError(
+            f"{out}: the page of this kit holds the reference's steps and must not be published; make a students' kit "
+            "(./raysteps release --out ../course), and type ./raysteps play --out there"
+        )
+    if out.exists() and not (out.is_dir() and not any(out.iterdir())):
+        raise UsageError(f"{out}: is not empty; expected a new or empty folder")
+
+
+def publish(made: Path, out: Path) -> None:
+    """The folder appears when it is whole."""
+    with new_folder(out) as new:
+        shutil.copytree(made, new / "page")
+        if out.is_dir():
+            out.rmdir()  # empty, or else it stays and is named
 
 
 # Served on this machine. Everything in the folder may be read, and nothing else.
