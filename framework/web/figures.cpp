@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <span>
 
+#include "io/command_line.hpp"
 #include "io/json_writer.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/02-intersection/intersection.hpp"
@@ -84,7 +85,15 @@ void meet(const Surface& surface, Numbers numbers, JsonWriter& json) {
     json.end_object();
 }
 
-/// Light that is 1 at the exposure 1, up to `most`; then exposure, red, green and blue.
+void bytes(const Color& color, JsonWriter& json) {
+    json.begin_array();
+    for (const float channel : {color.r, color.g, color.b}) {
+        json.whole(to_byte(channel));
+    }
+    json.end_array();
+}
+
+/// The greatest light of the curve, the exposure, and the light of red, green and blue before it.
 void tone(Numbers numbers, JsonWriter& json) {
     const float most = numbers.next();
     const float exposure = numbers.next();
@@ -93,11 +102,12 @@ void tone(Numbers numbers, JsonWriter& json) {
     light.g = exposure * numbers.next();
     light.b = exposure * numbers.next();
     const Color shown = tone_map(light);
-    json.key("light").vector(light).key("shown").vector(shown).key("bytes").begin_array();
-    for (const float channel : {shown.r, shown.g, shown.b}) {
-        json.whole(to_byte(channel));
-    }
-    json.end_array().key("curve").begin_array();
+    json.key("light").vector(light).key("shown").vector(shown);
+    json.key("bytes");
+    bytes(shown, json);
+    json.key("cutOff");
+    bytes(light, json);
+    json.key("curve").begin_array();
     for (int sample = 0; sample < k_samples; ++sample) {
         const float at = most * static_cast<float>(sample) / static_cast<float>(k_samples - 1);
         json.number(tone_map(Color(exposure * at)).r);
@@ -124,15 +134,15 @@ bool answer(std::string_view name, Numbers numbers, JsonWriter& json) {
 
 int figure_main(int argc, char** argv) {
     const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-    JsonWriter json;
-    json.begin_object();
-    if (words.size() < 2 || !answer(words[1], Numbers(words.subspan(2)), json)) {
-        std::fputs("no such figure\n", stderr);
-        return EXIT_FAILURE;
-    }
-    json.end_object();
-    std::printf("\n%s\n", json.result().c_str());  // in a line of its own, whatever the student prints
-    return EXIT_SUCCESS;
+    return run_program("play", [&words] {
+        JsonWriter json;
+        json.begin_object();
+        if (words.size() < 2 || !answer(words[1], Numbers(words.subspan(2)), json)) {
+            throw UsageError("expected the name of a figure");
+        }
+        json.end_object();
+        std::printf("\n%s\n", json.result().c_str());  // in a line of its own, whatever the student prints
+    });
 }
 
 }  // namespace raysteps

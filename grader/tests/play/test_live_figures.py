@@ -103,17 +103,24 @@ def test_the_camera_is_the_students(
     _write(page, right)
     direction = _states(project, steps[0], "(0.8018, 0.2673, -0.5345)")
     _says(words, rf"half_width 2, half_height 1\. The ray through pixel \(3, 0\) has the direction {direction}")
-    pixel = _figure(page, "camera").get_by_role("slider", name="Pixel of the ray")
-    pixel.press("ArrowDown")
+    pixel_y = page.get_by_role("slider", name="Pixel y", exact=True)
+    pixel_y.press("ArrowRight")
     _says(words, r"pixel \(3, 1\) has the direction \(0\.8018, -0\.2673, -0\.5345\)")
-    _drag(page, pixel, (0, -60))
+    pixel_y.press("ArrowLeft")
     _says(words, rf"pixel \(3, 0\) has the direction {direction}")
-    edge = _figure(page, "camera").get_by_role("slider", name="Upper edge of the window")
-    for _ in range(6):
-        edge.press("ArrowDown")  # 60 degrees: the window of the second question is 1.15 high
+    angle = page.get_by_role("slider", name="Angle", exact=True)
+    angle.fill("60")  # the window of the second question is 1.15 high
     _says(words, r"half_width 1\.1547, half_height 0\.5774")
-    _drag(page, edge, (0, -200))
-    _says(words, r"half_height 2\.1445")  # 130 degrees: no further
+    angle.press("End")  # 130 degrees: no further
+    _says(words, r"half_height 2\.1445")
+    tip = _figure(page, "camera").get_by_role("slider", name="Tip of the camera's up")
+    for _ in range(6):
+        tip.press("ArrowRight")
+    _says(words, r"up \(0\.5, 0\.866, 0\); ")  # it leans by 30 degrees
+    _drag(page, tip, (400, 0))
+    _says(words, r"up \(0\.9\d+, 0\.\d+, 0\); ")
+    page.get_by_role("slider", name="up leans by", exact=True).fill("0")
+    _says(words, r"up \(0, 1, 0\); ")
     page.get_by_role("slider", name="Width").fill("8")
     page.get_by_role("slider", name="Pixel x", exact=True).fill("7")
     _says(words, r"pixel \(7, 0\)")
@@ -136,6 +143,10 @@ def test_code_that_hangs_or_crashes_ends_no_page(opened: Opened, solved: dict[st
     _says(words, r"Is there an endless loop\?")
     _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ __builtin_trap(); }}"))
     _says(words, r"Your code crashed: unreachable")
+    _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ throw 4; }}"))
+    _says(words, r"Your code gave up: something was thrown")
+    _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ __builtin_exit(0); }}"))
+    _says(words, r"Your code ended the program before there was an answer")
     _write(page, right)
     _says(words, r"bytes \(191, 153, 51\)")
 

@@ -6,11 +6,13 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import UsageError
+from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.images.compare import gaps, parse_ppm
 from raysteps.play.packages import CLANG, fetch, registry_of
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit
+from raysteps.release.build_release import first_steps, write_release
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
@@ -135,3 +137,12 @@ def test_pictures_are_those_of_the_machine(clang: WebClang, project: Project, ki
         same += made == native
         assert (gaps(parse_ppm(made), parse_ppm(native)) > 0).mean() < 0.0015, (scene, args)
     assert same >= len(cases) * 0.7
+
+
+def test_its_own_sources_compile_where_steps_are_missing(
+    clang: WebClang, kit: BuiltKit, steps: list[Step], tmp_path: Path
+) -> None:
+    folder = tmp_path / "kit"
+    write_release(kit, first_steps(["1-4"], steps), "Graphics 101", folder)
+    page = WebKit(Project(folder), clang)
+    assert [page._made(one).stat().st_size > 0 for one in page._wanted()["web"]] == [True] * 3

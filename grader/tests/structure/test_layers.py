@@ -22,7 +22,7 @@ _ALLOWED = {
     "worker": {"core", "io", "steps", "worker"},
     "remote": {"core", "steps", "render", "remote"},
     "testing": {"core", "testing"},
-    "web": {"core", "render", "web"},
+    "web": {"core", "io", "steps", "render", "web"},
 }
 
 

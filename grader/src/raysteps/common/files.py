@@ -76,6 +76,13 @@ def usable_folder(path: Path) -> None:
         raise UsageError(f"{path}: results cannot be written there: {reason(error)}") from error
 
 
+def new_or_empty_folder(path: Path) -> None:
+    """Makes the folder that somebody named for something whole, or says why it cannot be."""
+    if path.exists() and not (path.is_dir() and not any(path.iterdir())):
+        raise UsageError(f"{path}: is there already; expected the name of a new or an empty folder")
+    usable_folder(path)
+
+
 def open_regular(path: Path) -> int:
     """Opens a file to read its bytes: no link is followed and no pipe waited for where the system can do without."""
     wanted = ("O_BINARY", "O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC")

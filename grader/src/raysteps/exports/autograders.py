@@ -17,7 +17,7 @@ from pathlib import Path, PurePosixPath
 from raysteps import __version__
 from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV, Need
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import usable_folder, write_bytes
+from raysteps.common.files import new_or_empty_folder, write_bytes
 from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.settings import FILE as COURSE
@@ -70,9 +70,7 @@ def as_tar(members: Sequence[Member]) -> bytes:
 
 def into_folder(members: Sequence[Member], folder: Path) -> None:
     """Writes into a new or empty folder."""
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise UsageError(f"{folder}: is there already; expected the name of a new or an empty folder")
-    usable_folder(folder)
+    new_or_empty_folder(folder)
     for member in members:
         path = folder / member.name
         write_bytes(path, member.data)

@@ -29,9 +29,9 @@ _RUN_SECONDS = 2.0
 
 @dataclass
 class CpuBudget:
-    """Seconds that a student's program may run for the examples of a step. Those in which it waits for a processor do
-    not count, nor does what the judge itself takes, so that a busy machine shows the same examples; but a program that
-    sleeps comes to an end, too: `idle` is how long it may do so."""
+    """Seconds of a processor that a student's program may take for the examples of a step. What passes in the judge and
+    the reference does not count, so that a busy machine shows the same examples. A program that sleeps comes to an end,
+    too: `idle` is how long it may do so, or wait for a processor."""
 
     left: float = 8.0
     idle: float = 20.0
@@ -39,10 +39,10 @@ class CpuBudget:
     def next_run(self) -> float:
         return _RUN_SECONDS if min(self.left, self.idle) > 0 else 0.0
 
-    def spend(self, seconds: float, passed: float) -> None:
-        """Of one run: seconds of a processor, and of the clock."""
-        self.left -= seconds
-        self.idle -= max(0.0, passed - seconds)
+    def spend(self, cpu_seconds: float, wall_seconds: float) -> None:
+        """Of one run."""
+        self.left -= cpu_seconds
+        self.idle -= max(0.0, wall_seconds - cpu_seconds)
 
 
 # Which of many candidates are wrong in the same way as a known case, and which of these is beyond doubt.
@@ -100,7 +100,7 @@ class ShrinkOracle:
         runs = 3 if go_on else 1
         while len(replies) < len(cases) and runs > 0 and seconds > 0:
             part = answers_until_trouble(self._student, cases[len(replies) :], seconds)
-            self._budget.spend(part.seconds, part.passed)
+            self._budget.spend(part.cpu_seconds, part.wall_seconds)
             seconds, runs = self._budget.next_run(), runs - 1
             replies += part.replies
         return replies + [None] * (len(cases) - len(replies))

@@ -73,11 +73,19 @@ class Reply:
 
 @dataclass(frozen=True)
 class Replies:
-    """One for each case, and the seconds that the worker ran; `passed`: of the clock, where the others are not."""
+    """One for each case, and the seconds that the worker ran."""
 
     replies: list[Reply]
     seconds: float
-    passed: float = 0.0
+
+
+@dataclass(frozen=True)
+class OneRun:
+    """The replies of a single run, and what it took; who was stopped took all the time that was given."""
+
+    replies: list[Reply]
+    cpu_seconds: float
+    wall_seconds: float
 
 
 def _read(lines: Sequence[str], first: int, last: int) -> list[Reply]:
@@ -165,14 +173,13 @@ def _give_up(replies: list[Reply], cases: Sequence[Case], seconds: float, rest: 
     return Replies(replies + [rest] * (len(cases) - len(replies)), seconds)
 
 
-def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> Replies:
-    """One run, and the seconds of a processor that it took. The last reply may be the trouble that ended it, if the
-    function was called; the rest is not known."""
+def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> OneRun:
+    """The last reply may be the trouble that ended the run, if the function was called; the rest is not known."""
     ran = ask(_stdin(cases, 0), seconds)
     replies, trouble = _what_came(ran, cases, 0)
     if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
         replies = [*replies, trouble]
-    return Replies(replies[: len(cases)], seconds if ran.hung else ran.cpu_seconds, ran.outcome.seconds)
+    return OneRun(replies[: len(cases)], seconds if ran.hung else ran.cpu_seconds, ran.outcome.seconds)
 
 
 # One case with what came of it.

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import one_at_a_time, write_bytes
+from raysteps.common.files import new_or_empty_folder, one_at_a_time, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
 from raysteps.course.manifest import ImageCase, Step, course_steps
@@ -22,7 +22,7 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
-from raysteps.play.packages import CLANG, EDITOR, clear, fetch, new_folder, written_once
+from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
@@ -282,16 +282,14 @@ def refuse_to_publish(project: Project, out: Path) -> None:
             f"{out}: the page of this kit holds the reference's steps and must not be published; make a students' kit "
             "(./raysteps release --out ../course), and type ./raysteps play --out there"
         )
-    if out.exists() and not (out.is_dir() and not any(out.iterdir())):
-        raise UsageError(f"{out}: is not empty; expected a new or empty folder")
+    new_or_empty_folder(out)
 
 
 def publish(made: Path, out: Path) -> None:
-    """The folder appears when it is whole."""
-    with new_folder(out) as new:
-        shutil.copytree(made, new / "page")
-        if out.is_dir():
-            out.rmdir()  # empty, or else it stays and is named
+    """The page itself comes last: without it, what is there so far is none."""
+    page = "index.html"
+    shutil.copytree(made, out, ignore=shutil.ignore_patterns(page), dirs_exist_ok=True)
+    write_bytes(out / page, (made / page).read_bytes())
 
 
 # Served on this machine. Everything in the folder may be read, and nothing else.

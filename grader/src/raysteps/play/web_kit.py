@@ -214,8 +214,9 @@ class WebKit:
         of = self._sources.of
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
         web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
+        words = of("raysteps-render")[0].words  # where headers of steps are that a students' kit lacks
         parts = {
-            "web": [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in web],
+            "web": [Wanted(Source(self._name(path), words), flags=(*_WARNINGS, "-Werror")) for path in web],
             "kit": [
                 *(Wanted(source) for source in libraries),
                 *(Wanted(source, flags=_RAYTRACE) for source in of("raytrace-app")),

@@ -1,5 +1,6 @@
-// What the live figures draw, step by step. Each asks framework/web/figures.cpp; whatever stands for a step's work comes
-// from there, and only what a reader sets, or what is given, is known here.
+// What the live figures draw, step by step. Each asks framework/web/figures.cpp: whatever is a step's work comes from
+// there, by the student's functions. Only what a reader sets, or what is given, is known here: this file goes out to
+// students, so no formula of a step stands in it.
 
 /** Numbers as the handouts write them: four digits behind the point, no zeros at the end. */
 export function said(number) {
@@ -8,26 +9,26 @@ export function said(number) {
 
 const list = (vector) => `(${vector.map(said).join(", ")})`;
 const along = (from, direction, distance) => from.map((one, axis) => one + distance * direction[axis]);
-const circle = Math.PI / 180;
+const DEGREE = Math.PI / 180;
 
 // Step 01. From the camera's side: -z to the right, the way that its up leans upwards. From the eye: x to the right, y
 // up, in the window's own plane.
 
-const leaningTo = (leaning) => [Math.sin(leaning * circle), Math.cos(leaning * circle)];
+const leaningTo = (leaning) => [Math.sin(leaning * DEGREE), Math.cos(leaning * DEGREE)];
 const onWindow = (from, direction) => along(from, direction, -1 / direction[2]).slice(0, 2);
 
-function corner({ from, forward, right, up, halfWidth, halfHeight }, across, upwards) {
-  return from.map(
-    (one, axis) => one + forward[axis] + across * halfWidth * right[axis] + upwards * halfHeight * up[axis],
-  );
+/** The middle of an edge of the window, or a corner of it: `across` and `upwards` are -1, 0 or 1. */
+function edgeAt({ from, forward, right, up, halfWidth, halfHeight }, across, upwards) {
+  const towardsSide = along(along(from, forward, 1), right, across * halfWidth);
+  return along(towardsSide, up, upwards * halfHeight);
 }
 
 const CAMERA = {
   name: "camera",
   title: "Your camera",
   intro:
-    "The camera of the worked example, with what your view_frame and primary_ray say. Drag the edge of the window, " +
-    "the arrow of the camera's up and the pixel, or use the arrow keys.",
+    "The camera of the worked example, with what your view_frame and primary_ray say. Drag the tip of the camera's " +
+    "up, or use the arrow keys and the sliders. A wide window is drawn smaller.",
   numbers: {
     angle: { label: "Angle", min: 10, max: 130, step: 1, stride: 5, start: 90, unit: "°" },
     leaning: { label: "up leans by", min: -90, max: 90, step: 1, stride: 5, start: 0, unit: "°" },
@@ -42,14 +43,7 @@ const CAMERA = {
     {
       label: "From the side: the eye at the left, the window one unit ahead",
       box: [-0.5, -2.3, 3.5, 2.3],
-      handles: [
-        {
-          label: "Upper edge of the window",
-          moves: ["angle"],
-          place: ({ angle }) => [1, Math.tan((angle / 2) * circle)],
-          drag: ([, up]) => ({ angle: (2 * Math.atan(Math.max(0, up))) / circle }),
-        },
-      ],
+      handles: [],
       draw: (view, { leaning }, answer) => {
         const { from } = answer;
         const [sin, cos] = leaningTo(leaning);
@@ -58,7 +52,7 @@ const CAMERA = {
           view.line([from, along(from, direction, 3)].map(fromSide), "faint");
         }
         view.line(
-          [1, -1].map((upwards) => fromSide(corner(answer, 0, upwards))),
+          [1, -1].map((upwards) => fromSide(edgeAt(answer, 0, upwards))),
           "edge",
         );
         view.arrow(fromSide(from), fromSide(along(from, answer.forward, 1)), "axis");
@@ -75,36 +69,30 @@ const CAMERA = {
           label: "Tip of the camera's up",
           moves: ["leaning"],
           place: ({ leaning }) => leaningTo(leaning).map((one) => 1.8 * one),
-          drag: ([x, y]) => ({ leaning: Math.atan2(x, y) / circle }),
-        },
-        {
-          label: "Pixel of the ray",
-          moves: ["x", "y"],
-          upwards: -1, // rows are counted from the top
-          place: (values) => centre(values, values.x, values.y),
-          drag: (point, values) => nearest(point, values),
+          drag: ([x, y]) => ({ leaning: Math.atan2(x, y) / DEGREE }),
         },
       ],
-      draw: (view, { leaning, width, height }, answer) => {
+      draw: (view, { leaning }, answer) => {
         view.line([[0, 0], leaningTo(leaning).map((one) => 1.8 * one)], "miss");
-        const placeOf = (across, upwards) => corner(answer, across, upwards).slice(0, 2);
-        for (let x = 0; x <= width; x++) {
-          view.line([placeOf((2 * x) / width - 1, -1), placeOf((2 * x) / width - 1, 1)], x % width ? "faint" : "edge");
-        }
-        for (let y = 0; y <= height; y++) {
-          view.line(
-            [placeOf(-1, (2 * y) / height - 1), placeOf(1, (2 * y) / height - 1)],
-            y % height ? "faint" : "edge",
-          );
-        }
-        const middle = along(answer.from, answer.forward, 1).slice(0, 2);
+        const farthest = Math.hypot(answer.halfWidth, answer.halfHeight);
+        const fitting = farthest > 2.3 ? 2.3 / farthest : 1;
+        const fit = ([x, y]) => [fitting * x, fitting * y];
+        const corners = [
+          [-1, -1],
+          [1, -1],
+          [1, 1],
+          [-1, 1],
+          [-1, -1],
+        ].map(([across, upwards]) => fit(edgeAt(answer, across, upwards)));
+        view.line(corners, "edge");
+        const middle = fit(edgeAt(answer, 0, 0));
         view.arrow(middle, along(middle, answer.right, 0.8), "axis");
         view.arrow(middle, along(middle, answer.up, 0.8), "axis");
         for (const direction of answer.directions.filter(([, , z]) => z < 0)) {
-          view.dot(onWindow(answer.from, direction), "hit", 2.5);
+          view.dot(fit(onWindow(answer.from, direction)), "hit", 2.5);
         }
         if (answer.direction[2] < 0) {
-          view.dot(onWindow(answer.from, answer.direction), "ray live-head", 5);
+          view.dot(fit(onWindow(answer.from, answer.direction)), "ray live-head", 5);
         }
       },
     },
@@ -114,27 +102,6 @@ const CAMERA = {
     `half_width ${said(answer.halfWidth)}, half_height ${said(answer.halfHeight)}. ` +
     `The ray through pixel (${x}, ${y}) has the direction ${list(answer.direction)}.`,
 };
-
-/** Where the reader's handle of a pixel stands: on the window that the numbers describe. */
-function centre({ angle, leaning, width, height }, x, y) {
-  const half = Math.tan((angle / 2) * circle);
-  const [across, up] = [((2 * x + 1) / width - 1) * half * (width / height), (1 - (2 * y + 1) / height) * half];
-  const [sin, cos] = leaningTo(leaning);
-  return [across * cos + up * sin, up * cos - across * sin];
-}
-
-/** The pixel whose centre is nearest to a point. */
-function nearest([toX, toY], values) {
-  let best = { far: Number.POSITIVE_INFINITY };
-  for (let y = 0; y < values.height; y++) {
-    for (let x = 0; x < values.width; x++) {
-      const [atX, atY] = centre(values, x, y);
-      const far = Math.hypot(atX - toX, atY - toY);
-      best = far < best.far ? { far, x, y } : best;
-    }
-  }
-  return { x: best.x, y: best.y };
-}
 
 // Step 02. From above: x to the right, z up, in the plane in which the ray runs.
 
@@ -264,7 +231,7 @@ const TONE = {
         place: (values) => [values[name], 0],
         drag: ([x]) => ({ [name]: x }),
       })),
-      draw: (view, values, { curve, shown, bytes, light }) => {
+      draw: (view, values, { curve, shown, bytes, cutOff }) => {
         view.line(
           [
             [0, 1.05],
@@ -280,11 +247,11 @@ const TONE = {
           ],
           "faint",
         );
-        const corner = Math.min(MOST, 1 / values.exposure);
+        const bend = Math.min(MOST, 1 / values.exposure);
         view.line(
           [
             [0, 0],
-            [corner, corner * values.exposure],
+            [bend, bend * values.exposure],
             [MOST, Math.min(1, MOST * values.exposure)],
           ],
           "miss",
@@ -306,17 +273,13 @@ const TONE = {
         view.words([0, -0.23], "tone mapped");
         view.words([2.6, -0.23], "cut off");
         view.swatch([0, -0.27], [2.4, -0.5], bytes);
-        view.swatch(
-          [2.6, -0.27],
-          [MOST, -0.5],
-          light.map((one) => Math.round(255 * Math.min(1, one))),
-        );
+        view.swatch([2.6, -0.27], [MOST, -0.5], cutOff);
       },
     },
   ],
-  says: (_, { light, shown, bytes }) =>
+  says: (_, { light, shown, bytes, cutOff }) =>
     `The light ${list(light)} becomes ${list(shown)}, bytes (${bytes.join(", ")}): the colour at the left. ` +
-    `Cut off at 1 it would be (${light.map((one) => Math.round(255 * Math.min(1, one))).join(", ")}), at the right.`,
+    `Cut off at 1 it would be (${cutOff.join(", ")}), at the right.`,
 };
 
 const OF_STEPS = { "01": [CAMERA], "02": [SPHERE, TRIANGLE], "07": [TONE] };

@@ -146,8 +146,10 @@ class Figure {
     this.tell("It waits for your first build: write the functions, then press Run.");
   }
 
-  get words() {
-    return [this.#description.name, ...this.#description.ask(this.#values)].map(String);
+  /** What the reader has set, and the words that ask for it. */
+  question() {
+    const values = { ...this.#values };
+    return { values, words: [this.#description.name, ...this.#description.ask(values)].map(String) };
   }
 
   #slider(name, { label, min, max, step, unit = "" }) {
@@ -241,13 +243,23 @@ class Figure {
     this.#says.textContent = text;
   }
 
-  show(answer) {
+  /** The answer to a question with these numbers, which may have been changed since. */
+  show(values, answer) {
     for (const view of this.#views) {
       view.clear();
-      view.draw(view, this.#values, answer);
+      view.draw(view, values, answer);
     }
     this.node.dataset.state = "drawn";
-    this.#says.textContent = this.#description.says(this.#values, answer);
+    this.#says.textContent = this.#description.says(values, answer);
+  }
+}
+
+/** What a program printed last, if it is an answer. */
+function answerOf({ code, stdout }) {
+  try {
+    return code === 0 ? JSON.parse(stdout.trim().split("\n").at(-1)) : null;
+  } catch {
+    return null; // it was ended before, or printed more than is kept
   }
 }
 
@@ -260,7 +272,11 @@ function whyNot(ran) {
   if (ran.stopped) {
     return `Your code gave no answer within ${SECONDS} s. Is there an endless loop?`;
   }
-  return ran.crashed ? `Your code crashed: ${ran.crashed}.` : ran.code ? `Your code gave up: ${ran.stderr.trim()}` : "";
+  if (ran.crashed) {
+    return `Your code crashed: ${ran.crashed}.`;
+  }
+  const words = ran.stderr.trim().replace("raysteps play: ", "");
+  return words ? `Your code gave up: ${words}` : "Your code ended the program before there was an answer.";
 }
 
 /** The figures of the step that is shown. */
@@ -312,15 +328,14 @@ export class Figures {
     this.#isAsking = true;
     for (const next of this.#waiting) {
       this.#waiting.delete(next);
-      const task = { module: this.#module, words: ["figure", ...next.words], files: {}, wanted: [] };
+      const { values, words } = next.question();
+      const task = { module: this.#module, words: ["figure", ...words], files: {}, wanted: [] };
       const ran = await this.#runner.run(task, SECONDS);
-      if (ran.stopped !== "hand") {
-        const reason = whyNot(ran);
-        if (reason) {
-          next.tell(reason);
-        } else {
-          next.show(JSON.parse(ran.stdout.trim().split("\n").at(-1)));
-        }
+      const answer = answerOf(ran);
+      if (answer) {
+        next.show(values, answer);
+      } else if (ran.stopped !== "hand") {
+        next.tell(whyNot(ran));
       }
     }
     this.#isAsking = false;

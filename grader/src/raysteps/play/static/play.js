@@ -242,6 +242,7 @@ class Page {
     this.#compiler.stop("The compiler was stopped.");
     this.#tester.stop("hand");
     this.#painter.stop("hand");
+    this.#figures.stop();
     this.#say("idle", "Stopped.");
   }
 
