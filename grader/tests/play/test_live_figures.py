@@ -145,7 +145,7 @@ def test_code_that_hangs_or_crashes_ends_no_page(opened: Opened, solved: dict[st
     _says(words, r"Your code crashed: unreachable")
     _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ throw 4; }}"))
     _says(words, r"Your code gave up: something was thrown")
-    _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ __builtin_exit(0); }}"))
+    _write(page, f"#include <cstdlib>\n{right}".replace(begin, f"{begin} if (color.r > 4.0F) {{ std::exit(0); }}"))
     _says(words, r"Your code ended the program before there was an answer")
     _write(page, right)
     _says(words, r"bytes \(191, 153, 51\)")

@@ -254,10 +254,12 @@ class Figure {
   }
 }
 
-/** What a program printed last, if it is an answer. */
-function answerOf({ code, stdout }) {
+const UNWRITTEN = /: (\S+) is not written yet/g; // a stub says so, and answers with nothing
+
+/** What a program printed last, if it is an answer of what somebody wrote. */
+function answerOf({ code, stdout, stderr }) {
   try {
-    return code === 0 ? JSON.parse(stdout.trim().split("\n").at(-1)) : null;
+    return code === 0 && stderr.search(UNWRITTEN) < 0 ? JSON.parse(stdout.trim().split("\n").at(-1)) : null;
   } catch {
     return null; // it was ended before, or printed more than is kept
   }
@@ -265,7 +267,7 @@ function answerOf({ code, stdout }) {
 
 /** Why there is no answer. */
 function whyNot(ran) {
-  const missing = [...(ran.stderr ?? "").matchAll(/: (\S+) is not written yet/g)].map(([, name]) => name);
+  const missing = [...(ran.stderr ?? "").matchAll(UNWRITTEN)].map(([, name]) => name);
   if (missing.length) {
     return `It waits for ${missing.join(" and ")}: not written yet.`;
   }
