@@ -47,14 +47,14 @@ using QueryContext = RTCRayQueryContext;
 
 void begin(QueryContext& context) { rtcInitRayQueryContext(&context); }
 
-void intersect(RTCScene scene, QueryContext& context, RTCRayHit& asked) {
+void intersect_one(RTCScene scene, QueryContext& context, RTCRayHit& asked) {
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &context;
     rtcIntersect1(scene, &asked, &arguments);
 }
 
-void occluded(RTCScene scene, QueryContext& context, RTCRay& asked) {
+void occluded_one(RTCScene scene, QueryContext& context, RTCRay& asked) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
     arguments.context = &context;
@@ -65,9 +65,9 @@ using QueryContext = RTCIntersectContext;
 
 void begin(QueryContext& context) { rtcInitIntersectContext(&context); }
 
-void intersect(RTCScene scene, QueryContext& context, RTCRayHit& asked) { rtcIntersect1(scene, &context, &asked); }
+void intersect_one(RTCScene scene, QueryContext& context, RTCRayHit& asked) { rtcIntersect1(scene, &context, &asked); }
 
-void occluded(RTCScene scene, QueryContext& context, RTCRay& asked) { rtcOccluded1(scene, &context, &asked); }
+void occluded_one(RTCScene scene, QueryContext& context, RTCRay& asked) { rtcOccluded1(scene, &context, &asked); }
 #endif
 
 /// What goes along with one question, and what a callback of Embree's finds in it.
@@ -160,7 +160,7 @@ public:
         Context context = context_of(ray);
         RTCRayHit answer{embree_ray(ray, std::numeric_limits<float>::infinity()), {}};
         answer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        intersect(scene_.get(), context.embree, answer);
+        intersect_one(scene_.get(), context.embree, answer);
         if (answer.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return std::nullopt;
         }
@@ -170,7 +170,7 @@ public:
     [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
         Context context = context_of(ray);
         RTCRay asked = embree_ray(ray, distance);
-        raysteps::bench::occluded(scene_.get(), context.embree, asked);
+        occluded_one(scene_.get(), context.embree, asked);
         return asked.tfar < 0.0F;
     }
 

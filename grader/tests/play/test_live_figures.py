@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
+from play_pages import save, says, with_packages
 
-from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.play.packages import registry_of
@@ -18,18 +18,13 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
 
-_PATIENCE = 120_000  # milliseconds until a compiler that is new to the browser has compiled something
 Opened: TypeAlias = "Callable[..., Page]"
 
 
 @pytest.fixture(scope="module")
 def server(project: Project) -> Iterator[PlayServer]:
-    try:
+    with with_packages():
         found = PlayServer(PlayPage(project, registry_of(None)).make())
-    except UsageError as error:
-        if "cannot be loaded down" not in str(error):
-            raise
-        pytest.skip(str(error))
     yield found
     found.close()
 
@@ -41,16 +36,10 @@ def opened(watched: Watched, server: PlayServer) -> Opened:
     def at(number: str, width: int = 1440, *, touch: bool = False) -> "Page":
         watched.allowed.append(server.address)
         page = watched.open(f"{server.address}#{number}", width=width, touch=touch)
-        _says(page.locator("#play-status"), r"0 of \d+ tests pass")
+        says(page.locator("#play-status"), r"0 of \d+ tests pass")
         return page
 
     return at
-
-
-def _says(room: "Locator", pattern: str) -> None:
-    from playwright.sync_api import expect
-
-    expect(room).to_have_text(re.compile(pattern), timeout=_PATIENCE)
 
 
 def _figure(page: "Page", name: str) -> "Locator":
@@ -59,13 +48,6 @@ def _figure(page: "Page", name: str) -> "Locator":
 
 def _words(page: "Page", name: str) -> "Locator":
     return _figure(page, name).locator(".live-says")
-
-
-def _write(page: "Page", text: str) -> None:
-    page.locator(".cm-content").click()
-    page.keyboard.press("ControlOrMeta+a")
-    page.keyboard.insert_text(text)
-    page.keyboard.press("ControlOrMeta+s")
 
 
 def _drag(page: "Page", handle: "Locator", to: "Locator | tuple[float, float]") -> None:
@@ -97,40 +79,40 @@ def test_the_camera_is_the_students(
 ) -> None:
     page = opened("01")
     words = _words(page, "camera")
-    _says(words, "It waits for view_frame and primary_ray: not written yet")
+    says(words, "It waits for view_frame and primary_ray: not written yet")
     assert_accessible(page)
     right = solved["01-camera-rays"]
-    _write(page, right)
+    save(page, right)
     direction = _states(project, steps[0], "(0.8018, 0.2673, -0.5345)")
-    _says(words, rf"half_width 2, half_height 1\. The ray through pixel \(3, 0\) has the direction {direction}")
+    says(words, rf"half_width 2, half_height 1\. The ray through pixel \(3, 0\) has the direction {direction}")
     pixel_y = page.get_by_role("slider", name="Pixel y", exact=True)
     pixel_y.press("ArrowRight")
-    _says(words, r"pixel \(3, 1\) has the direction \(0\.8018, -0\.2673, -0\.5345\)")
+    says(words, r"pixel \(3, 1\) has the direction \(0\.8018, -0\.2673, -0\.5345\)")
     pixel_y.press("ArrowLeft")
-    _says(words, rf"pixel \(3, 0\) has the direction {direction}")
+    says(words, rf"pixel \(3, 0\) has the direction {direction}")
     angle = page.get_by_role("slider", name="Angle", exact=True)
     angle.fill("60")  # the window of the second question is 1.15 high
-    _says(words, r"half_width 1\.1547, half_height 0\.5774")
+    says(words, r"half_width 1\.1547, half_height 0\.5774")
     angle.press("End")  # 130 degrees: no further
-    _says(words, r"half_height 2\.1445")
+    says(words, r"half_height 2\.1445")
     tip = _figure(page, "camera").get_by_role("slider", name="Tip of the camera's up")
     for _ in range(6):
         tip.press("ArrowRight")
-    _says(words, r"up \(0\.5, 0\.866, 0\); ")  # it leans by 30 degrees
+    says(words, r"up \(0\.5, 0\.866, 0\); ")  # it leans by 30 degrees
     _drag(page, tip, (400, 0))
-    _says(words, r"up \(0\.9\d+, 0\.\d+, 0\); ")
+    says(words, r"up \(0\.9\d+, 0\.\d+, 0\); ")
     page.get_by_role("slider", name="up leans by", exact=True).fill("0")
-    _says(words, r"up \(0, 1, 0\); ")
+    says(words, r"up \(0, 1, 0\); ")
     page.get_by_role("slider", name="Width").fill("8")
     page.get_by_role("slider", name="Pixel x", exact=True).fill("7")
-    _says(words, r"pixel \(7, 0\)")
+    says(words, r"pixel \(7, 0\)")
     page.get_by_role("slider", name="Width").fill("2")
-    _says(words, r"pixel \(1, 0\)")
+    says(words, r"pixel \(1, 0\)")
     assert_accessible(page)
     _figure(page, "camera").get_by_role("button", name="Back to the start").click()
-    _says(words, direction)
-    _write(page, right.replace("glm::tan(", "2.0F * glm::tan("))
-    _says(words, r"half_width 4, half_height 2")
+    says(words, direction)
+    save(page, right.replace("glm::tan(", "2.0F * glm::tan("))
+    says(words, r"half_width 4, half_height 2")
 
 
 def test_code_that_hangs_or_crashes_ends_no_page(opened: Opened, solved: dict[str, str]) -> None:
@@ -139,16 +121,16 @@ def test_code_that_hangs_or_crashes_ends_no_page(opened: Opened, solved: dict[st
     right = solved["07-tone-mapping"]
     begin = "Color tone_map(const Color& color) {"
     assert begin in right
-    _write(page, right.replace(begin, f"{begin} volatile bool on = color.r > 4.0F; while (on) {{}}"))
-    _says(words, r"Is there an endless loop\?")
-    _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ __builtin_trap(); }}"))
-    _says(words, r"Your code crashed: unreachable")
-    _write(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ throw 4; }}"))
-    _says(words, r"Your code gave up: something was thrown")
-    _write(page, f"#include <cstdlib>\n{right}".replace(begin, f"{begin} if (color.r > 4.0F) {{ std::exit(0); }}"))
-    _says(words, r"Your code ended the program before there was an answer")
-    _write(page, right)
-    _says(words, r"bytes \(191, 153, 51\)")
+    save(page, right.replace(begin, f"{begin} volatile bool on = color.r > 4.0F; while (on) {{}}"))
+    says(words, r"Is there an endless loop\?")
+    save(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ __builtin_trap(); }}"))
+    says(words, r"Your code crashed: unreachable")
+    save(page, right.replace(begin, f"{begin} if (color.r > 4.0F) {{ throw 4; }}"))
+    says(words, r"Your code gave up: something was thrown")
+    save(page, f"#include <cstdlib>\n{right}".replace(begin, f"{begin} if (color.r > 4.0F) {{ std::exit(0); }}"))
+    says(words, r"Your code ended the program before there was an answer")
+    save(page, right)
+    says(words, r"bytes \(191, 153, 51\)")
 
 
 def test_a_ray_meets_the_sphere_and_the_triangle_of_the_handout(
@@ -156,19 +138,19 @@ def test_a_ray_meets_the_sphere_and_the_triangle_of_the_handout(
 ) -> None:
     page = opened("02")
     sphere, triangle = _words(page, "sphere"), _words(page, "triangle")
-    _says(sphere, "It waits for Sphere::intersect: not written yet")
-    _write(page, solved["02-intersection"])
+    says(sphere, "It waits for Sphere::intersect: not written yet")
+    save(page, solved["02-intersection"])
     assert _states(project, steps[1], "distance = 6, position = (4, 2, 7), normal = (3, 0, 4) / 5 = (0.6, 0, 0.8)")
-    _says(sphere, r"a hit at the distance 6, position \(4, 2, 7\), normal \(0\.6, 0, 0\.8\), from the front")
+    says(sphere, r"a hit at the distance 6, position \(4, 2, 7\), normal \(0\.6, 0, 0\.8\), from the front")
     assert _states(project, steps[1], "t = 5, position = (1, 1, 0)")
-    _says(triangle, r"along \(0\.6, 0, -0\.8\): a hit at the distance 5, position \(1, 1, 0\), normal \(0, 0, 1\)")
+    says(triangle, r"along \(0\.6, 0, -0\.8\): a hit at the distance 5, position \(1, 1, 0\), normal \(0, 0, 1\)")
     origin = _figure(page, "sphere").get_by_role("slider", name="Origin of the ray")
     for _ in range(20):
         origin.press("ArrowDown")  # to z = 3, where it is aimed at, and inside
     origin.press("ArrowUp")
-    _says(sphere, r"From \(4, 2, 3\.5\) along \(0, 0, -1\): a hit at the distance 4\.5, .* from the back")
+    says(sphere, r"From \(4, 2, 3\.5\) along \(0, 0, -1\): a hit at the distance 4\.5, .* from the back")
     _drag(page, origin, (200, 0))
-    _says(sphere, r"From \(10, 2, 3\.5\)")
+    says(sphere, r"From \(10, 2, 3\.5\)")
     assert_accessible(page)
 
 
@@ -177,10 +159,10 @@ def test_the_tone_curve_is_dragged_by_a_finger(
 ) -> None:
     page = opened("07", width=390, touch=True)
     words = _words(page, "tone")
-    _says(words, "It waits for tone_map and to_byte: not written yet")
-    _write(page, solved["07-tone-mapping"])
+    says(words, "It waits for tone_map and to_byte: not written yet")
+    save(page, solved["07-tone-mapping"])
     worked = _states(project, steps[6], "(191, 153, 51)")
-    _says(words, rf"becomes \(0\.75, 0\.6, 0\.2\), bytes {worked}.* it would be \(255, 255, 64\)")
+    says(words, rf"becomes \(0\.75, 0\.6, 0\.2\), bytes {worked}.* it would be \(255, 255, 64\)")
     assert _states(project, steps[6], "(255, 255, 64)")
     red = _figure(page, "tone").get_by_role("slider", name="Light, red", exact=True).first
     red.scroll_into_view_if_needed()
@@ -189,8 +171,8 @@ def test_the_tone_curve_is_dragged_by_a_finger(
     for kind, at in (("touchStart", x), ("touchMove", x + 40), ("touchMove", 385)):
         touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": at, "y": y}]})
     touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
-    _says(words, r"The light \(5, 1\.5, 0\.25\) becomes \(0\.8333, ")
+    says(words, r"The light \(5, 1\.5, 0\.25\) becomes \(0\.8333, ")
     page.get_by_role("slider", name="Exposure").fill("0")
-    _says(words, r"bytes \(0, 0, 0\)")
+    says(words, r"bytes \(0, 0, 0\)")
     assert_no_sideways_scrolling(page)
     assert_accessible(page)

@@ -1,7 +1,6 @@
 """The whole page in a real browser: write, compile, test, draw, stop, keep."""
 
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -16,8 +15,8 @@ from urllib.request import urlopen
 
 import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
+from play_pages import STARTED, save, says, with_packages, write
 
-from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -31,17 +30,12 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
 
 _POINT = "return ray.origin + distance * ray.direction;"
-_STARTED = 120_000  # milliseconds until a compiler that is new to the browser has compiled something
 
 
 @pytest.fixture(scope="module")
 def site(project: Project) -> Path:
-    try:
+    with with_packages():
         return PlayPage(project, registry_of(None)).make()
-    except UsageError as error:
-        if "cannot be loaded down" not in str(error):
-            raise
-        pytest.skip(str(error))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="interrupts are another matter there")
@@ -75,27 +69,12 @@ def page(watched: Watched, server: PlayServer) -> "Page":
     """Step 01, when its stub was compiled, tested and drawn."""
     watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
     page = watched.open(server.address)
-    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=_STARTED)
+    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=STARTED)
     return page
 
 
 def _says(page: "Page", pattern: str, timeout: float = 60_000) -> None:
-    from playwright.sync_api import expect
-
-    expect(page.locator("#play-status")).to_have_text(re.compile(pattern), timeout=timeout)
-
-
-def _write(page: "Page", text: str) -> None:
-    """In place of all that is there."""
-    page.locator(".cm-content").click()
-    page.keyboard.press("ControlOrMeta+a")
-    page.keyboard.insert_text(text)
-
-
-def _type(page: "Page", text: str) -> None:
-    """Writes, and saves."""
-    _write(page, text)
-    page.keyboard.press("ControlOrMeta+s")
+    says(page.locator("#play-status"), pattern, timeout)
 
 
 def _source(page: "Page") -> str:
@@ -110,13 +89,13 @@ def test_the_right_lines_give_the_picture_and_stay(
     from playwright.sync_api import expect
 
     right = solved["01-camera-rays"]
-    _type(page, right)
+    save(page, right)
     _says(page, r"Step 01 is right: 12 of 12 tests pass, 2 of 2 pictures are right\.")
     expect(page.locator("#play-first h3")).to_contain_text("✓ right")
     expect(page.locator("#play-first compare-pictures")).to_have_attribute("data-state", "ready")
     assert_accessible(page)
     page.reload()
-    _says(page, r"Step 01 is right", timeout=_STARTED)
+    _says(page, r"Step 01 is right", timeout=STARTED)
     assert _POINT in _source(page)
     with page.expect_download() as download:
         page.get_by_role("button", name="Save as zip").click()
@@ -128,7 +107,7 @@ def test_the_right_lines_give_the_picture_and_stay(
 def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    _type(page, solved["01-camera-rays"].replace(_POINT, "return ray.origin + ray.direction;"))
+    save(page, solved["01-camera-rays"].replace(_POINT, "return ray.origin + ray.direction;"))
     _says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
     failed = page.locator("#play-tests .panel")
     expect(failed).to_have_count(1)
@@ -142,7 +121,7 @@ def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> No
 
     wrong = solved["01-camera-rays"].replace(_POINT, "return ray.orgin;")
     line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
-    _type(page, wrong)
+    save(page, wrong)
     _says(page, r"It does not compile\.")
     expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
     expect(page.locator(".cm-lintRange-error")).to_have_text("orgin")
@@ -155,14 +134,14 @@ def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[
     from playwright.sync_api import expect
 
     loop = "volatile bool on = true; while (on) {} "
-    _type(page, solved["01-camera-rays"].replace(_POINT, loop + _POINT))
+    save(page, solved["01-camera-rays"].replace(_POINT, loop + _POINT))
     _says(page, r"Testing and drawing")
     page.get_by_role("button", name="Stop").click()
     _says(page, r"Stopped\.")
     page.get_by_role("button", name="Run").click()
     _says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
     expect(page.locator("#play-tests .panel")).to_contain_text("Is there an endless loop?")
-    _type(page, solved["01-camera-rays"])
+    save(page, solved["01-camera-rays"])
     _says(page, r"Step 01 is right")
 
 
@@ -170,11 +149,11 @@ def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, st
     from playwright.sync_api import expect
 
     throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
-    _type(page, throws)
+    save(page, throws)
     _says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
     deep = "return distance > 1e9F ? ray.origin : point_at(ray, distance + 1.0F) + ray.origin;"
-    _type(page, solved["01-camera-rays"].replace(_POINT, deep))
+    save(page, solved["01-camera-rays"].replace(_POINT, deep))
     _says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed")
 
@@ -189,7 +168,7 @@ def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project
 
     back = page.get_by_role("button", name="Bring back what I wrote")
     expect(back).to_be_hidden()
-    _type(page, "int broken")
+    save(page, "int broken")
     _says(page, r"It does not compile\.")
     _begin_again(page)
     _says(page, r"0 of 12 tests pass")
@@ -198,7 +177,7 @@ def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project
     assert _source(page).split() == stub
     _begin_again(page)  # where nothing was written, nothing is lost
     page.reload()
-    _says(page, r"0 of 12 tests pass", timeout=_STARTED)
+    _says(page, r"0 of 12 tests pass", timeout=STARTED)
     assert _source(page).split() == stub
     assert_accessible(page)
     back.focus()
@@ -209,7 +188,7 @@ def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project
     expect(page.locator(".cm-content")).to_be_focused()
     _begin_again(page)
     _says(page, r"0 of 12 tests pass")
-    _type(page, "int other")
+    save(page, "int other")
     _says(page, r"It does not compile\.")
     back.click()  # and what was written meanwhile takes its place
     expect(page.locator(".cm-content")).to_have_text("int broken")
@@ -225,7 +204,7 @@ def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer
     _says(page, r"the compiler cannot be loaded: .* Press Run to try again")
     page.unroute("**/clang.wasm.gz")
     page.get_by_role("button", name="Run").click()
-    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=_STARTED)
+    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=STARTED)
 
 
 def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, solved: dict[str, str]) -> None:
@@ -242,8 +221,8 @@ def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, sol
         folder = f"{address}/of%20a%20course/play/"
         watched.allowed += [folder, f"blob:{address}"]
         page = watched.open(folder)
-        _says(page, r"0 of 12 tests pass", timeout=_STARTED)
-        _type(page, solved["01-camera-rays"])
+        _says(page, r"0 of 12 tests pass", timeout=STARTED)
+        save(page, solved["01-camera-rays"])
         _says(page, r"Step 01 is right")
         server.shutdown()
 
@@ -254,7 +233,7 @@ def test_every_step_keeps_its_text_when_steps_change_quickly(
     from playwright.sync_api import expect
 
     texts = ["// mine", *(pristine_stub(project, step) for step in steps[1:3])]
-    _write(page, texts[0])
+    write(page, texts[0])
     page.evaluate("""() => {
         addEventListener("hashchange", () => { location.hash = "#03"; }, { once: true });
         location.hash = "#02";
@@ -279,15 +258,15 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
     _says(
         page,
         rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.",
-        timeout=_STARTED,
+        timeout=STARTED,
     )
-    _type(page, solved[step.id])
-    _says(page, rf"Step {step.number} is right", timeout=_STARTED)
+    save(page, solved[step.id])
+    _says(page, rf"Step {step.number} is right", timeout=STARTED)
 
 
 def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     watched.allowed.append(server.address)
     page = watched.open(server.address, width=390, scheme="dark", touch=True)
-    _says(page, r"0 of 12 tests pass", timeout=_STARTED)
+    _says(page, r"0 of 12 tests pass", timeout=STARTED)
     assert_no_sideways_scrolling(page)
     assert_accessible(page)

@@ -4,8 +4,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from play_pages import with_packages
 
-from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.images.compare import gaps, parse_ppm
@@ -93,12 +93,8 @@ int main() {
 @pytest.fixture(scope="module")
 def clang(project: Project) -> WebClang:
     cache = project.build / "play"
-    try:
+    with with_packages():
         return WebClang(fetch(CLANG, cache / "packages", registry_of(None)), cache)
-    except UsageError as error:
-        if "cannot be loaded down" not in str(error):
-            raise
-        pytest.skip(str(error))
 
 
 def test_exceptions_are_those_of_the_machine(clang: WebClang, project: Project, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ const DEGREE = Math.PI / 180;
 // up, in the window's own plane.
 
 const leaningTo = (leaning) => [Math.sin(leaning * DEGREE), Math.cos(leaning * DEGREE)];
+const tipOf = ({ leaning }) => leaningTo(leaning).map((one) => 1.8 * one);
 const onWindow = (from, direction) => along(from, direction, -1 / direction[2]).slice(0, 2);
 
 /** The middle of an edge of the window, or a corner of it: `across` and `upwards` are -1, 0 or 1. */
@@ -30,7 +31,7 @@ const CAMERA = {
     "The camera of the worked example, with what your view_frame and primary_ray say. Drag the tip of the camera's " +
     "up, or use the arrow keys and the sliders. A wide window is drawn smaller.",
   numbers: {
-    angle: { label: "Angle", min: 10, max: 130, step: 1, stride: 5, start: 90, unit: "°" },
+    angle: { label: "Angle", min: 10, max: 130, step: 1, start: 90, unit: "°" },
     leaning: { label: "up leans by", min: -90, max: 90, step: 1, stride: 5, start: 0, unit: "°" },
     width: { label: "Width", min: 1, max: 8, step: 1, start: 4 },
     height: { label: "Height", min: 1, max: 6, step: 1, start: 2 },
@@ -49,12 +50,9 @@ const CAMERA = {
         const [sin, cos] = leaningTo(leaning);
         const fromSide = ([x, y, z]) => [from[2] - z, x * sin + y * cos];
         for (const direction of answer.directions) {
-          view.line([from, along(from, direction, 3)].map(fromSide), "faint");
+          view.segment(fromSide(from), fromSide(along(from, direction, 3)), "faint");
         }
-        view.line(
-          [1, -1].map((upwards) => fromSide(edgeAt(answer, 0, upwards))),
-          "edge",
-        );
+        view.segment(fromSide(edgeAt(answer, 0, 1)), fromSide(edgeAt(answer, 0, -1)), "edge");
         view.arrow(fromSide(from), fromSide(along(from, answer.forward, 1)), "axis");
         view.arrow(fromSide(from), fromSide(along(from, answer.up, 1)), "axis");
         view.arrow(fromSide(from), fromSide(along(from, answer.direction, 3)), "ray");
@@ -68,12 +66,12 @@ const CAMERA = {
         {
           label: "Tip of the camera's up",
           moves: ["leaning"],
-          place: ({ leaning }) => leaningTo(leaning).map((one) => 1.8 * one),
+          place: tipOf,
           drag: ([x, y]) => ({ leaning: Math.atan2(x, y) / DEGREE }),
         },
       ],
-      draw: (view, { leaning }, answer) => {
-        view.line([[0, 0], leaningTo(leaning).map((one) => 1.8 * one)], "miss");
+      draw: (view, values, answer) => {
+        view.segment([0, 0], tipOf(values), "miss");
         const farthest = Math.hypot(answer.halfWidth, answer.halfHeight);
         const fitting = farthest > 2.3 ? 2.3 / farthest : 1;
         const fit = ([x, y]) => [fitting * x, fitting * y];
@@ -122,7 +120,7 @@ function rayFigure({ name, title, intro, box, plane, start, aim, outline }) {
     title,
     intro,
     numbers: {
-      y: { label: "Height of the ray, y", step: 0.1, stride: 0.5, ...plane },
+      y: { label: "Height of the ray, y", step: 0.1, ...plane },
       x: place("Origin x", left, right, start[0]),
       z: place("Origin z", near, far, start[1]),
       aimX: place("Aimed at x", left, right, aim[0]),
@@ -139,7 +137,7 @@ function rayFigure({ name, title, intro, box, plane, start, aim, outline }) {
           const origin = [x, y, z];
           view.arrow(flat(origin), flat(along(origin, direction, hit ? hit.distance : 30)), hit ? "ray" : "miss");
           if (hit) {
-            view.line([flat(hit.position), flat(along(hit.position, direction, 30))], "faint");
+            view.segment(flat(hit.position), flat(along(hit.position, direction, 30)), "faint");
             view.arrow(flat(hit.position), flat(along(hit.position, hit.normal, 2)), "axis");
             view.dot(flat(hit.position), "hit", 5);
           }
@@ -184,13 +182,7 @@ const TRIANGLE = rayFigure({
   aim: [1, 0],
   outline: (view, y) => {
     if (y >= 0 && y <= 4) {
-      view.line(
-        [
-          [0, 0],
-          [4 - y, 0],
-        ],
-        "edge",
-      );
+      view.segment([0, 0], [4 - y, 0], "edge");
     }
   },
 });
@@ -211,7 +203,7 @@ const TONE = {
     "The light of the worked example, with what your tone_map and to_byte say. Drag the three channels, or use the " +
     "arrow keys; the exposure multiplies them all. The dashed line is light that is cut off at 1.",
   numbers: {
-    exposure: { label: "Exposure", min: 0, max: 8, step: 0.05, stride: 0.25, start: 1 },
+    exposure: { label: "Exposure", min: 0, max: 8, step: 0.05, start: 1 },
     ...Object.fromEntries(
       CHANNELS.map(([name, start]) => [
         name,
@@ -232,21 +224,9 @@ const TONE = {
         drag: ([x]) => ({ [name]: x }),
       })),
       draw: (view, values, { curve, shown, bytes, cutOff }) => {
-        view.line(
-          [
-            [0, 1.05],
-            [0, 0],
-            [MOST, 0],
-          ],
-          "faint",
-        );
-        view.line(
-          [
-            [0, 1],
-            [MOST, 1],
-          ],
-          "faint",
-        );
+        view.segment([0, 0], [0, 1.05], "faint");
+        view.segment([0, 0], [MOST, 0], "faint");
+        view.segment([0, 1], [MOST, 1], "faint");
         const bend = Math.min(MOST, 1 / values.exposure);
         view.line(
           [
@@ -261,13 +241,7 @@ const TONE = {
           "ray",
         );
         CHANNELS.forEach(([name], at) => {
-          view.line(
-            [
-              [values[name], 0],
-              [values[name], shown[at]],
-            ],
-            `channel live-${name}`,
-          );
+          view.segment([values[name], 0], [values[name], shown[at]], `channel live-${name}`);
           view.dot([values[name], shown[at]], `channel live-${name} live-full`, 5);
         });
         view.words([0, -0.23], "tone mapped");

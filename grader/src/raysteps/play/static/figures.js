@@ -63,9 +63,13 @@ class View {
     this.#add("polyline", look, { points: places.join(" ") });
   }
 
-  /** A line with a head at its end. */
-  arrow(from, to, look) {
+  segment(from, to, look) {
     this.line([from, to], look);
+  }
+
+  /** A segment with a head at its end. */
+  arrow(from, to, look) {
+    this.segment(from, to, look);
     const [[x0, y0], [x1, y1]] = [this.at(from), this.at(to)];
     const length = Math.hypot(x1 - x0, y1 - y0);
     if (length > 1) {
@@ -207,7 +211,7 @@ class Figure {
     node.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false }); // no scrolling instead
     node.addEventListener("pointermove", (event) => {
       if (node.hasPointerCapture(event.pointerId)) {
-        this.#change(handle.drag(view.under(event), this.#values));
+        this.#change(handle.drag(view.under(event)));
       }
     });
     node.addEventListener("keydown", (event) => {
@@ -216,9 +220,7 @@ class Figure {
       if (event.key in of) {
         event.preventDefault();
         const [name, by] = of[event.key];
-        const sign = name === up ? (handle.upwards ?? 1) : 1;
-        const { step, stride = step } = this.#description.numbers[name];
-        this.#change({ [name]: this.#values[name] + by * sign * stride });
+        this.#change({ [name]: this.#values[name] + by * this.#description.numbers[name].stride });
       }
     });
   }
