@@ -14,8 +14,18 @@ from raysteps.toolchain.compile import Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import limits_of
 
+Binaries = dict[str, Path]  # by the numbers of their steps
 
-def test_no_reference_is_in_a_box(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:
+
+@pytest.fixture(scope="module")
+def binaries(kit: BuiltKit, solved: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> Binaries:
+    """The solutions as a student's libraries, compiled once; each in a folder of its own, as a box sees the folder."""
+    folder = tmp_path_factory.mktemp("solved")
+    builds = {step: StudentBuild(kit, LimitsOnly(), folder / step.number) for step in kit.steps}
+    return {step.number: _compiled(build, step, solved[step.id]) for step, build in builds.items()}
+
+
+def test_no_reference_is_in_a_box(kit: BuiltKit, binaries: Binaries, tmp_path: Path) -> None:
     code = reference_code(kit)
     assert len(code) > 3 * len(kit.steps)
     # It would be found: every reference is in the program that draws the expected pictures.
@@ -23,7 +33,7 @@ def test_no_reference_is_in_a_box(kit: BuiltKit, solved: dict[str, str], tmp_pat
     assert sum(piece in whole for piece in code.values()) > 0.9 * len(code)
     for step in kit.steps:
         for together in (False, True):
-            program = _program(kit, step, solved, tmp_path / f"{step.number}{together}", together=together)
+            program = _program(kit, step, binaries, tmp_path / f"{step.number}{together}", together=together)
             own = [other.number for other in kit.steps if other == step or (together and other.index < step.index)]
             for given in Task(program.words).all_inputs():
                 if given.inner_name == "steps":
@@ -34,15 +44,17 @@ def test_no_reference_is_in_a_box(kit: BuiltKit, solved: dict[str, str], tmp_pat
             assert {path.stem.removeprefix("libstep-") for path in libraries.iterdir()} <= set(own)
 
 
-def _program(kit: BuiltKit, step: Step, sources: dict[str, str], folder: Path, *, together: bool) -> Program:
+def _compiled(build: StudentBuild, step: Step, source: str) -> Path:
+    compiled = build.compile(step, source.encode(), limits_of(step, {}))
+    assert compiled.binary is not None, compiled.ran.outcome.stderr
+    return compiled.binary
+
+
+def _program(kit: BuiltKit, step: Step, binaries: Binaries, folder: Path, *, together: bool = False) -> Program:
+    own = {other.number for other in kit.steps if other == step or (together and other.index < step.index)}
+    theirs = {number: binary for number, binary in binaries.items() if number in own}
     build = StudentBuild(kit, LimitsOnly(), folder)
-    binaries = {}
-    for other in kit.steps:
-        if other == step or (together and other.index < step.index):
-            compiled = build.compile(other, sources[other.id].encode(), limits_of(other, {}))
-            assert compiled.binary is not None, compiled.ran.outcome.stderr
-            binaries[other.number] = compiled.binary
-    program, ran = build.program("raytrace", step, binaries, limits_of(step, {}), together=together)
+    program, ran = build.program("raytrace", step, theirs, limits_of(step, {}), together=together)
     assert program is not None, ran
     assert program.home is not None
     return program
@@ -57,10 +69,10 @@ def _last_case(step: Step, project: Project, kit: BuiltKit, program: Program) ->
 
 @pytest.mark.parametrize("together", [False, True])
 def test_the_same_picture_and_the_same_counts(
-    kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path, *, together: bool
+    kit: BuiltKit, project: Project, binaries: Binaries, tmp_path: Path, *, together: bool
 ) -> None:
     for step in kit.steps:
-        program = _program(kit, step, solved, tmp_path / step.number, together=together)
+        program = _program(kit, step, binaries, tmp_path / step.number, together=together)
         scene, args, rendered = _last_case(step, project, kit, program)
         assert rendered.pixels is not None, rendered.ran.outcome.stderr
         assert (rendered.pixels == reference_picture(kit, scene, args)).all(), step.id
@@ -69,17 +81,15 @@ def test_the_same_picture_and_the_same_counts(
 
 @pytest.mark.parametrize(("at", "name"), [(5, "explicit-stack"), (8, "median-split")])
 def test_what_an_honest_search_does_between_two_tests_is_its_own(
-    kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path, *, at: int, name: str
+    kit: BuiltKit, project: Project, tmp_path: Path, *, at: int, name: str
 ) -> None:
     """Lists that are kept for the thread, and leaves in any order: as in one program, counts too."""
     step = kit.steps[at]
     source = (project.solutions / step.id / "alternatives" / f"{name}.cpp").read_text("utf-8")
-    boxed = _program(kit, step, {**solved, step.id: source}, tmp_path / "boxed", together=False)
     build = StudentBuild(kit.in_one_process(), LimitsOnly(), tmp_path / "one")
-    limits = limits_of(step, {})
-    compiled = build.compile(step, source.encode(), limits)
-    assert compiled.binary is not None
-    alone, _ = build.program("raytrace", step, {step.number: compiled.binary}, limits)
+    binaries = {step.number: _compiled(build, step, source)}
+    boxed = _program(kit, step, binaries, tmp_path / "boxed")
+    alone, _ = build.program("raytrace", step, binaries, limits_of(step, {}))
     assert alone is not None
     assert alone.home is None
     seen = [_last_case(step, project, kit, program)[2] for program in (boxed, alone)]
@@ -98,8 +108,10 @@ def test_a_box_that_ends_is_what_became_of_the_step(
     for number, (statement, code) in enumerate(endings.items()):
         source = "#include <cstdlib>\n" + solved[step.id]
         at = source.index("{", source.index(begins)) + 1
-        broken = {step.id: f"{source[:at]} if (x == 3 && y == 2) {{ {statement} }} {source[at:]}"}
-        program = _program(kit, step, broken, tmp_path / str(number), together=False)
+        broken = f"{source[:at]} if (x == 3 && y == 2) {{ {statement} }} {source[at:]}"
+        folder = tmp_path / str(number)
+        binary = _compiled(StudentBuild(kit, LimitsOnly(), folder), step, broken)
+        program = _program(kit, step, {step.number: binary}, folder)
         case = step.images[0]
         limits = limits_of(step, {"seconds": 2.0}).of_program()
         rendered = render(LimitsOnly(), program, project.root / case.scene, case.args, limits)
