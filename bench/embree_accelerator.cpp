@@ -8,7 +8,6 @@
 
 #include <array>
 #include <atomic>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -18,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "bench/foreign_hit.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 
@@ -196,26 +196,11 @@ private:
         return context;
     }
 
-    /// Where Embree found one of its own shapes: position and normal, on the side that the ray came from.
+    /// Where Embree found one of its own shapes.
     [[nodiscard]] HitRecord record(const Ray& ray, const RTCRayHit& answer) const {
-        const Surface& surface = *lists_[answer.hit.geomID][answer.hit.primID];
-        const glm::vec3 own_normal = glm::normalize(glm::vec3(answer.hit.Ng_x, answer.hit.Ng_y, answer.hit.Ng_z));
-        const bool front_face = glm::dot(own_normal, ray.direction) < 0.0F;
-        glm::vec3 normal = front_face ? own_normal : -own_normal;
-        if (answer.hit.geomID == k_smooth) {
-            const auto& triangle = static_cast<const SmoothTriangle&>(surface);
-            const glm::vec3 blended = (1.0F - answer.hit.u - answer.hit.v) * triangle.normal_a() +
-                                      answer.hit.u * triangle.normal_b() + answer.hit.v * triangle.normal_c();
-            const glm::vec3 unit = glm::normalize(blended);
-            normal = glm::dot(unit, ray.direction) > 0.0F ? -unit : unit;
-        }
-        const float distance = answer.ray.tfar;
-        return {.position = ray.origin + distance * ray.direction,
-                .fill = surface.fill(),
-                .normal = normal,
-                .ray_direction = ray.direction,
-                .distance = distance,
-                .front_face = front_face};
+        const RTCHit& hit = answer.hit;
+        const Surface& surface = *lists_[hit.geomID][hit.primID];
+        return foreign_hit(surface, ray, answer.ray.tfar, {hit.Ng_x, hit.Ng_y, hit.Ng_z}, hit.u, hit.v);
     }
 
     void attach(const Geometry& geometry, Kind kind) {

@@ -201,6 +201,9 @@ std::string bench_render(const std::vector<std::string>& words) {
     record(race.workload, *truth);
     race.sample = every(static_cast<std::size_t>(options.every), race.workload.rays);
     for (const Structure& structure : options.structures) {
+        if (!holds(structure, race.workload.scene.surfaces())) {
+            continue;
+        }
         Side& side = race.sides.emplace_back();
         side.structure = structure;
         side.accelerator = structure.make(race.workload.scene.surfaces());

@@ -73,6 +73,9 @@ std::string bench_scale(const std::vector<std::string>& arguments) {
     workload.scene.camera.width = size;
     workload.scene.camera.height = size;
     workload.options.step = k_step_with_shadows;
+    if (!holds(structure, workload.scene.surfaces())) {
+        throw UsageError(structure.name + " is not for surfaces such as those of " + kind);
+    }
     Findings found;
     std::unique_ptr<Accelerator> accelerator;
     for (int round = 0; round < rounds; ++round) {

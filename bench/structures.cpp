@@ -4,6 +4,8 @@
 #include <array>
 
 #include "bench/by_bounds.hpp"
+#include "bench/other_libraries.hpp"
+#include "core/triangle.hpp"
 #include "io/command_line.hpp"
 #include "io/json_writer.hpp"
 #include "render/accelerator_registry.hpp"
@@ -17,6 +19,13 @@ namespace {
 // In the order of the tables. A new Acceleration needs its place here; its name is the registry's.
 constexpr std::array k_own{Acceleration::none, Acceleration::boxes,       Acceleration::octree,
                            Acceleration::bvh,  Acceleration::wide_octree, Acceleration::wide};
+
+#ifdef RAYSTEPS_TINYBVH
+bool only_triangles(const SurfaceList& surfaces) {
+    return std::all_of(surfaces.begin(), surfaces.end(),
+                       [](const Surface* surface) { return dynamic_cast<const Triangle*>(surface) != nullptr; });
+}
+#endif
 
 bool is_slow(Acceleration kind) { return kind == Acceleration::none || kind == Acceleration::boxes; }
 
@@ -38,6 +47,12 @@ std::vector<Structure> make_table() {
     add_embree("embree", EmbreeMode::fast);
     add_embree("embree-high", EmbreeMode::high);
     add_embree("embree-robust", EmbreeMode::robust);
+#endif
+#ifdef RAYSTEPS_TINYBVH
+    table.push_back({.name = "tinybvh", .foreign = true, .can_hold = only_triangles, .make = make_tinybvh});
+#endif
+#ifdef RAYSTEPS_BVH_V2
+    table.push_back({.name = "bvh-v2", .foreign = true, .make = make_bvh_v2});
 #endif
     return table;
 }

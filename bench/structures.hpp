@@ -13,8 +13,14 @@ struct Structure {
     std::string name;
     bool slow = false;     ///< gets a sample of the rays and makes no whole picture
     bool foreign = false;  ///< somebody else's arithmetic: its hits are near the kit's, not the same
+    bool (*can_hold)(const SurfaceList&) = nullptr;  ///< where it is not for every scene
     std::function<std::unique_ptr<Accelerator>(const SurfaceList&)> make;
 };
+
+/// Whether the structure is for such a scene.
+[[nodiscard]] inline bool holds(const Structure& structure, const SurfaceList& surfaces) {
+    return structure.can_hold == nullptr || structure.can_hold(surfaces);
+}
 
 /// All that this program has.
 [[nodiscard]] const std::vector<Structure>& all_structures();
