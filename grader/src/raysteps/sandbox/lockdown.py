@@ -5,7 +5,6 @@ loads it by its path, so it imports nothing of the kit.
 import ctypes
 import errno
 import os
-import platform
 import struct
 import sys
 
@@ -120,9 +119,9 @@ def _step(code: int, value: int, if_true: int = 0, if_false: int = 0) -> bytes:
 
 def syscall_filter() -> bytes | None:
     """The instructions; none for a machine whose numbers are not known here."""
-    if sys.platform != "linux" or platform.machine() not in _KNOWN or sys.maxsize < 1 << 32:
+    if sys.platform != "linux" or os.uname().machine not in _KNOWN or sys.maxsize < 1 << 32:
         return None
-    architecture, numbers, clone, prlimit = _KNOWN[platform.machine()]
+    architecture, numbers, clone, prlimit = _KNOWN[os.uname().machine]
     refuse = _step(_RETURN, _ERRNO | errno.EPERM)
     steps = [_step(_LOAD, _ARCHITECTURE), _step(_EQUAL, architecture, 1, 0), _step(_RETURN, _KILL)]
     steps += [_step(_LOAD, _NUMBER), _step(_AT_LEAST, _X32, 0, 1), refuse]

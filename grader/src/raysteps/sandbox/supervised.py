@@ -1,6 +1,6 @@
 """Runs tasks under the keeper: what the sandboxes without namespaces have in common."""
 
-import json
+import marshal
 import math
 import os
 import signal
@@ -125,7 +125,7 @@ class SupervisedSandbox:
         stack.callback(os.close, status)
         stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
         start = time.monotonic()
-        keeper = [sys.executable, "-I", "-S", str(_KEEPER), json.dumps(settings | {"status": status_end})]
+        keeper = [sys.executable, "-I", "-S", str(_KEEPER), marshal.dumps(settings | {"status": status_end}).hex()]
         try:
             process = stack.enter_context(
                 subprocess.Popen(
