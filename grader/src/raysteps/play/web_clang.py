@@ -47,6 +47,7 @@ class WebClang:
         self._package = package
         self._cache = cache
         self._say = say
+        self._ready: dict[Path, Any] = {}
 
     @property
     def used(self) -> list[Path]:
@@ -98,10 +99,12 @@ class WebClang:
         return self._run(self._llvm, words, places)
 
     def program(self, wasm: Path, words: Sequence[str], places: Mapping[str, Path]) -> ProgramResult:
-        """One that was linked."""
+        """One that was linked. It stays ready: some draw many pictures."""
         from wasmtime import Module
 
-        return self._run(Module.from_file(self._engine, str(wasm)), words, places)
+        if wasm not in self._ready:
+            self._ready[wasm] = Module.from_file(self._engine, str(wasm))
+        return self._run(self._ready[wasm], words, places)
 
     def _run(self, module: Any, words: Sequence[str], places: Mapping[str, Path]) -> ProgramResult:
         from wasmtime import ExitTrap, FuncType, Linker, Store, Trap, ValType, WasiConfig
