@@ -29,7 +29,11 @@ void camera_figure(Numbers numbers, JsonWriter& json);
 void sphere_figure(Numbers numbers, JsonWriter& json);
 void triangle_figure(Numbers numbers, JsonWriter& json);
 
-// Steps 07 and 08.
+// Steps 03 to 06.
+void phong_figure(Numbers numbers, JsonWriter& json);
+void shadow_figure(Numbers numbers, JsonWriter& json);
+
+// Steps 07 to 09.
 void tone_figure(Numbers numbers, JsonWriter& json);
 void glass_figure(Numbers numbers, JsonWriter& json);
 

@@ -234,3 +234,46 @@ def test_a_ray_is_bent_by_glass_until_nothing_gets_out(
     says(heard, r"In air it goes on along")
     _assert_fast(page, "glass")
     assert_accessible(page)
+
+
+def test_a_larger_shine_makes_the_highlight_narrower(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("03")
+    words, figure = _words(page, "phong"), _figure(page, "phong")
+    says(words, "It waits for mirror and diffuse and specular and shade: not written yet")
+    save(page, solved["03-phong-shading"])
+    diffuse = _states(project, steps[2], "diffuse = (0.48, 0.24, 0)").removeprefix("diffuse\\ =\\ ")
+    mirrored = _states(project, steps[2], "r = (-0.6, 0, 0.8)").removeprefix("r\\ =\\ ")
+    says(words, rf"Diffuse {diffuse}\. The light is mirrored along {mirrored}, specular \(0\.32, 0\.32, 0\.32\)")
+    assert _states(project, steps[2], "(0.80, 0.56, 0.32)")
+    says(words, r"The sum is \(0\.8, 0\.56, 0\.32\)")
+    shine = figure.get_by_role("slider", name="shine")
+    shine.press("ArrowRight")
+    says(words, r"specular \(0\.256, 0\.256, 0\.256\)")  # 0.5 times 0.8 to the third
+    light = figure.get_by_role("slider", name="Light", exact=True)
+    _drag(page, light, (2000, 0))
+    says(words, r"The light is mirrored along \(-0\.7071, 0, 0\.7071\)")
+    _assert_fast(page, "phong")
+    assert_accessible(page)
+
+
+def test_a_threshold_too_small_brings_acne_and_one_too_large_light(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("04")
+    words, figure = _words(page, "shadow"), _figure(page, "shadow")
+    says(words, "It waits for shadow_ray and is_lit: not written yet")
+    save(page, solved["04-shadows"])
+    start = _states(project, steps[3], "(1, 2, 0.001)")
+    direction = _states(project, steps[3], "(0.6001, 0, 0.7999)")
+    says(words, rf"starts at {start} along {direction}: in shadow\. .* 0 are dark and 0 lit")
+    threshold = figure.get_by_role("slider", name="Threshold")
+    threshold.press("Home")
+    says(words, r"starts at \(1, 2, 0\) .* 1\d{3} are dark and \d lit .* shadow acne")
+    threshold.press("End")
+    says(words, r"starts at \(1, 2, 0\.1\) .* \d\d? are dark and [1-9]\d+ lit")
+    _drag(page, figure.get_by_role("slider", name="Hit", exact=True), (2000, 0))
+    says(words, r": lit\. ")
+    _assert_fast(page, "shadow")
+    assert_accessible(page)

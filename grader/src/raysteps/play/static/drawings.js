@@ -4,9 +4,17 @@
 
 import { CAMERA } from "./drawing-camera.js";
 import { GLASS } from "./drawing-glass.js";
+import { PHONG, SHADOW } from "./drawing-light.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
 import { TONE } from "./drawing-tone.js";
 
-const OF_STEPS = { "01": [CAMERA], "02": [SPHERE, TRIANGLE], "07": [TONE], "08": [GLASS] };
+const OF_STEPS = {
+  "01": [CAMERA],
+  "02": [SPHERE, TRIANGLE],
+  "03": [PHONG],
+  "04": [SHADOW],
+  "07": [TONE],
+  "08": [GLASS],
+};
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];

@@ -94,10 +94,11 @@ class View {
     this.#add("circle", look, { cx, cy, r: radius * this.#scale[0] });
   }
 
-  /** What is filled between two corners: glass, say. */
+  /** What is filled between two corners, whichever: glass, or a box. */
   area(corner, other) {
     const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
-    this.#add("rect", "area", { x, y, width: x1 - x, height: y1 - y });
+    const [width, height] = [Math.abs(x1 - x), Math.abs(y1 - y)];
+    this.#add("rect", "area", { x: Math.min(x, x1), y: Math.min(y, y1), width, height });
   }
 
   words(point, text) {
