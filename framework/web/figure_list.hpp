@@ -32,6 +32,7 @@ void triangle_figure(Numbers numbers, JsonWriter& json);
 // Steps 03 to 06.
 void phong_figure(Numbers numbers, JsonWriter& json);
 void shadow_figure(Numbers numbers, JsonWriter& json);
+void mirrors_figure(Numbers numbers, JsonWriter& json);
 
 // Steps 07 to 09.
 void tone_figure(Numbers numbers, JsonWriter& json);

@@ -277,3 +277,22 @@ def test_a_threshold_too_small_brings_acne_and_one_too_large_light(
     says(words, r": lit\. ")
     _assert_fast(page, "shadow")
     assert_accessible(page)
+
+
+def test_the_light_between_two_mirrors_grows_with_the_limit(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("05")
+    words, figure = _words(page, "mirrors"), _figure(page, "mirrors")
+    says(words, "It waits for trace: not written yet")
+    save(page, solved["05-reflection"])
+    assert _states(project, steps[4], "depth 1: 1.75")
+    says(words, r"With a limit of 3, 1\.75 arrives")
+    assert _states(project, steps[4], "depth 2: 1.5")
+    limit = figure.get_by_role("slider", name="Limit of the depth").first
+    limit.press("ArrowLeft")
+    says(words, r"With a limit of 2, 1\.5 arrives")
+    _drag(page, limit, (2000, 0))
+    says(words, r"With a limit of 8, 1\.99\d+ arrives")
+    _assert_fast(page, "mirrors")
+    assert_accessible(page)

@@ -5,6 +5,7 @@
 import { CAMERA } from "./drawing-camera.js";
 import { GLASS } from "./drawing-glass.js";
 import { PHONG, SHADOW } from "./drawing-light.js";
+import { MIRRORS } from "./drawing-mirrors.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
 import { TONE } from "./drawing-tone.js";
 
@@ -13,6 +14,7 @@ const OF_STEPS = {
   "02": [SPHERE, TRIANGLE],
   "03": [PHONG],
   "04": [SHADOW],
+  "05": [MIRRORS],
   "07": [TONE],
   "08": [GLASS],
 };
