@@ -33,9 +33,11 @@ void triangle_figure(Numbers numbers, JsonWriter& json);
 void phong_figure(Numbers numbers, JsonWriter& json);
 void shadow_figure(Numbers numbers, JsonWriter& json);
 void mirrors_figure(Numbers numbers, JsonWriter& json);
+void octree_figure(Numbers numbers, JsonWriter& json);
 
 // Steps 07 to 09.
 void tone_figure(Numbers numbers, JsonWriter& json);
 void glass_figure(Numbers numbers, JsonWriter& json);
+void cuts_figure(Numbers numbers, JsonWriter& json);
 
 }  // namespace raysteps

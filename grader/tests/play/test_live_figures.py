@@ -296,3 +296,44 @@ def test_the_light_between_two_mirrors_grows_with_the_limit(
     says(words, r"With a limit of 8, 1\.99\d+ arrives")
     _assert_fast(page, "mirrors")
     assert_accessible(page)
+
+
+def test_boxes_light_up_along_a_ray_that_is_dragged(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("06")
+    words, figure = _words(page, "octree"), _figure(page, "octree")
+    says(words, "It waits for .*build_octree.*: not written yet")
+    save(page, solved["06-octree"])
+    assert _states(project, steps[5], "enter = 3.33, leave = 5")
+    says(words, r"along \(0\.6, 0, -0\.8\): in the box from 3\.3333 to 5\. .* \d+ tests of boxes and \d+ of balls")
+    aim = figure.get_by_role("slider", name="Where the ray is aimed at")
+    _drag(page, aim, (0, -2000))
+    says(words, r"it misses the box\. No ball is hit, after \d+ tests of boxes and 0 of balls")
+    assert figure.locator(".live-area").count() == 0
+    for _ in range(8):
+        aim.press("ArrowDown")
+    says(words, r"in the box from")
+    assert figure.locator(".live-area").count() > 1
+    _assert_fast(page, "octree")
+    assert_accessible(page)
+
+
+def test_each_cut_has_its_cost(opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]) -> None:
+    page = opened("09", width=390)
+    words, figure = _words(page, "cuts"), _figure(page, "cuts")
+    says(words, "It waits for split_cost and surface_area: not written yet|It waits for surface_area and split_cost")
+    save(page, solved["09-bvh"])
+    assert _states(project, steps[8], "1 + 3.6 + 0.4 = 5")
+    says(words, r"The area of the whole: 40\. Left 9 in a box of 16, right 1 in a box of 16: the cut costs 5\.")
+    assert _states(project, steps[8], "the cost is 1 + 2 + 4.75 = 7.75")
+    figure.get_by_role("slider", name="Cut at x").fill("0.55")
+    says(words, r"Left 5 in a box of 16, right 5 in a box of 38: the cut costs 7\.75")
+    _drag(page, figure.get_by_role("slider", name="Cut", exact=True), (120, 0))
+    says(words, r"Left 9 in a box of 16, right 1 in a box of 16: the cut costs 5\.")
+    last = figure.get_by_role("slider", name="The last surface", exact=True)
+    last.press("ArrowLeft")
+    says(words, r"The area of the whole: 38\. ")
+    _assert_fast(page, "cuts")
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)

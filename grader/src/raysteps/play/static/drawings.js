@@ -8,6 +8,7 @@ import { PHONG, SHADOW } from "./drawing-light.js";
 import { MIRRORS } from "./drawing-mirrors.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
 import { TONE } from "./drawing-tone.js";
+import { CUTS, OCTREE } from "./drawing-trees.js";
 
 const OF_STEPS = {
   "01": [CAMERA],
@@ -15,8 +16,10 @@ const OF_STEPS = {
   "03": [PHONG],
   "04": [SHADOW],
   "05": [MIRRORS],
+  "06": [OCTREE],
   "07": [TONE],
   "08": [GLASS],
+  "09": [CUTS],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];
