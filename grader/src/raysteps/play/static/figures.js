@@ -1,13 +1,15 @@
 // Live figures: what the functions of the student's last build say to the reader's numbers, drawn in the handout. This
 // is how a figure is moved, asked and described; what each of them draws stands in drawings.js.
 
-import { drawingsOf, said } from "./drawings.js";
+import { said } from "./drawing-words.js";
+import { drawingsOf } from "./drawings.js";
 import { Runner } from "./programs.js";
 
 const SECONDS = 4; // for one answer
 const SVG = "http://www.w3.org/2000/svg";
 const MARGIN = 12; // around what a view shows, in its own pixels
 const WIDTH = 320;
+const REST = 600; // milliseconds without a change, until what is seen is read out
 let lastId = 0;
 
 function svg(tag, attributes = {}, ...children) {
@@ -22,6 +24,7 @@ function svg(tag, attributes = {}, ...children) {
 /** What a view shows: the world's x runs to the right, y up; both have the same scale unless the view has its own. */
 class View {
   #scene = svg("g", { "aria-hidden": "true" });
+  #canvas = document.createElement("canvas");
   #box;
   #scale;
 
@@ -91,9 +94,27 @@ class View {
     this.#add("circle", look, { cx, cy, r: radius * this.#scale[0] });
   }
 
+  /** What is filled between two corners, whichever: glass, or a box. */
+  area(corner, other) {
+    const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
+    const [width, height] = [Math.abs(x1 - x), Math.abs(y1 - y)];
+    this.#add("rect", "area", { x: Math.min(x, x1), y: Math.min(y, y1), width, height });
+  }
+
   words(point, text) {
     const [x, y] = this.at(point);
     this.#scene.append(svg("text", { class: "live-words", x, y }, text));
+  }
+
+  /** A picture between two corners, six hexadecimal digits a pixel, so many in a row. */
+  picture(corner, other, digits, width) {
+    const pixels = Uint8ClampedArray.from({ length: (digits.length / 6) * 4 }, (_, at) =>
+      at % 4 === 3 ? 255 : Number.parseInt(digits.substr(6 * (at >> 2) + 2 * (at % 4), 2), 16),
+    );
+    const data = new ImageData(pixels, width);
+    Object.assign(this.#canvas, { width, height: data.height }).getContext("2d").putImageData(data, 0, 0);
+    const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
+    this.#add("image", "picture", { x, y, width: x1 - x, height: y1 - y, href: this.#canvas.toDataURL() });
   }
 
   /** A rectangle between two corners, filled with red, green and blue in bytes. */
@@ -111,6 +132,9 @@ class Figure {
   #views = [];
   #handles = [];
   #says;
+  #announced;
+  #resting;
+  #isDragged = false;
   #ask;
 
   /** `ask` is called when the reader has changed a number. */
@@ -118,7 +142,8 @@ class Figure {
     this.#description = description;
     this.#ask = ask;
     const title = `live-${++lastId}`;
-    this.#says = make("p", { class: "live-says", role: "status" }, "");
+    this.#says = make("p", { class: "live-says" }, "");
+    this.#announced = make("p", { class: "hidden-text", role: "status" }, "");
     this.node = make(
       "section",
       { class: "live", "aria-labelledby": title, "data-figure": description.name },
@@ -126,6 +151,7 @@ class Figure {
       make("p", {}, description.intro),
       make("div", { class: "live-views" }),
       this.#says,
+      this.#announced,
       make("div", { class: "live-sliders" }),
     );
     for (const [name, number] of Object.entries(description.numbers)) {
@@ -156,12 +182,12 @@ class Figure {
     return { values, words: [this.#description.name, ...this.#description.ask(values)].map(String) };
   }
 
-  #slider(name, { label, min, max, step, unit = "" }) {
+  #slider(name, { label, min, max, step }) {
     const id = `live-${++lastId}`;
     const input = make("input", { id, type: "range", min, max, step });
     const output = make("output", { for: id, "aria-hidden": "true" });
     input.addEventListener("input", () => this.#change({ [name]: Number(input.value) }));
-    this.#inputs[name] = { input, output, unit };
+    this.#inputs[name] = { input, output };
     return make("div", {}, make("label", { for: id }, label), " ", output, input);
   }
 
@@ -176,14 +202,20 @@ class Figure {
     this.#ask();
   }
 
+  #valueInWords(name) {
+    const { words, unit = "" } = this.#description.numbers[name];
+    return words ? words[this.#values[name]] : said(this.#values[name]) + unit;
+  }
+
   #showNumbers() {
-    for (const [name, most] of Object.entries(this.#description.most?.(this.#values) ?? {})) {
-      this.#inputs[name].input.max = most;
-      this.#values[name] = Math.min(most, this.#values[name]);
+    for (const [name, limit] of Object.entries(this.#description.limits?.(this.#values) ?? {})) {
+      this.#inputs[name].input.max = limit;
+      this.#values[name] = Math.min(limit, this.#values[name]);
     }
-    for (const [name, { input, output, unit }] of Object.entries(this.#inputs)) {
+    for (const [name, { input, output }] of Object.entries(this.#inputs)) {
       input.value = this.#values[name];
-      output.textContent = said(this.#values[name]) + unit;
+      output.textContent = this.#valueInWords(name);
+      input.setAttribute("aria-valuetext", output.textContent);
     }
     for (const { node, view, handle } of this.#handles) {
       const [x, y] = view.at(handle.place(this.#values));
@@ -192,7 +224,7 @@ class Figure {
       node.setAttribute("aria-valuenow", this.#values[name]);
       node.setAttribute("aria-valuemin", this.#inputs[name].input.min);
       node.setAttribute("aria-valuemax", this.#inputs[name].input.max);
-      const texts = handle.moves.map((one) => `${this.#description.numbers[one].label} ${said(this.#values[one])}`);
+      const texts = handle.moves.map((one) => `${this.#description.numbers[one].label} ${this.#valueInWords(one)}`);
       node.setAttribute("aria-valuetext", texts.join(", "));
     }
   }
@@ -207,6 +239,11 @@ class Figure {
       const nearest = this.#nearest(view, event);
       nearest.focus();
       nearest.setPointerCapture(event.pointerId);
+      this.#isDragged = true;
+    });
+    node.addEventListener("lostpointercapture", () => {
+      this.#isDragged = false;
+      this.#announce();
     });
     node.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false }); // no scrolling instead
     node.addEventListener("pointermove", (event) => {
@@ -242,7 +279,7 @@ class Figure {
       view.clear();
     }
     this.node.dataset.state = "waiting";
-    this.#says.textContent = text;
+    this.#say(text);
   }
 
   /** The answer to a question with these numbers, which may have been changed since. */
@@ -252,7 +289,22 @@ class Figure {
       view.draw(view, values, answer);
     }
     this.node.dataset.state = "drawn";
-    this.#says.textContent = this.#description.says(values, answer);
+    this.#say(this.#description.says(values, answer));
+  }
+
+  #say(text) {
+    this.#says.textContent = text;
+    this.#announce();
+  }
+
+  /** A screen reader hears of it when it rests: not at each frame of a drag. */
+  #announce() {
+    clearTimeout(this.#resting);
+    if (!this.#isDragged) {
+      this.#resting = setTimeout(() => {
+        this.#announced.textContent = this.#says.textContent;
+      }, REST);
+    }
   }
 }
 
