@@ -176,11 +176,12 @@ class WebKit:
 
     @cached_property
     def _headers_mark(self) -> bytes:
-        """Changes with every header."""
+        """Changes with every header but those that only the page's own sources include."""
         digest = hashlib.sha256(f"{self._clang.wasm.parent.parent.name}\0{self.libraries.name}\0".encode())
         own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
         for path in sorted(own):
-            digest.update(f"{self._name(path)}\0".encode() + path.read_bytes())
+            if path.parent.name != "web":
+                digest.update(f"{self._name(path)}\0".encode() + path.read_bytes())
         return digest.digest()
 
     def _name(self, path: Path) -> str:
@@ -188,6 +189,8 @@ class WebKit:
 
     def _mark(self, source: Path, command: Sequence[str]) -> str:
         digest = hashlib.sha256(self._headers_mark)
+        for path in sorted(source.parent.glob("*.hpp")):
+            digest.update(f"{path.name}\0".encode() + path.read_bytes())
         digest.update("\0".join(command).encode() + source.read_bytes())
         return digest.hexdigest()
 
