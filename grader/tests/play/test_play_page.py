@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import threading
+import zipfile
 from collections.abc import Iterator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -262,6 +263,59 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
     )
     save(page, solved[step.id])
     _says(page, rf"Step {step.number} is right", timeout=STARTED)
+
+
+def test_one_tab_writes_and_the_other_reads(page: "Page", server: PlayServer, solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    first, second = page, page.context.new_page()
+    second.goto(server.address)
+    expect(first.locator("#play-elsewhere")).to_be_hidden()
+    expect(second.locator("#play-elsewhere")).to_be_visible()
+    stub = _source(second)
+    write(second, "// lost\n")
+    assert _source(second) == stub
+    second.get_by_role("button", name="Write here instead").click()
+    expect(first.locator("#play-elsewhere")).to_be_visible()
+    expect(second.locator("#play-elsewhere")).to_be_hidden()
+    write(first, "// lost\n")
+    save(second, solved["01-camera-rays"])
+    _says(second, r"Step 01 is right", timeout=STARTED)
+    second.close()
+    expect(first.locator("#play-elsewhere")).to_be_hidden()
+    assert _POINT in _source(first), "what the other tab wrote"
+    save(first, f"{solved['01-camera-rays']}// mine\n")
+    _says(first, r"Step 01 is right")
+
+
+def test_a_saved_zip_is_opened_and_the_next_step_comes(
+    page: "Page", steps: list[Step], solved: dict[str, str], tmp_path: Path
+) -> None:
+    from playwright.sync_api import expect
+
+    first, second = steps[:2]
+    saved = tmp_path / "saved.zip"
+    with zipfile.ZipFile(saved, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(f"mine/steps/{first.path.as_posix()}", solved[first.id])
+        archive.writestr(second.file, "// of step 02, by its name alone\n")
+        archive.writestr("notes.txt", "no step")
+    write(page, "// what was there\n")
+    expect(page.locator("#play-next")).to_be_hidden()
+    page.locator("#play-zip").set_input_files(saved)
+    _says(page, r"Step 01 is right")
+    expect(page.locator("#play-kept")).to_have_text("saved.zip: taken from it: step 01, 02.")
+    page.get_by_role("button", name="Next step").click()
+    expect(page.locator("#play-step")).to_have_value("02")
+    _says(page, r"It does not compile\.", timeout=STARTED)
+    assert _source(page).startswith("// of step 02")
+    page.locator("#play-step").select_option("01")
+    _says(page, r"Step 01 is right", timeout=STARTED)
+    page.get_by_role("button", name="Bring back what I wrote").click()
+    _says(page, r"It does not compile\.")
+    assert _source(page).startswith("// what was there")
+    (tmp_path / "no.zip").write_text("no zip")
+    page.locator("#play-zip").set_input_files(tmp_path / "no.zip")
+    _says(page, r"no\.zip cannot be read\. Expected a zip that this page saved, or one that you hand in\.")
 
 
 def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:

@@ -44,6 +44,10 @@ function completions(names) {
 /** What is typed over a selection: a browser would do it with styles of its own, which the page's policy forbids. */
 function typedOver(event, view) {
   const { from, to } = view.state.selection.main;
+  if (view.state.readOnly) {
+    event.preventDefault();
+    return true;
+  }
   if (event.inputType !== "insertText" || event.isComposing || !event.data || from === to) {
     return false;
   }
@@ -69,8 +73,10 @@ export class Editor {
     this.label = label;
   }
 
-  #extensions() {
+  #extensions(isReadOnly) {
     return [
+      EditorState.readOnly.of(isReadOnly),
+      EditorView.editable.of(!isReadOnly),
       lineNumbers(),
       history(),
       drawSelection(),
@@ -89,7 +95,12 @@ export class Editor {
       EditorView.lineWrapping,
       LOOK,
       EditorView.domEventHandlers({ beforeinput: typedOver }),
-      EditorView.contentAttributes.of({ "aria-label": this.label, spellcheck: "false", tabindex: "0" }),
+      EditorView.contentAttributes.of({
+        "aria-label": this.label,
+        "aria-readonly": String(isReadOnly),
+        spellcheck: "false",
+        tabindex: "0",
+      }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged && !this.#isLoading) {
           this.#changed();
@@ -108,10 +119,10 @@ export class Editor {
   }
 
   /** Begins with another text. */
-  load(text, names) {
+  load(text, names, isReadOnly = false) {
     this.#names = names;
     this.#isLoading = true;
-    this.#view.setState(EditorState.create({ doc: text, extensions: this.#extensions() }));
+    this.#view.setState(EditorState.create({ doc: text, extensions: this.#extensions(isReadOnly) }));
     this.#isLoading = false;
   }
 

@@ -5,13 +5,14 @@ import { Figures } from "./figures.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner } from "./programs.js";
 import { readReport } from "./report.js";
-import { Work, zipOf } from "./work.js";
+import { Turn, textsIn, Work, zipOf } from "./work.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
 const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
+const turnOf = (step) => `raysteps-play ${step.id}`; // of the tab that writes it
 const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
 
 /** The functions of a source that still say that they are not written. */
@@ -49,6 +50,8 @@ function whyNothing(ran, what) {
 
 class Page {
   #work;
+  #turn = new Turn();
+  #isMine = false; // whether this tab writes the step
   #step = null;
   #editor;
   #compiler;
@@ -74,6 +77,12 @@ class Page {
     element("play-run").addEventListener("click", () => this.run());
     element("play-stop").addEventListener("click", () => this.stop());
     element("play-save").addEventListener("click", () => this.#saveZip());
+    element("play-load").addEventListener("click", () => element("play-zip").click());
+    element("play-zip").addEventListener("change", (event) => this.#openZip(event.target));
+    element("play-next").addEventListener("click", () => {
+      location.hash = this.#next.number;
+    });
+    element("play-here").addEventListener("click", () => this.#writeHere());
     element("play-hint").addEventListener("click", () => this.#hint());
     element("play-reset").addEventListener("click", () => element("play-really").showModal());
     element("play-really").addEventListener("close", (event) => {
@@ -101,6 +110,8 @@ class Page {
       return;
     }
     const handout = await (await fetch(`steps/${wanted.number}.html`)).text();
+    await this.#keep(); // before another tab may have it
+    const isMine = await this.#turn.take(turnOf(wanted), (now) => this.#changeTurn(now));
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
     const old = await this.#work.read(replaced(wanted));
     await this.#keep();
@@ -110,7 +121,8 @@ class Page {
     const before = this.#step;
     this.stop();
     this.#step = wanted; // and its text with it, without a pause: what is kept is always the step's own
-    this.#editor.load(source, wanted.names);
+    this.#show(source, isMine);
+    element("play-next").hidden = true;
     element("play-step").value = wanted.number;
     document.title = `${wanted.number} ${wanted.title} · Raysteps`;
     element("play-file").textContent = wanted.path;
@@ -128,6 +140,38 @@ class Page {
     }
   }
 
+  get #next() {
+    return data.steps[data.steps.indexOf(this.#step) + 1];
+  }
+
+  /** The text of the step, which can be changed if this tab is the one that writes it. */
+  #show(source, isMine) {
+    this.#isMine = isMine;
+    this.#editor.load(source, this.#step.names, !isMine);
+    element("play-elsewhere").hidden = isMine;
+    for (const room of ["play-reset", "play-back", "play-load"]) {
+      element(room).disabled = !isMine;
+    }
+  }
+
+  /** Another tab took the step, or gave it back. */
+  async #changeTurn(isMine) {
+    const step = this.#step;
+    const source = isMine ? ((await this.#work.read(step.id)) ?? step.stub) : this.#editor.text;
+    if (step === this.#step) {
+      this.#show(source, isMine);
+    }
+  }
+
+  async #writeHere() {
+    const step = this.#step;
+    const isMine = await this.#turn.take(turnOf(step), (now) => this.#changeTurn(now), true);
+    if (step === this.#step) {
+      await this.#changeTurn(isMine);
+      this.#editor.focus(); // the button is gone
+    }
+  }
+
   #changed() {
     clearTimeout(this.#keepTimer);
     element("play-kept").textContent = "";
@@ -136,7 +180,11 @@ class Page {
 
   async #keep() {
     clearTimeout(this.#keepTimer);
-    if (this.#step && (this.#editor.text !== this.#step.stub || (await this.#work.read(this.#step.id)))) {
+    if (
+      this.#step &&
+      this.#isMine &&
+      (this.#editor.text !== this.#step.stub || (await this.#work.read(this.#step.id)))
+    ) {
       await this.#work.write(this.#step.id, this.#editor.text);
       element("play-kept").textContent = "Kept in this browser.";
     }
@@ -195,6 +243,48 @@ class Page {
     const link = make("a", { href: URL.createObjectURL(zipOf(texts)), download: "my-steps.zip" });
     link.click();
     URL.revokeObjectURL(link.href);
+  }
+
+  /** What was saved, in place of what is kept; that can be brought back. */
+  async #openZip(input) {
+    const [zip] = input.files;
+    input.value = "";
+    let texts = {};
+    try {
+      texts = await textsIn(zip);
+    } catch {
+      this.#say("bad", `${zip.name} cannot be read. Expected a zip that this page saved, or one that you hand in.`);
+      return;
+    }
+    await this.#keep();
+    const [opened, left] = [[], []];
+    for (const step of data.steps) {
+      const file = step.path.split("/").at(-1);
+      const paths = Object.keys(texts);
+      const path =
+        paths.find((one) => `/${one}`.endsWith(`/${step.path}`)) ?? paths.find((one) => one.split("/").at(-1) === file);
+      if (path === undefined) {
+        continue;
+      }
+      if (step !== this.#step && !(await Turn.isFree(turnOf(step)))) {
+        left.push(step.number);
+        continue;
+      }
+      const old = await this.#work.read(step.id);
+      if (old && old !== texts[path]) {
+        await this.#work.write(replaced(step), old);
+      }
+      await this.#work.write(step.id, texts[path]);
+      opened.push(step.number);
+    }
+    if (opened.includes(this.#step.number)) {
+      this.#show(await this.#work.read(this.#step.id), this.#isMine);
+      this.#offer(await this.#work.read(replaced(this.#step)));
+    }
+    await this.run();
+    const elsewhere = left.length ? ` Open in another tab, and left as they are: ${left.join(", ")}.` : "";
+    const found = opened.length ? `taken from it: step ${opened.join(", ")}` : "it holds no file of a step";
+    element("play-kept").textContent = `${zip.name}: ${found}.${elsewhere}`;
   }
 
   #hint() {
@@ -538,6 +628,7 @@ class Page {
     const words = `${passed} of ${tests.length} tests pass, ${right} of ${pictures.length} pictures are right`;
     this.#say(done ? "good" : "bad", `Step ${step.number}${done ? " is right" : ""}: ${words}.`);
     element("play-times").textContent = seconds;
+    element("play-next").hidden = !done || !this.#next;
   }
 }
 

@@ -38,6 +38,90 @@ export class Work {
   }
 }
 
+const PATIENCE = 500; // milliseconds until another tab is thought to have it: one that is closed gives it back at once
+
+/** The right to write something, which one tab has at a time. Where a browser keeps none, as on addresses that are not
+ * safe, every tab has it. */
+export class Turn {
+  #count = 0;
+  #end = () => {};
+  #ended = Promise.resolve();
+
+  /** Gives back what this tab has, and asks for `name`: true as soon as it may write, false while another tab does.
+   * `changed` hears of what becomes of it later. `steal` takes it from the other tab. */
+  async take(name, changed, steal = false) {
+    const turn = ++this.#count;
+    this.#end();
+    await this.#ended;
+    if (turn !== this.#count || !navigator.locks) {
+      return turn === this.#count;
+    }
+    const stop = new AbortController();
+    const waits = { signal: stop.signal };
+    return new Promise((resolve) => {
+      let tell = (isMine) => {
+        tell = (now) => turn === this.#count && changed(now);
+        resolve(isMine);
+      };
+      const waiting = setTimeout(() => tell(false), PATIENCE);
+      const hold = () => {
+        clearTimeout(waiting);
+        tell(true);
+        return new Promise((end) => {
+          this.#end = end;
+        });
+      };
+      const ask = (options) => {
+        this.#end = () => stop.abort();
+        return navigator.locks.request(name, options, hold).catch(() => {
+          clearTimeout(waiting);
+          tell(false);
+          return turn === this.#count ? ask(waits) : null; // another tab took it, and may give it back
+        });
+      };
+      this.#ended = ask(steal ? { steal } : waits);
+    });
+  }
+
+  /** Whether no tab has it, this one neither. */
+  static async isFree(name) {
+    return !navigator.locks || navigator.locks.request(name, { ifAvailable: true }, (lock) => lock !== null);
+  }
+}
+
+const MOST_OF_A_SOURCE = 1 << 20; // bytes
+
+/** The files of a zip, not packed or deflated, by their paths; large ones are left out. Throws where it is none. */
+export async function textsIn(zip) {
+  const bytes = await zip.arrayBuffer();
+  const view = new DataView(bytes);
+  const decoder = new TextDecoder();
+  let end = bytes.byteLength - 22;
+  while (view.getUint32(end, true) !== 0x06054b50) {
+    end--;
+  }
+  const texts = {};
+  let at = view.getUint32(end + 16, true);
+  for (let left = view.getUint16(end + 10, true); left > 0; left--) {
+    const [packing, packed, size] = [
+      view.getUint16(at + 10, true),
+      view.getUint32(at + 20, true),
+      view.getUint32(at + 24, true),
+    ];
+    const lengths = [28, 30, 32].map((place) => view.getUint16(at + place, true));
+    const name = decoder.decode(new Uint8Array(bytes, at + 46, lengths[0]));
+    const local = view.getUint32(at + 42, true);
+    const start = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
+    if (size <= MOST_OF_A_SOURCE && packed <= MOST_OF_A_SOURCE) {
+      const data = new Blob([new Uint8Array(bytes, start, packed)]);
+      const plain = packing ? data.stream().pipeThrough(new DecompressionStream("deflate-raw")) : data.stream();
+      texts[name] = await new Response(plain).text();
+    }
+    at += 46 + lengths.reduce((sum, length) => sum + length, 0);
+  }
+  return texts;
+}
+
 const CRC = Array.from({ length: 256 }, (_, byte) => {
   let value = byte;
   for (let bit = 0; bit < 8; bit++) {
