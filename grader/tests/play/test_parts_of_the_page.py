@@ -125,14 +125,17 @@ def test_a_page_is_published_where_nothing_else_is(tmp_path: Path) -> None:
     made = tmp_path / "site"
     (made / "steps").mkdir(parents=True)
     (made / "steps" / "01.html").write_text("one", "utf-8")
-    (made / "index.html").write_text("all", "utf-8")
+    (made / "index.html").write_text('<html lang="en">', "utf-8")
+    (made / "offline.js").write_text('("@EDITION@", ["@FIRST@"])', "utf-8")
+    (made / "play.js").write_text("play", "utf-8")
     kit = Project(tmp_path / "kit")  # without solutions
     (tmp_path / "empty").mkdir()
     for name in ("new/play", "empty"):
         refuse_to_publish(kit, tmp_path / name)
         publish(made, tmp_path / name)
         assert (tmp_path / name / "steps" / "01.html").read_text("utf-8") == "one"
-        assert (tmp_path / name / "index.html").read_text("utf-8") == "all"
+        assert (tmp_path / name / "index.html").read_text("utf-8") == '<html data-published lang="en">'
+        assert (tmp_path / name / "offline.js").read_text("utf-8") == '("site", ["./", "play.js"])'
         with pytest.raises(UsageError, match="expected the name of a new or an empty folder"):
             refuse_to_publish(kit, tmp_path / name)
     with pytest.raises(UsageError, match="expected the name of a new or an empty folder"):

@@ -209,12 +209,18 @@ def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer
 
 
 def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, solved: dict[str, str]) -> None:
-    """A plain server of files, which knows nothing of the page; and the page lies below a path."""
+    """A plain server of files, which knows nothing of the page; and the page lies below a path. Then without it."""
     publish(site, tmp_path / "of a course" / "play")
 
     class Plain(SimpleHTTPRequestHandler):
         def log_message(self, format: str, *args: object) -> None:  # noqa: A002  (the name that it has)
             """Says nothing."""
+
+        def end_headers(self) -> None:
+            """Some servers tell of a packed file that it is packed."""
+            if self.path.endswith("system.tar.gz"):
+                self.send_header("Content-Encoding", "gzip")
+            super().end_headers()
 
     with ThreadingHTTPServer(("127.0.0.1", 0), partial(Plain, directory=tmp_path)) as server:
         threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True).start()
@@ -226,6 +232,9 @@ def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, sol
         save(page, solved["01-camera-rays"])
         _says(page, r"Step 01 is right")
         server.shutdown()
+    page.reload()  # without a network
+    _says(page, r"Step 01 is right", timeout=STARTED)
+    assert _POINT in _source(page)
 
 
 def test_every_step_keeps_its_text_when_steps_change_quickly(
@@ -252,8 +261,21 @@ def test_every_step_keeps_its_text_when_steps_change_quickly(
     assert load_submission(tmp_path / "my-steps.zip", steps).sources == {steps[0].id: texts[0].encode()}
 
 
-@pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])
+# A mistake in each step: what is written instead of what, the test that says so, and what it expected.
+_MISTAKES = {
+    2: ("nearer > 0.0F ? nearer : ", "", "Sphere: head-on the nearer of the two points", "distance"),
+    3: ("fill.kd * cosine", "cosine", "diffuse: kd times colours times cosine", "= (0.4, 0.4, 0.32) within 0.0001"),
+    4: (" + k_shadow_threshold * hit.normal", "", "shadow_ray: starts just off the surface", "> 0.0"),
+    5: ("depth > tracer", "depth >= tracer", "trace: the deepest ray is still followed but not the next one", "1"),
+    6: ("1.0F / ray.direction", "ray.direction", "Box::clip: slanted hit and miss", "part.has_value() = true"),
+    7: ("c / (c + 1.0F)", "c / 2.0F", "tone_map: c / (c + 1) at known values", "0.5"),
+}
+
+
+@pytest.mark.parametrize("number", _MISTAKES)
 def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[str, str], number: int) -> None:
+    from playwright.sync_api import expect
+
     step = steps[number - 1]
     page.locator("#play-step").select_option(step.number)
     _says(
@@ -261,8 +283,14 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
         rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.",
         timeout=STARTED,
     )
+    right, wrong, test, expected = _MISTAKES[number]
+    assert right in solved[step.id]
+    save(page, solved[step.id].replace(right, wrong))
+    panel = page.locator("#play-tests .panel").filter(has_text=test)
+    expect(panel.locator("dd").first).to_contain_text(expected, timeout=STARTED)
     save(page, solved[step.id])
     _says(page, rf"Step {step.number} is right", timeout=STARTED)
+    expect(panel).to_have_count(0)
 
 
 def test_one_tab_writes_and_the_other_reads(page: "Page", server: PlayServer, solved: dict[str, str]) -> None:

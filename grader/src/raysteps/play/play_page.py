@@ -286,10 +286,17 @@ def refuse_to_publish(project: Project, out: Path) -> None:
 
 
 def publish(made: Path, out: Path) -> None:
-    """The page itself comes last: without it, what is there so far is none."""
-    page = "index.html"
+    """The page itself comes last: without it, what is there so far is none. It says that it is published: then a
+    browser keeps its files."""
+    page, worker = "index.html", "offline.js"
     shutil.copytree(made, out, ignore=shutil.ignore_patterns(page), dirs_exist_ok=True)
-    write_bytes(out / page, (made / page).read_bytes())
+    scripts = [path.relative_to(made).as_posix() for path in made.rglob("*.js") if path.name != worker]
+    filled = {'"@EDITION@"': json.dumps(made.name), '["@FIRST@"]': json.dumps(["./", *sorted(scripts)])}
+    text = (made / worker).read_text("utf-8")
+    for mark, value in filled.items():
+        text = text.replace(mark, value)
+    write_bytes(out / worker, text.encode())
+    write_bytes(out / page, (made / page).read_bytes().replace(b"<html ", b"<html data-published ", 1))
 
 
 # Served on this machine. Everything in the folder may be read, and nothing else.

@@ -10,13 +10,31 @@ let kit = null;
 const compiled = new Map(); // objects by step and source
 const headers = new Map(); // compiled ones, by step
 
+/** What comes, unpacked: where a server says that a .gz is packed, the browser has done that already. */
+async function unpacked(body) {
+  const reader = body.getReader();
+  const { value: first = new Uint8Array() } = await reader.read();
+  const all = new ReadableStream({
+    start: (stream) => stream.enqueue(first),
+    pull: async (stream) => {
+      const { done, value } = await reader.read();
+      if (done) {
+        stream.close();
+      } else {
+        stream.enqueue(value);
+      }
+    },
+  });
+  return first[0] === 0x1f && first[1] === 0x8b ? all.pipeThrough(new DecompressionStream("gzip")) : all;
+}
+
 /** A file of the page, packed or not, with word of how much of it has come. */
 async function loaded(name, isWasm = false) {
   const answer = await fetch(name);
   if (!answer.ok) {
     throw new Error(`${name}: cannot be loaded (${answer.status})`);
   }
-  const total = Number(answer.headers.get("Content-Length") ?? 0);
+  const total = answer.headers.get("Content-Encoding") ? 0 : Number(answer.headers.get("Content-Length") ?? 0);
   let done = 0;
   const counted = new TransformStream({
     transform(piece, controller) {
@@ -25,8 +43,7 @@ async function loaded(name, isWasm = false) {
       controller.enqueue(piece);
     },
   });
-  const packed = answer.body.pipeThrough(counted);
-  const body = name.endsWith(".gz") ? packed.pipeThrough(new DecompressionStream("gzip")) : packed;
+  const body = await unpacked(answer.body.pipeThrough(counted));
   return new Response(body, { headers: isWasm ? { "Content-Type": "application/wasm" } : {} });
 }
 

@@ -12,6 +12,7 @@ const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
 const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
+const SOON = 3000; // milliseconds until a service worker is there, or the page begins without it
 const turnOf = (step) => `raysteps-play ${step.id}`; // of the tab that writes it
 const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
 
@@ -48,6 +49,25 @@ function whyNothing(ran, what) {
   return `${what} was not made: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
 }
 
+/** Where the page is published, a service worker keeps its files. */
+async function keepFiles() {
+  const workers = navigator.serviceWorker; // on safe addresses only
+  if (!workers || !("published" in document.documentElement.dataset)) {
+    return;
+  }
+  try {
+    await workers.register("offline.js", { updateViaCache: "none" });
+    if (!workers.controller) {
+      await new Promise((resolve) => {
+        workers.addEventListener("controllerchange", resolve, { once: true });
+        setTimeout(resolve, SOON);
+      });
+    }
+  } catch {
+    // a browser that keeps nothing, as in a private window: then all is loaded each time
+  }
+}
+
 class Page {
   #work;
   #turn = new Turn();
@@ -63,6 +83,7 @@ class Page {
   #files = new Map();
 
   async start() {
+    await keepFiles(); // those that come next, too
     this.#work = await Work.open("raysteps-play");
     this.#editor = new Editor(element("play-editor"), "Source of the step", () => this.#changed());
     this.#compiler = new Compiler(data.kit, (part) => this.#loading(part));
