@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, plots, rays, renders, shading
+from tools.figures import bending, boxes, plots, rays, renders, sampling, shading
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
@@ -43,8 +43,15 @@ _DIAGRAMS = {
     "08-snell": bending.snell,
     "08-ball": bending.glass_ball,
     "09-cut": boxes.cut,
+    "10-points": sampling.points,
 }
-_CURVES = {"03-highlight": plots.highlight, "07-curve": plots.tone}
+_CURVES = {
+    "03-highlight": plots.highlight,
+    "07-curve": plots.tone,
+    "10-errors": sampling.errors,
+    "10-filters": sampling.filters,
+    "10-screen": sampling.screen,
+}
 _PLOTS = {
     "04-threshold": plots.acne,
     "05-rays": plots.bounces,
