@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 Numbers = NDArray[np.float64]
 
 SURPRISE = 1e-12
+_DEVIATIONS = 7.2  # of a normal variable, which is farther off with a probability of 6e-13
 
 
 def chi_square_tail(value: float, degrees: int) -> float:
@@ -25,6 +26,11 @@ def chi_square_tail(value: float, degrees: int) -> float:
     for a in np.arange(0.5 if odd else 1.0, degrees / 2):
         tail += math.exp(a * math.log(half) - half - math.lgamma(a + 1))
     return min(1.0, tail)
+
+
+def has_mean(numbers: Numbers, mean: float, deviation: float) -> bool:
+    """Whether the mean of independent numbers with that standard deviation is right (z-test)."""
+    return abs(float(numbers.mean()) - mean) <= _DEVIATIONS * deviation / math.sqrt(len(numbers))
 
 
 def is_even(shares: Numbers, bins: int) -> bool:

@@ -21,15 +21,15 @@ from raysteps.judge.answers import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, are_independent, is_even
+from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_even
 
 # Stratified samples. Every order of the points is right, and every way to draw them: so no answer is compared with the
 # reference's, but each is tested for what the contract promises. The worker asks `times` times, each time with another
 # stream, and at last with the first one again.
 
 _BORDER = 1e-4  # of a square: a point so near to its border may have been rounded across
-_FEW, _MANY = 8, 32  # bins along a side of a square, for a few thousand points and for many
-_MOST_POINTS = 4096
+_FEW, _MANY = 8, 32  # bins along a side of a square
+_MANY_POINTS = 32_768  # from here on the finer bins
 
 
 @dataclass(frozen=True)
@@ -89,16 +89,29 @@ def _hang_together(one: Numbers, other: Numbers) -> bool:
     )
 
 
+def _are_copied(one: Numbers, other: Numbers) -> bool:
+    """Whether many of two numbers that should be apart are the same, but for rounding; not where all are."""
+    return one.size >= _ENOUGH and float(one.std()) > _ALIKE and bool((np.abs(one - other) < _ALIKE).mean(axis=(0, 1, 2)).max() > _BY_CHANCE)
+
+
+_SQUARES = "the points of different squares have to do with each other"
+_ENOUGH, _ALIKE, _BY_CHANCE = 400, 1e-5, 0.1
+
+
 def _problem_of_squares(shares: Numbers) -> str:
-    """Shares: times, rows, columns, x and y, each from 0 to 1 within its square."""
+    """Shares: times, rows, columns, x and y, each from 0 to 1 within its square. Numbers that were used several times are
+    looked for first: they make everything else uneven."""
+    if any(_are_copied(*pair) for pair in _pairs(shares)):
+        return _SQUARES
     points = shares.reshape(-1, 2)
-    bins = _MANY if len(points) > _MOST_POINTS else _FEW
-    if not all(is_even(points[:, axis], 2 * bins) for axis in range(2)):
+    bins = _MANY if len(points) >= _MANY_POINTS else _FEW
+    ways = (points[:, 0], points[:, 1])
+    if not all(is_even(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12)) for way in ways):
         return "the points do not lie everywhere in their squares, all places equally likely"
     if not is_even(points, bins):
         return "x and y of a point have to do with each other"
     if any(_hang_together(*pair) for pair in _pairs(shares)):
-        return "the points of different squares have to do with each other"
+        return _SQUARES
     if _hang_together(shares[0:-1:2], shares[1::2]):
         return "the points are much the same for every stream"
     return ""
@@ -133,7 +146,7 @@ _STRATIFIED = Function(
         Group("a few squares", lambda d: _draws(d, d.whole(2, 4), 2048)),
         Group("one square", lambda d: _draws(d, 1, 2048)),
         Group("many squares", lambda d: _draws(d, d.whole(5, 16), 4096)),
-        Group("very many points", lambda d: _draws(d, d.whole(4, 8), 36_864)),
+        Group("very many points", lambda d: _draws(d, d.whole(4, 8), 65_536)),
     ),
 )
 
