@@ -11,7 +11,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_bytes
 from raysteps.common.text import count
-from raysteps.course.manifest import Step, read_all_steps, read_step, read_steps
+from raysteps.course.manifest import Step, kit_steps, read_all_steps, read_step
 from raysteps.course.project import Project
 from raysteps.course.stubs import write_stubs
 from tools.test_submissions import write_samples
@@ -109,7 +109,7 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
                 write_bytes(path, text.encode())
                 made.append(path)
         made += write_stubs(project, [read_step(project.steps / name / "step.toml")])
-        made += write_samples(project, read_steps(project))
+        made += write_samples(project, kit_steps(project))
     except (OSError, GraderFault) as error:
         for room in (project.steps, project.solutions):
             shutil.rmtree(room / name, ignore_errors=True)
