@@ -57,9 +57,11 @@ TEST_CASE("Part two: a part of the picture, and any number of threads, give the 
 }
 
 TEST_CASE("Part two: a pixel that an edge divides shows its share of the light", "[render]") {
-    INFO("the box, and an edge through a quarter of pixel 4: 0.25 of the light of white, which a screen shows as 0.537");
+    INFO(
+        "the box, and an edge through a quarter of pixel 4: 0.25 of the light of white, which a screen shows as 0.537");
     for (const Sampler sampler : k_samplers) {
-        const Image image = render(half_dark(8, 4.25F), of_part_two({.sampler = sampler, .filter = Filter::box}, 8)).image;
+        const Image image =
+            render(half_dark(8, 4.25F), of_part_two({.sampler = sampler, .filter = Filter::box}, 8)).image;
         double sum = 0.0;
         for (int y = 0; y < 8; ++y) {
             CHECK(static_cast<int>(image.at(3, y).r) == 255);

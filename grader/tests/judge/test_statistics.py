@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+
 from raysteps.judge.answers import Verdict
 from raysteps.judge.cases.sampling import FUNCTIONS
 from raysteps.judge.functions import Case

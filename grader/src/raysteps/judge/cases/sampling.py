@@ -91,7 +91,11 @@ def _hang_together(one: Numbers, other: Numbers) -> bool:
 
 def _are_copied(one: Numbers, other: Numbers) -> bool:
     """Whether many of two numbers that should be apart are the same, but for rounding; not where all are."""
-    return one.size >= _ENOUGH and float(one.std()) > _ALIKE and bool((np.abs(one - other) < _ALIKE).mean(axis=(0, 1, 2)).max() > _BY_CHANCE)
+    return (
+        one.size >= _ENOUGH
+        and float(one.std()) > _ALIKE
+        and bool((np.abs(one - other) < _ALIKE).mean(axis=(0, 1, 2)).max() > _BY_CHANCE)
+    )
 
 
 _SQUARES = "the points of different squares have to do with each other"
@@ -99,8 +103,8 @@ _ENOUGH, _ALIKE, _BY_CHANCE = 400, 1e-5, 0.1
 
 
 def _problem_of_squares(shares: Numbers) -> str:
-    """Shares: times, rows, columns, x and y, each from 0 to 1 within its square. Numbers that were used several times are
-    looked for first: they make everything else uneven."""
+    """Shares: times, rows, columns, x and y, each from 0 to 1 within its square. Numbers that were used several times
+    are looked for first: they make everything else uneven."""
     if any(_are_copied(*pair) for pair in _pairs(shares)):
         return _SQUARES
     points = shares.reshape(-1, 2)
