@@ -48,8 +48,8 @@ def machine_mark() -> str:
         found = shutil.which(name)
         status = None if found is None else Path(found).resolve().stat()
         tools.append((name, found, status and (status.st_size, status.st_mtime_ns)))
-    found = importlib.metadata.distributions()  # the kit itself may stand there twice, once it was set up
-    packages = sorted({f"{one.metadata['Name']} {one.version}" for one in found})
+    installed = importlib.metadata.distributions()  # the kit itself may stand there twice, once it was set up
+    packages = sorted({f"{one.metadata['Name']} {one.version}" for one in installed})
     settings = {
         name: value for name, value in os.environ.items() if _SETTINGS.fullmatch(name) and name not in _NO_SETTINGS
     }
