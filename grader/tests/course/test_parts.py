@@ -1,8 +1,11 @@
 """A kit of two courses: which steps belong to the one that course.toml chooses."""
 
+import io
 import re
 import shutil
+import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -22,9 +25,12 @@ from raysteps.course.manifest import (
     read_steps,
     steps_words,
 )
-from raysteps.course.project import Project
+from raysteps.course.project import Project, here
 from raysteps.course.settings import PLACE
+from raysteps.exports.autograders import gradescope_zip
 from raysteps.progress.standing import list_steps
+from raysteps.release import build_release
+from raysteps.release.build_release import first_steps, written_files
 
 _SECOND = ("08-refraction", "09-bvh")  # as if these were a part two
 
@@ -204,3 +210,37 @@ def test_a_command_line_is_told_of_the_part(
     ):
         assert cli.main(line.split()) == UsageError.exit_code
         assert "step 08-refraction belongs to part 2; `parts = [1, 2]` in course.toml" in capsys.readouterr().err
+
+
+def test_an_autograder_knows_the_parts(settle: Callable[[str], Path]) -> None:
+    """And nothing else of course.toml."""
+    for said, packed in (("seed = 5", None), ("parts = [1]\nseed = 5", None), ("seed = 5\nparts = [2, 1]", "[1, 2]")):
+        settle(said)
+        with zipfile.ZipFile(io.BytesIO(gradescope_zip(here(), []))) as archive:
+            texts = [archive.read(name).decode() for name in archive.namelist() if name == "kit/course.toml"]
+        assert texts == ([] if packed is None else [f"parts = {packed}\n"])
+
+
+def test_students_get_the_parts_of_the_course(
+    project: Project, monkeypatch: pytest.MonkeyPatch, settle: Callable[[str], Path]
+) -> None:
+    """What the framework calls of the others are stand-ins that draw nothing. A part needs those before it."""
+    second = [replace(step, part=1 + (step.id in _SECOND)) for step in read_all_steps(project)]
+    monkeypatch.setattr(build_release, "read_all_steps", lambda _: second)
+    settle("")
+    files = written_files(project, second[:7], "Course")
+    given = {name.split("/")[1] for name in files if name.startswith("steps/")}
+    absent = {name.split("/")[3] for name in files if name.startswith("framework/absent/steps/")}
+    assert given == {step.id for step in second[:7]}
+    assert absent == {step.id for step in second[7:]}
+    with pytest.raises(
+        UsageError, match=r"^part 2 goes on from part 1, and a students' kit has no reference .*\[1, 2\]"
+    ):
+        written_files(project, second[7:], "Course")
+    between = [replace(step, part=1 + (step.index == 8)) for step in second]
+    monkeypatch.setattr(build_release, "read_all_steps", lambda _: between)
+    assert "steps/09-bvh/step.toml" in written_files(project, [*between[:7], between[8]], "Course")
+    with pytest.raises(UsageError, match=r"^05-reflection: left out of the course"):
+        written_files(project, [*between[:4], *between[5:7]], "Course")
+    with pytest.raises(UsageError, match=r"^--steps 8: step 08-refraction belongs to part 2; `parts = \[1, 2\]`"):
+        first_steps(["8"], second[:7], others=second[7:])
