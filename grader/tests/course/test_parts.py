@@ -35,11 +35,15 @@ from raysteps.release.build_release import first_steps, written_files
 _SECOND = ("08-refraction", "09-bvh")  # as if these were a part two
 
 
+def _part_one(project: Project) -> list[Step]:
+    return [step for step in read_all_steps(project) if step.part == 1]
+
+
 @pytest.fixture
 def kit(project: Project, tmp_path: Path) -> Project:
     """Manifests only, as the whole kit has them."""
     copy = Project(tmp_path / "kit")
-    for step in read_all_steps(project):
+    for step in _part_one(project):
         for room in (copy.steps, copy.solutions):
             (room / step.id).mkdir(parents=True)
         shutil.copy(project.steps / step.id / "step.toml", copy.steps / step.id)
@@ -225,7 +229,7 @@ def test_students_get_the_parts_of_the_course(
     project: Project, monkeypatch: pytest.MonkeyPatch, settle: Callable[[str], Path]
 ) -> None:
     """What the framework calls of the others are stand-ins that draw nothing. A part needs those before it."""
-    second = [replace(step, part=1 + (step.id in _SECOND)) for step in read_all_steps(project)]
+    second = [replace(step, part=1 + (step.id in _SECOND)) for step in _part_one(project)]
     monkeypatch.setattr(build_release, "read_all_steps", lambda _: second)
     settle("")
     files = written_files(project, second[:7], "Course")
