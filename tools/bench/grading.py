@@ -18,6 +18,8 @@ from raysteps.common.platform import refuse_on_windows
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
+from raysteps.course.settings import FILE as COURSE
+from raysteps.course.settings import read_course
 from raysteps.course.stubs import without_markers
 from raysteps.exports.autograders import kit_files
 from raysteps.report.terminal import progress
@@ -134,6 +136,9 @@ def _copy(project: Project, root: Path) -> Project:
     for step in read_steps(project):
         source = without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
         (root / "steps" / step.path).write_text(source, encoding="utf-8")
+    settled = read_course(project).path
+    if settled is not None:
+        shutil.copy(settled, root / COURSE)
     return Project(root)
 
 

@@ -248,3 +248,13 @@ def test_students_get_the_parts_of_the_course(
         written_files(project, [*between[:4], *between[5:7]], "Course")
     with pytest.raises(UsageError, match=r"^--steps 8: step 08-refraction belongs to part 2; `parts = \[1, 2\]`"):
         first_steps(["8"], second[:7], others=second[7:])
+
+
+def test_a_course_without_trees_ranks_nobody(
+    kit: Project, settle: Callable[[str], Path], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _add(kit, "09-bvh", "left_out = true")
+    settle("parts = [2]")
+    monkeypatch.setattr(cli, "here", lambda: kit)
+    assert cli.main(["leaderboard", str(kit.root)]) == UsageError.exit_code
+    assert "no step of this course has a tree whose work is counted" in capsys.readouterr().err

@@ -121,7 +121,7 @@ def test_what_is_still_the_samples_is_named_until_it_is_replaced(
 
 
 def test_the_kits_own_steps_have_nothing_of_the_sample(project: Project) -> None:
-    assert [line for step in read_steps(project) for line in command.sample_leftovers(project, step)] == []
+    assert [line for step in kit_steps(project) for line in command.sample_leftovers(project, step)] == []
 
 
 def test_a_step_that_is_taken_away_leaves_nothing(copy: Project, capsys: pytest.CaptureFixture[str]) -> None:

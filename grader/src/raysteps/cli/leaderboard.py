@@ -37,6 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _steps(project: Project, names: list[str]) -> list[Step]:
     counted = [step.id for step in read_steps(project) if step.limited_pictures]
+    if not counted:
+        raise UsageError("no step of this course has a tree whose work is counted, so there is nothing to rank")
     chosen = chosen_steps(project, names or counted)
     for step in chosen:
         if step.id not in counted:
