@@ -8,7 +8,7 @@ from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import choose, read_all_steps, read_steps
+from raysteps.course.manifest import choose, kit_steps, read_all_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
 from raysteps.report.terminal import progress
@@ -28,13 +28,13 @@ from tools.test_submissions import outdated_samples, write_samples
 
 def stubs(project: Project, *, check: bool) -> int:
     """Makes the stubs, or tells which are out of date."""
-    changed = (outdated_stubs if check else write_stubs)(project, read_steps(project))
+    changed = (outdated_stubs if check else write_stubs)(project, kit_steps(project))
     return _tell(project, changed, [], "dev stubs", check=check)
 
 
 def samples(project: Project, *, check: bool) -> int:
     """Makes the samples, or tells which are out of date."""
-    changed = (outdated_samples if check else write_samples)(project, read_steps(project))
+    changed = (outdated_samples if check else write_samples)(project, kit_steps(project))
     strays = _strays(project, [project.samples / name / "steps" for name in ("complete", "partial")], check=check)
     return _tell(project, changed, strays, "dev samples", check=check)
 
@@ -142,7 +142,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
                 say = progress(console, status)
                 only, pairs, seed, boxed = arguments.only, arguments.pairs, arguments.seed, arguments.in_sandbox
                 code = check_truth(project, console, say, only=only, pairs=pairs, seed=seed, in_sandbox=boxed)
-            for step in choose(read_steps(project), only):
+            for step in choose(kit_steps(project), only):
                 for line in new_step.sample_leftovers(project, step):
                     print(line)
             return code

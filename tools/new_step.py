@@ -11,7 +11,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_bytes
 from raysteps.common.text import count
-from raysteps.course.manifest import Step, read_all_steps, read_step, read_steps
+from raysteps.course.manifest import Step, kit_steps, read_all_steps, read_step
 from raysteps.course.project import Project
 from raysteps.course.stubs import write_stubs
 from tools.test_submissions import write_samples
@@ -23,24 +23,31 @@ _LONGEST = 40
 _NO_FILES_ON_WINDOWS = {"con", "prn", "aux", "nul"}
 
 
-def check_name(project: Project, name: str) -> None:
+# Those that new steps of a part may have: the framework draws pictures of steps 10 to 19 as part two does.
+_NUMBERS = {1: range(20, 100), 2: range(10, 20)}
+
+
+def check_name(project: Project, name: str, part: int) -> None:
     """Whether a step can be called so; else what to write instead."""
     found = _NAME.fullmatch(name)
     if found is None or len(name) > _LONGEST:
         raise UsageError(
             f"'{name}' is no name of a step; expected two digits and words of small letters, parted by '-', at most "
-            f"{_LONGEST} characters, such as 10-fog"
+            f"{_LONGEST} characters, such as 20-fog"
         )
     number, words = found.groups()
     if words in _NO_FILES_ON_WINDOWS:
         raise UsageError(f"'{name}': Windows has no files called {words}; choose another name")
     steps = read_all_steps(project)
-    following = f"{steps[-1].index + 1:02d}"
+    numbers = _NUMBERS[part]
+    following = max([numbers.start, *(step.index + 1 for step in steps if step.index in numbers)])
     taken = next((step.id for step in steps if step.number == number), None)
     if taken is not None:
         raise UsageError(f"'{name}': {taken} has this number already; the next one is {following}-{words}")
-    if number != following:
-        raise UsageError(f"'{name}': steps are counted without gaps; expected {following}-{words}")
+    if int(number) != following:
+        raise UsageError(
+            f"'{name}': new steps of part {part} count on from {numbers.start}; expected {following}-{words}"
+        )
     same = next((step.id for step in steps if step.id[3:] == words), None)
     if same is not None:
         raise UsageError(f"'{name}': {same} has this name already; its files would be mixed up with yours")
@@ -74,7 +81,7 @@ def _filled(text: str, words: dict[str, str]) -> str:
     return text
 
 
-def _words(name: str, title: str, points: float, *, bonus: bool) -> dict[str, str]:
+def _words(name: str, title: str, points: float, part: int, *, bonus: bool) -> dict[str, str]:
     number, rest = name[:2], name[3:]
     return {
         "ID": name,
@@ -84,6 +91,7 @@ def _words(name: str, title: str, points: float, *, bonus: bool) -> dict[str, st
         "PICTURE": rest,
         "TITLE": title,
         "QUOTED": json.dumps(title, ensure_ascii=False),
+        "PART": f"part = {part}\n" if part != 1 else "",
         "POINTS": f"{points:g}",
         "BONUS": "true" if bonus else "false",
         "KIND": " (bonus)" if bonus else "",
@@ -96,10 +104,10 @@ def _from_template(template: str, file: str, words: dict[str, str]) -> tuple[str
     return _filled(file, words), _filled(text, words)
 
 
-def make_step(project: Project, name: str, title: str, points: float, *, bonus: bool) -> list[str]:
+def make_step(project: Project, name: str, title: str, points: float, part: int, *, bonus: bool) -> list[str]:
     """Writes everything that belongs to the step; returns the paths in the kit."""
-    check_name(project, name)
-    words = _words(name, title, points, bonus=bonus)
+    check_name(project, name, part)
+    words = _words(name, title, points, part, bonus=bonus)
     made = []
     try:
         for room, templates in ((project.solutions, _FOR_THE_GRADER), (project.steps, _FOR_STUDENTS)):
@@ -109,7 +117,7 @@ def make_step(project: Project, name: str, title: str, points: float, *, bonus: 
                 write_bytes(path, text.encode())
                 made.append(path)
         made += write_stubs(project, [read_step(project.steps / name / "step.toml")])
-        made += write_samples(project, read_steps(project))
+        made += write_samples(project, kit_steps(project))
     except (OSError, GraderFault) as error:
         for room in (project.steps, project.solutions):
             shutil.rmtree(room / name, ignore_errors=True)
@@ -124,7 +132,7 @@ _OF_THE_SAMPLE = re.compile(r"\b(air|arrives|distance|far away|reach|scatters|in
 
 def sample_leftovers(project: Project, step: Step) -> list[str]:
     """Of each file the lines about the sample's matter that nobody has changed."""
-    words = _words(step.id, step.title, step.points, bonus=step.bonus)
+    words = _words(step.id, step.title, step.points, step.part, bonus=step.bonus)
     found = []
     for room, templates in ((project.steps, _FOR_STUDENTS), (project.solutions, _FOR_THE_GRADER)):
         for template, file in templates.items():
@@ -163,9 +171,10 @@ def _title(text: str) -> str:
 def add_arguments(commands: "argparse._SubParsersAction[Any]") -> None:
     """`dev new NN-name`."""
     add = commands.add_parser("new", help="begin a step of your own: a small one that works, to be filled")
-    add.add_argument("name", metavar="NN-name", help="the next number and a name, such as 10-fog")
+    add.add_argument("name", metavar="NN-name", help="the next number and a name, such as 20-fog")
     add.add_argument("--title", type=_title, help="as students read it (from the name)")
     add.add_argument("--points", type=_points, default=10.0, metavar="P", help="what it is worth (10)")
+    add.add_argument("--part", type=int, choices=_NUMBERS, default=1, help="of which part of the kit it is (1)")
     add.add_argument("--bonus", action="store_true", help="its points are not needed for full marks")
 
 
@@ -186,7 +195,7 @@ def run(project: Project, arguments: argparse.Namespace) -> int:
     """Writes the step and says how to go on."""
     name = arguments.name
     title = arguments.title or name[3:].replace("-", " ").capitalize()
-    for path in make_step(project, name, title, arguments.points, bonus=arguments.bonus):
+    for path in make_step(project, name, title, arguments.points, arguments.part, bonus=arguments.bonus):
         print(f"{path} written")
     print(_HOW_TO_GO_ON.format(name=name, number=name[:2], file=name[3:].replace("-", "_"), picture=name[3:]))
     return 0

@@ -16,7 +16,11 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
   --size WxH              pixels; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
   --samples N             rays for each pixel, whose light is averaged before the tone curve: 1, 4, 9, 16, 25,
-                          36, 49 or 64; edges become smooth, at N times the work (1)
+                          36, 49 or 64; edges become smooth, at N times the work (1, from step 10 on 16)
+  --sampler halton|stratified
+                          where the rays of a pixel go, from step 10 on (halton)
+  --filter box|tent|mitchell
+                          how much each of them counts, from step 10 on (tent)
   --threads N             the picture is the same for any number (one per core)
   --accel none|boxes|octree|bvh|wide|wide-octree
                           what a ray is tested against:
@@ -91,7 +95,7 @@ void check(const RaytraceOptions& options) {
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
     }
-    if (options.sample_side > 1 && options.map) {
+    if (options.sample_side.value_or(1) > 1 && options.map) {
         throw UsageError("--samples: expected no --map beside it, which shows what one ray for each pixel costs");
     }
     if (options.map_scale && !options.map) {
@@ -174,6 +178,10 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
     add_shared_options(line, options);
     add_threads(line, options);
     line.option("--samples", [&options](const std::string& text) { options.sample_side = parse_samples(text); });
+    line.choice<Sampler>("--sampler", options.sampling.sampler,
+                         {{"halton", Sampler::halton}, {"stratified", Sampler::stratified}});
+    line.choice<Filter>("--filter", options.sampling.filter,
+                        {{"box", Filter::box}, {"tent", Filter::tent}, {"mitchell", Filter::mitchell}});
     line.option("-o", options.output).option("--stats", options.stats);
     line.option("--crop", [&options](const std::string& text) { options.crop = parse_crop(text); });
     line.choice<CostKind>(

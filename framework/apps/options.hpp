@@ -24,7 +24,8 @@ struct RaytraceOptions {
     std::optional<PictureSize> size;  ///< nothing: the scene's resolution
     int depth = 5;
     int threads = 0;                           ///< 0: one per core
-    int sample_side = 1;                       ///< its square is the number of rays for each pixel
+    std::optional<int> sample_side;            ///< its square is the number of rays for each pixel; 1, part two 4
+    SamplingOptions sampling;                  ///< of part two only
     std::optional<Acceleration> acceleration;  ///< nothing: none before step 06, octree from there on, bvh for step 9
     std::optional<Rect> crop;
     std::optional<CostKind> map;             ///< nothing: the picture itself

@@ -54,7 +54,7 @@ TEST_CASE("A work map is asked for by what it counts", "[apps]") {
 }
 
 TEST_CASE("Several rays for each pixel are a square number of them", "[apps]") {
-    CHECK(parse_options({"a.nff", "-o", "b"}).sample_side == 1);
+    CHECK_FALSE(parse_options({"a.nff", "-o", "b"}).sample_side);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "1"}).sample_side == 1);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "9"}).sample_side == 3);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "64"}).sample_side == 8);

@@ -45,13 +45,15 @@ void print_spd_counts(const Scene&, const RaytraceOptions&) {
 #endif
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
+    const int usual = is_of_part_two(options.step) ? 4 : 1;
     const Rendering rendering = render(scene, {.step = {options.step, options.view, options.depth},
                                                .acceleration = acceleration_of(options),
                                                .threads = default_threads(),
                                                .crop = options.crop,
                                                .show_progress = !options.quiet && stderr_is_terminal(),
                                                .measure_cost = options.map.has_value(),
-                                               .sample_side = options.sample_side});
+                                               .sample_side = options.sample_side.value_or(usual),
+                                               .sampling = options.sampling});
     if (!options.stats.empty()) {
         write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
     }

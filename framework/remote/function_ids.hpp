@@ -39,6 +39,13 @@ enum class FunctionId : std::uint8_t {
     build_bvh,
     closest_hit_in_bvh,
     occluded_in_bvh,
+    stratified_samples,
+    radical_inverse,
+    halton_point,
+    tent_filter,
+    mitchell_filter,
+    reconstruct,
+    linear_to_srgb,
     // of what a question lends
     lent_closest_hit,
     lent_occluded,

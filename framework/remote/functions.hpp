@@ -1,5 +1,6 @@
 #pragma once
 // A function of the other end, called as if it were here; and a function of this end, called from there.
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,15 +45,27 @@ struct Parameter<Tracer&> {
     static Tracer& give(const Received& received) { return *received.tracer; }
 };
 
-template <>
-struct Parameter<std::span<const Light>> {
-    using Received = std::vector<Light>;
-    static int send(Writer& out, std::span<const Light> lights) {
-        Travel<Received>::write(out, lights);
+template <typename T>
+struct Parameter<std::span<const T>> {
+    using Received = std::vector<T>;
+    static int send(Writer& out, std::span<const T> values) {
+        Travel<Received>::write(out, values);
         return 0;
     }
     static Received receive(Reader& in) { return read<Received>(in); }
-    static std::span<const Light> give(const Received& lights) { return lights; }
+    static std::span<const T> give(const Received& values) { return values; }
+};
+
+/// A copy travels, and none comes back: whoever asks gives each question a stream of its own.
+template <>
+struct Parameter<RandomStream&> {
+    using Received = std::unique_ptr<RandomStream>;
+    static int send(Writer& out, const RandomStream& random) {
+        write(out, random);
+        return 0;
+    }
+    static Received receive(Reader& in) { return std::make_unique<RandomStream>(read<RandomStream>(in)); }
+    static RandomStream& give(const Received& random) { return *random; }
 };
 
 template <>

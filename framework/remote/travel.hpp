@@ -10,6 +10,8 @@
 #include "core/camera.hpp"
 #include "core/hit_record.hpp"
 #include "core/light.hpp"
+#include "core/pixel_sample.hpp"
+#include "core/random_stream.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
 #include "remote/message.hpp"
@@ -47,6 +49,8 @@ struct Packed {
     }
 };
 template <>
+struct Travel<glm::vec2> : Packed<glm::vec2, 2 * sizeof(float)> {};
+template <>
 struct Travel<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
 template <>
 struct Travel<Ray> : Packed<Ray, 6 * sizeof(float)> {};
@@ -54,6 +58,8 @@ template <>
 struct Travel<Fill> : Packed<Fill, 8 * sizeof(float)> {};
 template <>
 struct Travel<Box> : Packed<Box, 6 * sizeof(float)> {};
+template <>
+struct Travel<RandomStream> : Packed<RandomStream, 8 * sizeof(std::uint32_t)> {};
 
 /// The fields of a record, as references.
 constexpr auto fields(auto& record) {
@@ -64,6 +70,8 @@ constexpr auto fields(auto& record) {
         return std::tie(record.right, record.up, record.forward, record.half_width, record.half_height);
     } else if constexpr (std::is_same_v<Record, Light>) {
         return std::tie(record.position, record.color);
+    } else if constexpr (std::is_same_v<Record, PixelSample>) {
+        return std::tie(record.offset, record.light);
     } else if constexpr (std::is_same_v<Record, Interval>) {
         return std::tie(record.enter, record.leave);
     } else {

@@ -1,21 +1,25 @@
 #pragma once
 // From a colour to the three bytes of a pixel.
 #include "core/image.hpp"
+#include "render/integrator.hpp"
 #include "steps/07-tone-mapping/tone_mapping.hpp"
+#include "steps/10-sampling/sampling.hpp"
 
 namespace raysteps {
 
 /// Cut off at 1, which overexposes.
 [[nodiscard]] Rgb8 cut_off(const Color& color);
 
-/// From step 07 on by the step's tone mapping; before that cut off. Inline: three bytes that a function returns are put
-/// together one by one and read at once, which a processor waits for.
+/// From step 07 on by the step's tone mapping, in part two by step 10's curve of a screen; before that cut off. Inline:
+/// three bytes that a function returns are put together one by one and read at once, which a processor waits for.
 [[nodiscard]] inline Rgb8 encode(const Color& color, int step) {
     if (step < 7) {
         return cut_off(color);
     }
-    const Color mapped = tone_map(color);
-    return {to_byte(mapped.r), to_byte(mapped.g), to_byte(mapped.b)};
+    const Color shown = is_of_part_two(step)
+                            ? Color(linear_to_srgb(color.r), linear_to_srgb(color.g), linear_to_srgb(color.b))
+                            : tone_map(color);
+    return {to_byte(shown.r), to_byte(shown.g), to_byte(shown.b)};
 }
 
 }  // namespace raysteps

@@ -30,6 +30,7 @@ struct Job {
     const Scene& scene;
     const Accelerator& accelerator;
     const RenderOptions& options;
+    std::optional<FilmSampler> sampler;  ///< of part two
     std::vector<SubPixel> sub_pixels;
     Camera camera;  ///< of the picture that sub-pixels are pixels of
     ViewFrame frame;
@@ -54,6 +55,12 @@ Color mean_color(int x, int y, Integrator& integrator, const Job& job) {
     return sum / static_cast<float>(count);
 }
 
+std::optional<FilmSampler> sampler_of(const Camera& camera, const RenderOptions& options) {
+    return is_of_part_two(options.step.step) && !options.measure_cost
+               ? std::optional<FilmSampler>(std::in_place, camera, options.sample_side, options.sampling)
+               : std::nullopt;
+}
+
 Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     if (job.options.measure_cost) {
         const Ray ray = primary_ray(job.camera, job.frame, x, y);
@@ -62,13 +69,27 @@ Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     return mean_color(x, y, integrator, job);
 }
 
+std::vector<Color> colors_of(const Rect& tile, Integrator& integrator, Job& job) {
+    if (job.sampler) {
+        return job.sampler->colors_of(tile, integrator);
+    }
+    std::vector<Color> colors;
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+        for (int x = tile.x; x < tile.x + tile.width; ++x) {
+            colors.push_back(color_of_pixel(x, y, integrator, job));
+        }
+    }
+    return colors;
+}
+
 void render_tile(const Rect& tile, Job& job) {
     TileRays rays(job.accelerator, job.scene.lights.size());
     const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
+    std::size_t next = 0;
+    const std::vector<Color> colors = colors_of(tile, *integrator, job);
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            const Color color = color_of_pixel(x, y, *integrator, job);
-            job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
+            job.image.at(x - job.crop.x, y - job.crop.y) = encode(colors[next++], job.options.step.step);
         }
     }
 }
@@ -101,12 +122,14 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const double build_seconds = seconds_since(build_start);
 
     const Clock::time_point render_start = Clock::now();
-    std::vector<Rect> tiles = work_waits() ? tiles_of(crop, 1) : tiles_of(crop);
+    const bool alone = work_waits() && !is_of_part_two(options.step.step);  // there, pixels share their samples
+    std::vector<Rect> tiles = alone ? tiles_of(crop, 1) : tiles_of(crop);
     const std::size_t count = tiles.size();
     const Camera camera = finer(scene.camera, options.sample_side * options.sample_side);
     Job job{.scene = scene,
             .accelerator = *accelerator,
             .options = options,
+            .sampler = sampler_of(scene.camera, options),
             .sub_pixels = sub_pixels(options.sample_side),
             .camera = camera,
             .frame = view_frame(camera),

@@ -5,17 +5,11 @@
 #include "core/image.hpp"
 #include "core/scene.hpp"
 #include "core/stats.hpp"
+#include "render/film_sampler.hpp"
 #include "render/pixel_cost.hpp"
+#include "render/rect.hpp"
 
 namespace raysteps {
-
-/// A part of the picture in pixels, from its top left corner.
-struct Rect {
-    int x = 0;
-    int y = 0;
-    int width = 0;
-    int height = 0;
-};
 
 struct RenderOptions {
     StepOptions step;
@@ -25,6 +19,7 @@ struct RenderOptions {
     bool show_progress = false;  ///< a bar on stderr
     bool measure_cost = false;   ///< fills Rendering::costs, which takes some time; needs a sample_side of 1
     int sample_side = 1;         ///< each pixel is the mean of the light of sample_side * sample_side rays
+    SamplingOptions sampling{};  ///< which rays, and which mean; of part two only
 };
 
 struct Rendering {

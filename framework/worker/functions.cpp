@@ -13,6 +13,7 @@ FunctionTable all_functions() {
     add_intersections(functions);
     add_light(functions);
     add_trees(functions);
+    add_sampling(functions);
     return functions;
 }
 

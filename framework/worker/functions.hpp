@@ -14,6 +14,7 @@ using FunctionTable = std::map<std::string_view, Function>;
 void add_intersections(FunctionTable& functions);
 void add_light(FunctionTable& functions);
 void add_trees(FunctionTable& functions);
+void add_sampling(FunctionTable& functions);
 
 /// For solutions/NN-name/worker.cpp of a step that the kit does not know: offers a function before main begins. Always
 /// true.

@@ -1,4 +1,5 @@
-"""The command `bench grading`: what a submission costs in a class, against the plain way, measured in turns."""
+"""The commands `bench grading` and `bench loop`: what a submission costs in a class, against the plain way, measured in
+turns; and how long a student waits from a changed file to the result of `raysteps check NN`."""
 
 import os
 import shutil
@@ -14,13 +15,18 @@ from rich.table import Table
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.platform import refuse_on_windows
-from raysteps.common.process import run
-from raysteps.course.manifest import Step, read_steps
+from raysteps.common.process import Outcome, run
+from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
+from raysteps.course.settings import FILE as COURSE
+from raysteps.course.settings import read_course
+from raysteps.course.stubs import without_markers
+from raysteps.exports.autograders import kit_files
 from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
-from tools.bench.model import Cost, GradingNumbers, keep, mean_costs
-from tools.bench.programs import children_seconds
+from raysteps.toolchain.cmake import release_tree
+from tools.bench.model import Cost, GradingNumbers, LoopNumbers, LoopRow, Spread, keep, mean_costs
+from tools.bench.programs import children_seconds, machine
 from tools.bench.tables import terminal_table
 
 _SECONDS = 3600
@@ -112,4 +118,67 @@ def grading(project: Project, rounds: int, console: Console) -> int:
                     costs.append(_measure(f"step {step.number}", number, _CLASS_SIZE, alone))
     console.print(_table(costs))
     keep(project, GradingNumbers(costs=costs), console)
+    return 0
+
+
+# From a changed file to the result.
+
+_LOOP_SECONDS = 1800
+_START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from raysteps.cli.app import main; sys.exit(main())"
+
+
+def _copy(project: Project, root: Path) -> Project:
+    """A kit of its own, so that nobody's files are changed. Its steps are the solutions."""
+    for file in kit_files(project):
+        target = root / file.place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(file.source, target)
+    for step in read_steps(project):
+        source = without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
+        (root / "steps" / step.path).write_text(source, encoding="utf-8")
+    settled = read_course(project).path
+    if settled is not None:
+        shutil.copy(settled, root / COURSE)
+    return Project(root)
+
+
+def _check(copy: Project, step: Step) -> Outcome:
+    words: list[str | Path] = [sys.executable, "-P", "-c", _START, copy.root / "grader" / "src", "check", step.number]
+    outcome = run(words, seconds=_LOOP_SECONDS, cwd=copy.root)
+    if outcome.code != 0 or outcome.timed_out:
+        raise GraderFault(f"raysteps check {step.number} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+    return outcome
+
+
+def _edit(copy: Project, step: Step, number: int) -> None:
+    source = copy.root / "steps" / step.path
+    with source.open("a", encoding="utf-8") as file:
+        file.write(f"// changed for the {number}. time\n")
+
+
+def _measured_loop(copy: Project, step: Step, rounds: int) -> LoopRow:
+    _check(copy, step)  # builds the kit, which is not done again for a changed step
+    seconds = []
+    for number in range(1, rounds + 1):
+        _edit(copy, step, number)
+        seconds.append(_check(copy, step).seconds)
+    return LoopRow(step.id, Spread.of(seconds))
+
+
+def bench_loop(project: Project, steps: list[str], rounds: int, console: Console) -> int:
+    """Measures, prints a table and writes build/bench/loop.json."""
+    chosen = choose(read_steps(project), steps)
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="raysteps-loop-") as name:
+        copy = _copy(project, Path(name))
+        for step in chosen:
+            with console.status(f"changing and checking step {step.id}"):
+                rows.append(_measured_loop(copy, step, rounds))
+        found = machine(release_tree(copy))
+    table = terminal_table("from a saved file to the result of check", ("step", "median", "least", "most"))
+    for row in rows:
+        spread = row.seconds
+        table.add_row(row.step, f"{spread.median:.2f} s", f"{spread.min:.2f} s", f"{spread.max:.2f} s")
+    console.print(table)
+    keep(project, LoopNumbers(machine=found, rows=rows), console)
     return 0

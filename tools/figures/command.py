@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, plots, rays, renders, shading
+from tools.figures import bending, boxes, plots, rays, renders, sampling, shading
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
@@ -43,8 +43,15 @@ _DIAGRAMS = {
     "08-snell": bending.snell,
     "08-ball": bending.glass_ball,
     "09-cut": boxes.cut,
+    "10-points": sampling.points,
 }
-_CURVES = {"03-highlight": plots.highlight, "07-curve": plots.tone}
+_CURVES = {
+    "03-highlight": plots.highlight,
+    "07-curve": plots.tone,
+    "10-errors": sampling.errors,
+    "10-filters": sampling.filters,
+    "10-screen": sampling.screen,
+}
 _PLOTS = {
     "04-threshold": plots.acne,
     "05-rays": plots.bounces,
@@ -132,7 +139,7 @@ def _nobodys(project: Project) -> list[str]:
 
 def out_of_date(project: Project, say: ProgressCallback, names: Sequence[str] = ()) -> list[str]:
     """Paths that are missing, old, or made by no figure."""
-    kit = build_kit(project, say)
+    kit = build_kit(project, say).of_all_parts()
     old = [figure.path for figure in _chosen(names) if _renewed(project, kit, figure, say) is not None]
     return old + ([] if names else _nobodys(project))
 
@@ -158,7 +165,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             console.print(f"{count(len(_chosen(arguments.names)), 'figure')} up to date", highlight=False)
         return 1 if old else 0
     chosen = _chosen(arguments.names)
-    kit = build_kit(project, say)
+    kit = build_kit(project, say).of_all_parts()
     for figure in chosen:
         drawn = _renewed(project, kit, figure, say)
         if drawn is not None:

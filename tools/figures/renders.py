@@ -58,6 +58,8 @@ SHOTS = {
     "07-after": _lesson("overexposed", "--step", "7"),
     "08-before": _lesson("glass", "--step", "7"),
     "08-after": _lesson("glass", "--step", "8"),
+    "10-before": _lesson("three-spheres", "--step", "9"),
+    "10-after": _lesson("three-spheres", "--step", "10", "--samples", "16", "--filter", "mitchell"),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from raysteps.common.process import Outcome, run
-from raysteps.course.manifest import read_steps
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, compare, read_ppm
 from raysteps.toolchain.cmake import BuildTree, what_failed
@@ -138,7 +138,7 @@ def _program_check(name: str, tree: BuildTree, inputs: Inputs, program: str, *ar
 
 def program_checks(tree: BuildTree, inputs: Inputs, suffix: str = "") -> list[Check]:
     """The tests of the framework and of all steps."""
-    names = ["test-framework", *(f"test-reference-{step.number}" for step in read_steps(tree.project))]
+    names = ["test-framework", *(f"test-reference-{step.number}" for step in kit_steps(tree.project))]
     checks = [_program_check(name + suffix, tree, inputs, name) for name in names]
     replay = "fuzz-readers-replay"
     return [*checks, _program_check(replay + suffix, tree, inputs, replay, _corpus(tree.project))]
@@ -170,7 +170,7 @@ def asan_checks(project: Project, inputs: Inputs) -> list[Check]:
     other things, so it builds everything. Sealed programs, which sanitizers do not allow, are g++'s only."""
     compiler = ("-DCMAKE_CXX_COMPILER=clang++",) if _has_clang() else ()
     tree = BuildTree(project, "asan", project.build / "asan", project.steps, (*compiler, _QUICK))
-    tests = [f"test-reference-{step.number}" for step in read_steps(project)]
+    tests = [f"test-reference-{step.number}" for step in kit_steps(project)]
     targets = [] if compiler else ["test-framework", *tests, "fuzz-readers-replay"]
     name = f"build {'everything with clang, ' if compiler else ''}with address and undefined behaviour sanitizers"
     checks = [build_check(name, tree, targets, inputs), *program_checks(tree, inputs, ", sanitized")]
@@ -274,7 +274,7 @@ def _same_pictures_in_wine(native: BuildTree, tree: BuildTree) -> Report:
         return built
     different = []
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        for step in read_steps(tree.project):
+        for step in kit_steps(tree.project):
             options: list[str | Path] = [tree.project.root / _SCENE, "--size", _SIZE, "--step", str(step.index)]
             options += ["--quiet", "-o"]
             # a name that no code page has, to see that paths are not spoiled on the way

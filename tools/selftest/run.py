@@ -11,7 +11,7 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.common import process
-from raysteps.course.manifest import read_steps
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs
 from raysteps.toolchain.cmake import BuildTree
@@ -46,13 +46,13 @@ _PAIRS = 40
 
 
 def _stubs(project: Project) -> Report:
-    names = [path.relative_to(project.root).as_posix() for path in outdated_stubs(project, read_steps(project))]
+    names = [path.relative_to(project.root).as_posix() for path in outdated_stubs(project, kit_steps(project))]
     text = "these stubs differ from what the solutions generate (./raysteps dev stubs makes them anew): "
     return Report("failed", text + ", ".join(names)) if names else Report("passed")
 
 
 def _samples(project: Project) -> Report:
-    names = [path.relative_to(project.root).as_posix() for path in outdated_samples(project, read_steps(project))]
+    names = [path.relative_to(project.root).as_posix() for path in outdated_samples(project, kit_steps(project))]
     text = "these samples differ from what the solutions make (./raysteps dev samples makes them anew): "
     return Report("failed", text + ", ".join(names)) if names else Report("passed")
 

@@ -80,7 +80,7 @@ def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsy
         ("export gradescope --out a.zip", ""),
         ("bench", ""),
         ("figures --check", ""),
-        ("dev new 10-fog", ""),
+        ("dev new 20-fog", ""),
         ("dev", ""),
         ("", ""),
         ("play", "play"),

@@ -81,7 +81,7 @@ percent_per_day = 10
     ("text", "words"),
     [
         ("sed = 5", ":1:1: unknown key 'sed'; did you mean seed?"),
-        ("x = 5", ":1:1: unknown key 'x'; known are title, term, steps, points, seed, late_policy"),
+        ("x = 5", ":1:1: unknown key 'x'; known are title, term, parts, steps, points, seed, late_policy"),
         ("seed = -1", ":1:1: seed: expected a whole number from 0 to .*; found -1"),
         ('term = "x"\n  seed = "5"', ":2:3: seed: expected a whole number from 0 to .*; found '5'"),
         ("\nseed = ", ":2:8: is not TOML: invalid value"),

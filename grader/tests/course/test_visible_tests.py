@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 
 pytestmark = pytest.mark.portable
@@ -12,8 +12,8 @@ pytestmark = pytest.mark.portable
 _CASE = re.compile(r'TEST_CASE\(\s*"(?P<name>[^"]*)",\s*"(?P<tags>(?:\[[^\[\]"]*\])+)"\)')
 
 
-def test_every_visible_test_names_its_step_and_functions_of_it(project: Project, steps: list[Step]) -> None:
-    for step in steps:
+def test_every_visible_test_names_its_step_and_functions_of_it(project: Project) -> None:
+    for step in kit_steps(project):
         asked: set[str] = set()
         for path in sorted((project.steps / step.id).glob("*_test.cpp")):
             text = path.read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from inspect_programs import open_workshop
 
 from raysteps.cli.app import new_parser
 from raysteps.cli.render import take_impl
-from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.project import Project, here
 from raysteps.course.stubs import without_markers
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -33,7 +33,7 @@ _SECTIONS = [
     "How it is graded",
     "Sources",
 ]
-_STEPS = read_steps(here())
+_STEPS = kit_steps(here())
 _EACH = pytest.mark.parametrize("step", _STEPS, ids=[step.id for step in _STEPS])
 
 

@@ -15,9 +15,8 @@ from raysteps.cli.app import main, new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.finale.finale_page import in_words
+from raysteps.finale.finale_page import can_be_written, in_words, poster
 from raysteps.finale.own_pictures import reach_of
-from raysteps.finale.poster import can_be_written, poster
 from raysteps.images.compare import read_png
 from raysteps.toolchain.kit_artifacts import BuiltKit
 

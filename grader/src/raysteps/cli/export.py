@@ -17,7 +17,7 @@ from raysteps.cli.give_back import add_give_back_arguments, add_renamed_columns,
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
-from raysteps.course.manifest import STEPS_HELP, Step, choose, course_steps, read_steps, steps_words
+from raysteps.course.manifest import STEPS_HELP, Step, chosen_steps, course_steps, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.exports import hosted as running
@@ -214,7 +214,7 @@ _MARGIN = 30  # seconds that are left for what happens before and after grading
 
 def package(project: Project, arguments: argparse.Namespace) -> list[Path]:
     """The files or folders that were written."""
-    steps = choose(read_steps(project), arguments.steps)
+    steps = chosen_steps(project, arguments.steps)
     parse_limits(arguments.limit)
     words = script_words(arguments)
     match arguments.system:

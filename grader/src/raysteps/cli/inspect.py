@@ -19,7 +19,7 @@ from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
-from raysteps.course.manifest import choose_one, read_steps
+from raysteps.course.manifest import chosen_step, read_steps
 from raysteps.course.project import Project
 from raysteps.inspector.contradictions import contradiction
 from raysteps.inspector.model import Record
@@ -76,9 +76,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
-    steps = read_steps(project)
     if arguments.step is not None:
-        arguments.step = str(choose_one(steps, arguments.step).index)
+        arguments.step = str(chosen_step(project, arguments.step).index)
     named = ["step", "size", "depth", "view", "accel"]
     words = [w for name in named if (value := getattr(arguments, name)) is not None for w in (f"--{name}", value)]
     if arguments.impl == "mine":
@@ -88,7 +87,7 @@ def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
         if said:
             print(f"raysteps: {said}", file=sys.stderr)
     at = words.index("--step") if "--step" in words else len(words)
-    step = choose_one(steps, (words[at + 1 : at + 2] or [str(usual_step(project))])[0])
+    step = chosen_step(project, (words[at + 1 : at + 2] or [str(usual_step(project))])[0])
     return InspectOptions(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
 
 

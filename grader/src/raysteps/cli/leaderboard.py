@@ -11,7 +11,7 @@ from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 
 
@@ -36,9 +36,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _steps(project: Project, names: list[str]) -> list[Step]:
-    steps = read_steps(project)
-    counted = [step.id for step in steps if step.limited_pictures]
-    chosen = choose(steps, names or counted)
+    counted = [step.id for step in read_steps(project) if step.limited_pictures]
+    if not counted:
+        raise UsageError("no step of this course has a tree whose work is counted, so there is nothing to rank")
+    chosen = chosen_steps(project, names or counted)
     for step in chosen:
         if step.id not in counted:
             raise UsageError(f"--step: in {step.id} no work is counted; expected {join_and(counted)}")

@@ -10,7 +10,7 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.platform import own_command, quote_command
 from raysteps.common.text import count, join_and, tenths
-from raysteps.course.manifest import Step, choose, course_steps, read_steps, steps_words
+from raysteps.course.manifest import Step, choose, course_steps, of_other_parts, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.release.build_release import due_steps, first_steps, release, usable, written_files
@@ -79,7 +79,7 @@ def _chosen(project: Project, names: list[str], console: Console) -> list[Step]:
                 console, f"not yet given out, by {read_course(project).place('steps')}: {join_and(steps_words(later))}"
             )
         return steps
-    steps = first_steps(names, read_steps(project))
+    steps = first_steps(names, read_steps(project), others=of_other_parts(project))
     if len(choose(steps, names)) < len(steps):
         _say(console, f"steps {steps_words(steps)[0]}: a kit begins with step {steps[0].number}")
     return steps

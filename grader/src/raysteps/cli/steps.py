@@ -6,7 +6,7 @@ import re
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
-from raysteps.course.manifest import choose_one, read_steps
+from raysteps.course.manifest import chosen_step
 from raysteps.course.project import Project
 from raysteps.progress.hints import print_hint
 from raysteps.progress.standing import chosen_or_next, list_steps, next_step
@@ -50,5 +50,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         case _:
             from raysteps.progress.reset import reset  # what tells differences takes long to load
 
-            step = choose_one(read_steps(project), arguments.step)
+            step = chosen_step(project, arguments.step)
             return reset(project, step, console, yes=arguments.yes)

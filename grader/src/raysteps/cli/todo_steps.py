@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, read_steps
+from raysteps.course.manifest import Step, of_another_part, of_other_parts, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import unfinished_functions
 
@@ -57,7 +57,11 @@ def wanted_step(project: Project, words: Sequence[str]) -> int:
     if "--step" not in words:
         return usual_step(project)
     word = last_value(words, "--step") or ""
-    last = read_steps(project)[-1].index
+    steps = read_steps(project)
+    last = steps[-1].index
+    for other in of_other_parts(project):
+        if word in (other.number, str(other.index)):
+            raise UsageError(f"--step: {of_another_part(steps, other)}")
     if not re.fullmatch("[0-9]{1,2}", word) or not 1 <= int(word) <= last:
         raise UsageError(f"--step: expected a whole number from 1 to {last}, found '{word}'")
     return int(word)

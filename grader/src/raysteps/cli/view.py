@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from raysteps.cli.render import build_program, refuse_no_scene, refuse_place, run_raytrace, scene_in, take_impl
-from raysteps.cli.todo_steps import refuse_missing_tree
+from raysteps.cli.todo_steps import refuse_missing_tree, wanted_step
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import BuildTree, release_tree
@@ -41,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
+    wanted_step(project, args)
     refuse_no_scene(project, scene_in(args))
     refuse_place(args, "--screenshot")
     if impl == "mine":

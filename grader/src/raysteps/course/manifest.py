@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
-from raysteps.common.text import did_you_mean
+from raysteps.common.text import did_you_mean, join_and
 from raysteps.course.project import Project
 
 if TYPE_CHECKING:  # what checks the types of documents takes long to load
@@ -56,6 +56,7 @@ class Step:
     memory_mb: int = 4096
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
     about: str = ""  # one or two sentences for the gallery and the finale, the title where there are none
+    part: int = 1  # of which course it is
     left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
@@ -92,6 +93,9 @@ class Step:
         return tuple(image.name for image in self.images if image.max_share is not None)
 
 
+_MAX_PART = 9
+
+
 def _image(table: dict[str, Any]) -> ImageCase:
     return ImageCase(
         name=str(table["name"]),
@@ -101,6 +105,12 @@ def _image(table: dict[str, Any]) -> ImageCase:
         max_share=float(table["max_share"]) if "max_share" in table else None,
         paper_tests=float(table["paper_tests"]) if "paper_tests" in table else None,
     )
+
+
+def _part(value: object) -> int:
+    if type(value) is not int or not 1 <= value <= _MAX_PART:
+        raise ValueError(f"part: expected a whole number from 1 to {_MAX_PART}, found {value!r}")
+    return value
 
 
 def read_step(path: Path) -> Step:
@@ -129,6 +139,7 @@ def read_step(path: Path) -> Step:
                 (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
             ),
             about=" ".join(str(table.get("about", table["title"])).split()),
+            part=_part(table.get("part", 1)),
             left_out=bool(table.get("left_out", False)),
         )
     except (OSError, KeyError, TypeError, ValueError, AttributeError) as error:
@@ -163,63 +174,104 @@ def read_all_steps(project: Project) -> list[Step]:
     return _with_points(project, read_manifests(project))
 
 
-def read_steps(project: Project) -> list[Step]:
-    """The steps of the course, in order: all but those that are left out."""
+def kit_steps(project: Project) -> list[Step]:
+    """The steps of all parts, in order, for those who make the kit and check it: all but those that are left out."""
     steps = [step for step in read_all_steps(project) if not step.left_out]
     if not steps:
         raise GraderFault(f"{project.steps}: every step.toml says `left_out = true`; a course needs a step")
     return steps
 
 
+def read_steps(project: Project) -> list[Step]:
+    """The steps of the course, in order: those of the parts that course.toml chooses, of part 1 where it does not."""
+    steps, course = kit_steps(project), _course(project)
+    if course is None:
+        return steps
+    there = sorted({step.part for step in steps})
+    for part in course.parts:
+        if part not in there:
+            raise UsageError(
+                f"{course.place('parts')}: parts: the kit has no steps of part {part}; it has those of "
+                f"{join_and([f'part {one}' for one in there])}"
+            )
+    return [step for step in steps if step.part in course.parts]
+
+
+def taken_in(steps: Sequence[Step], part: int) -> str:
+    """What makes a part belong to the course that has these steps."""
+    return f"`parts = {sorted({part, *(step.part for step in steps)})}` in course.toml takes it in"
+
+
+def of_another_part(steps: Sequence[Step], other: Step) -> str:
+    """Why nobody can ask for that one in a course that has these steps."""
+    return f"step {other.id} belongs to part {other.part}; {taken_in(steps, other.part)}"
+
+
+def of_other_parts(project: Project) -> list[Step]:
+    """Steps of the kit that belong to no part of the course."""
+    steps = read_steps(project)
+    return [step for step in kit_steps(project) if step not in steps]
+
+
+def up_to(step: Step, steps: Sequence[Step]) -> list[Step]:
+    """This one of the steps and those before it that are handed in with it: a part is a course of its own, which begins
+    with what the parts before it should have come to."""
+    return [other for other in steps if other.part == step.part and other.index <= step.index]
+
+
 _RANGE = re.compile(r"([0-9]{1,2})[-\u2013]([0-9]{1,2})")
 STEPS_HELP = "such as 1-4, 01 02 or 1,3"  # what `choose` takes
 
 
-def _one(steps: list[Step], name: str) -> Step:
+def _one(steps: list[Step], name: str, others: Sequence[Step]) -> Step:
     number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
-    found = [step for step in steps if name == step.id or number == step.number]
+    found = [step for step in (*steps, *others) if name == step.id or number == step.number]
+    if found and found[0] in others:
+        raise UsageError(of_another_part(steps, found[0]))
     if not found:
         meant = did_you_mean(name, [step.id for step in steps]) or "."
         raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}")
     return found[0]
 
 
-def _range(steps: list[Step], word: str) -> list[Step]:
+def _range(steps: list[Step], word: str, others: Sequence[Step]) -> list[Step]:
     ends = _RANGE.fullmatch(word)
     if ends is None:
-        return [_one(steps, word)]
-    first, last = _one(steps, ends[1]), _one(steps, ends[2])
+        return [_one(steps, word, others)]
+    first, last = _one(steps, ends[1], others), _one(steps, ends[2], others)
     if last.index < first.index:
         raise UsageError(f"'{word}' ends before it begins; expected {last.index}-{first.index}")
     return [step for step in steps if first.index <= step.index <= last.index]
 
 
-def choose(steps: list[Step], names: Sequence[str]) -> list[Step]:
+def choose(steps: list[Step], names: Sequence[str], others: Sequence[Step] = ()) -> list[Step]:
     """The steps with these names (`02`, `2`, `02-intersection`, `1-4` or `1,3`); all of them when there are no
-    names."""
+    names. Of the `others` it is said how a course gets them."""
     if not names:
         return steps
     words = [word for name in names for word in re.split(r"[,\s]+", name) if word]
     if not words:
         raise UsageError(f"expected steps, {STEPS_HELP}")
-    chosen = [step for word in words for step in _range(steps, word)]
+    chosen = [step for word in words for step in _range(steps, word, others)]
     return [step for step in steps if step in chosen]
 
 
-def choose_one(steps: list[Step], name: str) -> Step:
+def choose_one(steps: list[Step], name: str, others: Sequence[Step] = ()) -> Step:
     """Where a single step is wanted."""
-    found = choose(steps, [name])
+    found = choose(steps, [name], others)
     if len(found) > 1:
         raise UsageError(f"'{name}': expected one step, such as {found[0].number}")
     return found[0]
 
 
 def steps_words(steps: Sequence[Step]) -> list[str]:
-    """As they are typed: `1-4`, or each one where some are left out between."""
-    numbers = [step.index for step in steps]
-    if len(numbers) > 1 and numbers == list(range(numbers[0], numbers[-1] + 1)):
-        return [f"{numbers[0]}-{numbers[-1]}"]
-    return [str(number) for number in numbers]
+    """As they are typed: `1-4`, and what comes behind a gap by itself."""
+    runs: list[list[int]] = []
+    for step in steps:
+        if not runs or step.index != runs[-1][-1] + 1:
+            runs.append([])
+        runs[-1].append(step.index)
+    return [f"{run[0]}-{run[-1]}" if len(run) > 1 else str(run[0]) for run in runs]
 
 
 # What course.toml says of the steps. A students' kit has none: its manifests were written from it.
@@ -233,9 +285,9 @@ def _course(project: Project) -> Course | None:
     return read_course(project)
 
 
-def _by_course(steps: list[Step], course: Course, key: str, names: str) -> list[Step]:
+def _by_course(steps: list[Step], course: Course, key: str, names: str, others: Sequence[Step] = ()) -> list[Step]:
     try:
-        return choose(steps, [names])
+        return choose(steps, [names], others)
     except UsageError as error:
         raise UsageError(f"{course.place(key, names)}: {key}: {error}") from error
 
@@ -253,17 +305,23 @@ def _with_points(project: Project, steps: list[Step]) -> list[Step]:
 
 
 def course_steps(project: Project) -> list[Step]:
-    """Those that course.toml names, else all: what a command takes that is told none."""
+    """Those that course.toml names, else all of its parts: what a command takes that is told none."""
     steps, course = read_steps(project), _course(project)
     if course is None or not course.steps:
         return steps
-    chosen = [step for names in course.steps for step in _by_course(steps, course, "steps", names)]
+    others = of_other_parts(project)
+    chosen = [step for names in course.steps for step in _by_course(steps, course, "steps", names, others)]
     return [step for step in steps if step in chosen]
 
 
 def chosen_steps(project: Project, names: Sequence[str]) -> list[Step]:
     """Those that were named, else those of the course."""
-    return choose(read_steps(project), names) if names else course_steps(project)
+    return choose(read_steps(project), names, of_other_parts(project)) if names else course_steps(project)
+
+
+def chosen_step(project: Project, name: str) -> Step:
+    """The one that was named."""
+    return choose_one(read_steps(project), name, of_other_parts(project))
 
 
 def dated_steps(project: Project) -> list[tuple[Step, date]]:
@@ -271,7 +329,10 @@ def dated_steps(project: Project) -> list[tuple[Step, date]]:
     steps, course = read_steps(project), _course(project)
     if course is None:
         return []
-    return [(step, day) for names, day in course.dates.items() for step in _by_course(steps, course, "steps", names)]
+    others = of_other_parts(project)
+    return [
+        (step, day) for names, day in course.dates.items() for step in _by_course(steps, course, "steps", names, others)
+    ]
 
 
 def course_manifests(project: Project) -> dict[str, bytes]:

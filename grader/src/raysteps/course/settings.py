@@ -31,6 +31,7 @@ class Course:
     late_table: Mapping[str, object] = field(default_factory=dict)
     title: str = ""
     term: str = ""
+    parts: tuple[int, ...] = (1,)  # which courses of the kit
     steps: tuple[str, ...] = ()  # as a command line names them
     dates: Mapping[str, date] = field(default_factory=dict)  # by such names: when they are given out
     points: Mapping[str, float] = field(default_factory=dict)  # by such names: what each is worth
@@ -49,7 +50,7 @@ class Course:
 
     def place(self, *keys: str) -> str:
         """`course.toml:3:1` of a key."""
-        return f"{self.path}:{place_in_toml(self.text, keys)}"
+        return f"{self.path or FILE}:{place_in_toml(self.text, keys)}"
 
 
 _Line = Annotated[str, Meta(min_length=1, max_length=200, pattern=r"^\S[^\n\r]*$")]
@@ -62,6 +63,7 @@ class _Table:
 
     title: _Line = ""
     term: _Line = ""
+    parts: Annotated[list[Annotated[int, Meta(ge=1, le=9)]], Meta(min_length=1)] = field(default_factory=lambda: [1])
     steps: _Names | list[_Names] | dict[str, date] | None = None
     points: dict[str, Annotated[float, Meta(gt=0, le=10_000)]] = field(default_factory=dict)
     seed: Annotated[int, Meta(ge=0, le=999_999_999_999_999_999)] | None = None
@@ -71,6 +73,7 @@ class _Table:
 _EXPECTED = {
     "title": "the name of the course, in one line",
     "term": "the name of the term, in one line",
+    "parts": "a list of the kit's parts, such as [1, 2]",
     "steps": 'steps such as "1-4", a list of them, or a table with the day on which they are given out, such as '
     '"1-2" = 2026-10-12',
     "points": 'a table of steps, each with its points (more than 0), such as "02" = 25',
@@ -126,7 +129,8 @@ def _parse(text: str, path: Path) -> Course:
     late = told.late_policy
     file = path.parent / late if isinstance(late, str) else None
     rules = late if isinstance(late, dict) else {}
-    return Course(path, told.seed, file, rules, told.title, told.term, names, dates, told.points, text)
+    parts = tuple(sorted(set(told.parts)))
+    return Course(path, told.seed, file, rules, told.title, told.term, parts, names, dates, told.points, text)
 
 
 def read_course(project: Project) -> Course:

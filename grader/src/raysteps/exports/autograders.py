@@ -21,7 +21,7 @@ from raysteps.common.files import new_or_empty_folder, write_bytes
 from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.settings import FILE as COURSE
-from raysteps.course.settings import read_course
+from raysteps.course.settings import Course, read_course
 from raysteps.course.tracked_files import places
 from raysteps.exports.autolab import no_scores
 from raysteps.exports.prairielearn import question_info, question_name, question_page
@@ -135,11 +135,14 @@ def _script(name: str, options: Sequence[str] = ()) -> bytes:
 
 
 def _kit(project: Project, folder: str) -> list[Member]:
-    made = course_manifests(project)  # course.toml stays here
-    return [
+    made = course_manifests(project)  # course.toml stays here, but for the parts
+    files = [
         Member(f"{folder}/{file.place}", made.get(str(file.place)) or file.source.read_bytes(), file.executable)
         for file in kit_files(project)
     ]
+    parts = read_course(project).parts
+    told = [Member(f"{folder}/{COURSE}", f"parts = {list(parts)}\n".encode())] if parts != Course().parts else []
+    return [*files, *told]
 
 
 def gradescope_zip(project: Project, options: Sequence[str]) -> bytes:

@@ -1,7 +1,12 @@
-"""The page of the finale: the large picture, the way to it step by step, the work, and what comes next."""
+"""What the finale leaves behind: a page with the large picture, the way to it step by step, the work and what comes
+next; and a poster."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
 
 from raysteps.common.text import join_and, mean
 from raysteps.course.manifest import Step
@@ -86,3 +91,79 @@ def finale_page(finale: Finale) -> str:
         "tests": in_words(work.surface_tests + work.box_tests),
     }
     return render_page("finale", finale.title, context, styles=("finale",))
+
+
+# The poster: the picture in a frame, with a title and a name. It holds no date, so that the same picture gives the same
+# poster.
+
+_PAPER, _LINE, _INK, _FAINT = (16, 18, 21), (58, 63, 71), (236, 233, 227), (163, 169, 176)
+_BORDER = 0.1  # of the picture's width, at the left, the right and the top
+_FOOT = 0.165  # below it
+# Pillow brings letters for English. Where a name needs others, a font of the system is taken that has them all.
+_SYSTEM_FONTS = (
+    "DejaVuSans.ttf",
+    "NotoSans-Regular.ttf",
+    "LiberationSans-Regular.ttf",
+    "segoeui.ttf",
+    "Arial Unicode.ttf",
+    "arial.ttf",
+    "NotoSansCJK-Regular.ttc",
+    "msyh.ttc",
+    "PingFang.ttc",
+)
+_NO_LETTER = "\uffff"
+Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+
+
+@cache
+def _font(name: str | None, size: int) -> Font | None:
+    try:
+        return ImageFont.load_default(size) if name is None else ImageFont.truetype(name, size)
+    except OSError:
+        return None
+
+
+def _has(font: Font, text: str) -> bool:
+    box = bytes(font.getmask(_NO_LETTER))
+    return all(letter.isspace() or bytes(font.getmask(letter)) != box for letter in text)
+
+
+def _font_for(text: str, size: int) -> Font | None:
+    fonts = (_font(name, size) for name in (None, *_SYSTEM_FONTS))
+    return next((font for font in fonts if font is not None and _has(font, text)), None)
+
+
+def can_be_written(text: str) -> bool:
+    """Whether some font here has all its letters."""
+    return _font_for(text, 20) is not None
+
+
+def _write(pen: ImageDraw.ImageDraw, text: str, middle: float, top: float, size: float, color: tuple[int, ...]) -> None:
+    """Centred, smaller where it would be wider than the paper; nothing where no font has its letters."""
+    whole = 2 * middle * (1 - _BORDER)
+    font = _font_for(text, max(6, round(size)))
+    if font is None or not text:
+        return
+    if font.getlength(text) > whole:
+        font = _font_for(text, max(1, int(size * whole / font.getlength(text)))) or font
+    pen.text((middle - font.getlength(text) / 2, top), text, color, font)
+
+
+def poster(picture: Pixels, title: str, name: str, small: str) -> Pixels:
+    """The picture keeps its pixels, and the rest is as large as suits it."""
+    height, width = picture.shape[:2]
+    border, foot = round(_BORDER * width), round(_FOOT * width)
+    paper = Image.new("RGB", (width + 2 * border, height + border + foot), _PAPER)
+    pen = ImageDraw.Draw(paper)
+    edge = max(1, width // 800)
+    pen.rectangle(
+        (border - 4 * edge, border - 4 * edge, border + width + 4 * edge - 1, border + height + 4 * edge - 1),
+        outline=_LINE,
+        width=edge,
+    )
+    paper.paste(Image.fromarray(picture), (border, border))
+    below, middle = border + height, paper.width / 2
+    _write(pen, title, middle, below + 0.028 * width, 0.036 * width, _INK)
+    _write(pen, name, middle, below + 0.079 * width, 0.021 * width, _INK)
+    _write(pen, small, middle, below + 0.116 * width, 0.0125 * width, _FAINT)
+    return np.asarray(paper)

@@ -265,7 +265,7 @@ class HiddenStepGrader(StepGrader):
         with self._guarded():
             if self._ran:
                 step = self.step
-                earlier = [other for other in self._work.kit.steps if other.index < step.index]
+                earlier = self._work.kit.handed_in_up_to(step)[:-1]
                 replaced = [other for other in earlier if other.id not in right]
                 program, why = self._joined([other for other in earlier if other.id in right])
                 if program is None:

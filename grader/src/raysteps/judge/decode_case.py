@@ -14,6 +14,8 @@ from raysteps.judge.protocol import (
     Inputs,
     Light,
     Lights,
+    PixelSample,
+    PixelSamples,
     ProtocolError,
     Ray,
     Real,
@@ -64,6 +66,10 @@ def _light(n: _Numbers) -> Light:
     return Light(n.vector(), n.vector())
 
 
+def _pixel_sample(n: _Numbers) -> PixelSample:
+    return PixelSample((n.real(), n.real()), n.vector())
+
+
 def _hit(n: _Numbers) -> Hit:
     position, fill, normal, direction = n.vector(), _fill(n), n.vector(), n.vector()
     return Hit(position, normal, direction, n.real(), fill, n.flag())
@@ -102,6 +108,7 @@ _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Fill: _fill,
     Light: _light,
     Lights: lambda n: Lights(n.many(_light)),
+    PixelSamples: lambda n: PixelSamples(n.many(_pixel_sample)),
     Hit: _hit,
     Box: lambda n: Box(n.vector(), n.vector()),
     Sphere: lambda n: Sphere(n.vector(), n.real(), _fill(n)),

@@ -93,6 +93,7 @@ _MODULES = {
     "07": "tone_mapping",
     "08": "refraction",
     "09": "bvh",
+    "10": "sampling",
 }
 
 

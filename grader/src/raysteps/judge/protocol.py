@@ -203,6 +203,31 @@ class Lights:
 
 
 @dataclass(frozen=True)
+class PixelSample:
+    """Offset from the pixel's middle, and light."""
+
+    offset: tuple[float, float]
+    light: Vector
+
+    def numbers(self) -> list[Number]:
+        return [*self.offset, *self.light]
+
+    def words(self) -> str:
+        return f"offset ({text(self.offset[0])}, {text(self.offset[1])}) light {vector_words(self.light)}"
+
+
+@dataclass(frozen=True)
+class PixelSamples:
+    samples: tuple[PixelSample, ...]
+
+    def numbers(self) -> list[Number]:
+        return [len(self.samples), *(number for sample in self.samples for number in sample.numbers())]
+
+    def words(self) -> str:
+        return "; ".join(sample.words() for sample in self.samples) or "none"
+
+
+@dataclass(frozen=True)
 class Hit:
     """A hit record."""
 

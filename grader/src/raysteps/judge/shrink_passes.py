@@ -19,7 +19,7 @@ from raysteps.judge.choice_sequence import (
     simpler_wholes,
 )
 from raysteps.judge.functions import Case, Function
-from raysteps.judge.protocol import Inputs, Lights, Real, Value, f32
+from raysteps.judge.protocol import Inputs, Lights, PixelSamples, Real, Value, f32
 from raysteps.judge.scripted_tracer import Script, ScriptedHit
 from raysteps.judge.searches import Rays, Reaches
 from raysteps.judge.surfaces import Surfaces
@@ -28,7 +28,14 @@ from raysteps.judge.surfaces import Surfaces
 
 Place = tuple[str, int]  # the name of an input that is a list, and which of its items
 
-_ITEMS = {Surfaces: "surfaces", Lights: "lights", Rays: "rays", Reaches: "rays", Script: "hits"}
+_ITEMS = {
+    Surfaces: "surfaces",
+    Lights: "lights",
+    PixelSamples: "samples",
+    Rays: "rays",
+    Reaches: "rays",
+    Script: "hits",
+}
 _NAMES = {(ScriptedHit, "distance")}  # by which a hit is known again
 _JITTER = 1e-5  # of a vector's largest component, or of the number
 _LARGEST = 1e38  # beyond it a little more may be infinite

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -16,7 +16,7 @@ from rich.table import Table
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
 from raysteps.common.text import join_and, tenths
-from raysteps.course.manifest import Step, choose_one, course_steps, read_steps
+from raysteps.course.manifest import Step, chosen_step, course_steps, of_other_parts, taken_in
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
 from raysteps.grading.scoring import max_points
@@ -162,7 +162,7 @@ def next_of(found: Sequence[Standing], after: Step | None = None) -> Step | None
 def chosen_or_next(project: Project, name: str | None) -> Step | None:
     """The step with this name; without a name the next one to work on, none when all are done."""
     if name is not None:
-        return choose_one(read_steps(project), name)
+        return chosen_step(project, name)
     return next_of(standings(project))
 
 
@@ -182,8 +182,8 @@ ALL_DONE = "All steps are done. Next: `./raysteps finale` makes a picture, a pag
 _OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your course gives the rest."
 
 
-def _points(project: Project, step: Step) -> str:
-    return tenths(max_points(step, judged=project.has_reference))
+def _points(project: Project, steps: Iterable[Step]) -> str:
+    return tenths(sum(max_points(step, judged=project.has_reference) for step in steps))
 
 
 def _color(standing: Standing) -> str:
@@ -200,18 +200,34 @@ def _has_points(standing: Standing) -> bool:
 
 
 def print_list(project: Project, console: Console, found: list[Standing], following: Step | None) -> None:
-    """One row for each step, with the points that `check` shows; an arrow stands at the next one."""
+    """One row for each step, with the points that `check` shows; an arrow stands at the next one. Where the kit has
+    several parts, each has a row of its own before its steps."""
     table = Table(box=None, pad_edge=False)
     for heading in ("", "step", "", "points", "state"):
         table.add_column(heading, justify="right" if heading == "points" else "left")
-    for standing in found:
-        step, color = standing.step, _color(standing)
-        title = f"{escape(step.title)}{' (bonus)' if step.bonus else ''}"
-        state = f"[{color}]{escape(standing.words)}[/{color}]"
-        table.add_row("→" if step == following else "", step.number, title, _points(project, step), state)
+    own, others = [standing.step for standing in found], of_other_parts(project)
+    states = {standing.step: f"[{_color(standing)}]{escape(standing.words)}[/]" for standing in found}
+    parts = sorted({step.part for step in (*own, *others)})
+    for part in parts:
+        steps = [step for step in (*own, *others) if step.part == part]
+        if len(parts) > 1:
+            table.add_row(*_heading(project, own, steps))
+        for step in steps:
+            title = f"{escape(step.title)}{' (bonus)' if step.bonus else ''}"
+            state = states.get(step, "[dim]not in this course[/]")
+            table.add_row("→" if step == following else "", step.number, title, _points(project, [step]), state)
     console.print(table)
     if not project.has_reference:
         console.print(_OF_THE_VISIBLE_PART, style="dim")
+
+
+def _heading(project: Project, course: Sequence[Step], steps: Sequence[Step]) -> list[str]:
+    """The row of a part with these steps: what it is worth, and how the course gets it."""
+    part, bonus = steps[0].part, [step for step in steps if step.bonus]
+    said = f"and up to {_points(project, bonus)} more as a bonus" if bonus else ""
+    if not set(steps) & set(course):
+        said = taken_in(course, part)
+    return ["", "", f"[bold]Part {part}[/]", _points(project, [step for step in steps if not step.bonus]), said]
 
 
 def list_steps(project: Project, console: Console) -> int:
@@ -241,7 +257,7 @@ def next_step(project: Project, console: Console) -> int:
         console.print(ALL_DONE, highlight=False)
         return 0
     standing = next(each for each in found if each.step == step)
-    points = f"{_points(project, step)} points{', bonus' if step.bonus else ''}"
+    points = f"{_points(project, [step])} points{', bonus' if step.bonus else ''}"
     console.print(
         f"[bold]{step.number} {escape(step.title)}[/bold] ({points}): {escape(standing.words)}", highlight=False
     )

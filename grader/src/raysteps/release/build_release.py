@@ -10,7 +10,16 @@ from pathlib import Path
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import content_hash, write_bytes
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, choose, course_steps, dated_steps, read_all_steps, read_steps, steps_words
+from raysteps.course.manifest import (
+    Step,
+    choose,
+    course_steps,
+    dated_steps,
+    read_all_steps,
+    read_steps,
+    steps_words,
+    taken_in,
+)
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.images.render import error_for_nothing, reference_picture, reference_work, write_reference_image
@@ -127,8 +136,16 @@ def _list(folder: Path, course: str, kit: BuiltKit, steps: list[Step]) -> Releas
 
 
 def _refuse_gaps(steps: list[Step], absent: list[Step]) -> None:
-    """A later picture needs the step in between: the reference has it, and the students' stand-in draws nothing."""
-    gaps = [step.id for step in absent if step.index < steps[-1].index]
+    """A later picture needs the step in between: the reference has it, and the students' stand-in draws nothing. A part
+    needs those before it, and none after it."""
+    part = max(step.part for step in steps)
+    earlier = [step for step in absent if step.part not in {one.part for one in steps} and step.part < part]
+    if earlier:
+        raise UsageError(
+            f"part {part} goes on from part {earlier[0].part}, and a students' kit has no reference to stand in; "
+            f"{taken_in(steps, earlier[0].part)}"
+        )
+    gaps = [step.id for step in absent if step.index < steps[-1].index and step.part <= part]
     if gaps:
         until = [step.index for step in steps if step.id < gaps[0]]
         sooner = f"end before it with `--steps {steps[0].index}-{until[-1]}`, or " if until else ""
@@ -187,12 +204,12 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
     return True
 
 
-def first_steps(names: Sequence[str], steps: list[Step], said_by: str = "") -> list[Step]:
+def first_steps(names: Sequence[str], steps: list[Step], said_by: str = "", others: Sequence[Step] = ()) -> list[Step]:
     """The steps with these names, all when there are none. One alone stands for all up to it; `said_by` tells where the
-    names are from."""
+    names are from. `others`: see `choose`."""
     where = said_by or f"--steps {' '.join(names)}"
     try:
-        chosen = choose(steps, names)
+        chosen = choose(steps, names, others)
     except UsageError as error:
         raise UsageError(f"{where}: {error}") from error
     until = [step for step in steps if step.index <= chosen[-1].index]

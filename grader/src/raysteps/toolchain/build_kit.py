@@ -13,7 +13,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable
-from raysteps.course.manifest import Step, course_manifests, read_all_steps, read_steps
+from raysteps.course.manifest import Step, course_manifests, kit_steps, read_all_steps, read_steps, up_to
 from raysteps.course.project import Project
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Output, Task
@@ -91,11 +91,11 @@ class Assembly:
     """Makes bin/, include/, steps/ and facts.json."""
 
     def __init__(
-        self, project: Project, steps: list[Step], course: list[Step], folder: Path, description: Description
+        self, project: Project, steps: list[Step], graded: list[Step], folder: Path, description: Description
     ) -> None:
         self._project = project
         self._steps = steps
-        self._course = course  # those that students hand in; the reference stands for the others
+        self._graded = graded  # those that may be handed in; the reference stands for the others
         self._folder = folder
         self._description = description
         self._objects: dict[str, Path] = {}
@@ -144,15 +144,16 @@ class Assembly:
         self._write_rest("raytrace", raytrace)
         self._write_rest("worker", worker)
         tests: dict[str, dict[str, list[str]]] = {}
-        for at, step in enumerate(self._course, start=1):
+        for step in self._graded:
             say(f"linking the programs of step {step.number}")
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._write_rest(f"test-{step.number}", objects)
             self._link_reference(f"test-{step.number}", objects)
             listed = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
             tests[step.id] = {name: tested_functions(step, name, tags) for name, tags in listed.items()}
-            if not self._add_remote(self._course[:at]):
-                self._add_plain(raytrace, worker, objects, self._course[:at])
+            together = up_to(step, self._graded)
+            if not self._add_remote(together):
+                self._add_plain(raytrace, worker, objects, together)
         return tests
 
     def _add_remote(self, up_to: list[Step]) -> bool:
@@ -267,7 +268,7 @@ def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> Bu
         folder = project.build / "kit" / mark
         is_built = (folder / "kit.json").is_file()
         if not is_built:
-            _build(project, steps, folder, say)
+            _build(project, folder, say)
         if is_built or fingerprint(project) == mark:
             with suppress(OSError):  # of a kit that may only be read, as in an image
                 os.utime(folder)
@@ -293,7 +294,7 @@ def _forget_old(kits: Path) -> None:
             shutil.rmtree(kit, ignore_errors=True)
 
 
-def _build(project: Project, steps: list[Step], folder: Path, say: ProgressCallback) -> None:
+def _build(project: Project, folder: Path, say: ProgressCallback) -> None:
     what = f"building the framework{', the references' if project.has_reference else ''} and the tests"
     say(what)
     folder.parent.mkdir(parents=True, exist_ok=True)
@@ -309,7 +310,8 @@ def _build(project: Project, steps: list[Step], folder: Path, say: ProgressCallb
                 shutil.rmtree(left, ignore_errors=True)
         new = Path(name) / "kit"
         new.mkdir()
-        Assembly(project, read_all_steps(project), steps, new, read_description(tree.folder / "kit.json")).run(say)
+        description = read_description(tree.folder / "kit.json")
+        Assembly(project, read_all_steps(project), kit_steps(project), new, description).run(say)
         shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
         shutil.rmtree(folder, ignore_errors=True)
         new.rename(folder)

@@ -282,7 +282,7 @@ class StudentBuild:
             return self._boxed(boxes, kind, own, binaries, replaced), None
         all_binaries = list(binaries.values())
         if together:
-            missing = [one for one in self._kit.steps if one.index <= step.index and one.number not in binaries]
+            missing = [one for one in self._kit.handed_in_up_to(step) if one.number not in binaries]
             all_binaries += [self._kit.reference_step(other) for other in missing]
         if self._kit.interpreter is not None:
             program = self._kit.program(kind, step, self._folder, together=together, replaced=replaced)

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from raysteps.common.platform import executable
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, kit_steps, up_to
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
 from raysteps.toolchain.link import Description, RemoteParts, library_name, link, without_names
@@ -232,6 +232,13 @@ class BuiltKit:
         """In a students' kit stubs stand where the reference's steps would."""
         return self.project.has_reference
 
+    def handed_in_up_to(self, step: Step) -> list[Step]:
+        """What is loaded where steps are tried together. In a students' kit those of all parts before it, too: nothing
+        else stands there."""
+        if self.has_reference:
+            return up_to(step, self.steps)
+        return [other for other in self.steps if other.index <= step.index]
+
     def reference(self, kind: Kind, step: Step | None = None) -> Path:
         """A program in which every step is the reference's."""
         return executable(self.folder / "bin" / (f"test-{step.number}" if step is not None else kind))
@@ -259,6 +266,10 @@ class BuiltKit:
         """The kit's names that the step may ask for: core's, and the functions of steps up to it."""
         names = json.loads((self.folder / "steps" / f"{step.number}.allowed.json").read_text(encoding="utf-8"))
         return frozenset(names)
+
+    def of_all_parts(self) -> "BuiltKit":
+        """The kit for its makers: with every step that can be graded, whatever parts course.toml chooses."""
+        return replace(self, steps=kit_steps(self.project))
 
     def in_one_process(self) -> "BuiltKit":
         """The kit for one's own steps and for those of its catalogues: nothing has to be kept from them, and a program
@@ -295,7 +306,7 @@ class BuiltKit:
         if (self.folder / "bin" / name).is_file() and not replaced:
             return self.folder / "bin" / name
         linker = ProgramLinker(self.folder, self.description)
-        own = [other.number for other in self.steps if other.index <= step.index] if together else [step.number]
+        own = [other.number for other in self.handed_in_up_to(step)] if together else [step.number]
         return linker.alone(name, f"test-{step.number}" if kind == "test" else kind, own, folder, replaced)
 
     @staticmethod

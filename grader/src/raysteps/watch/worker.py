@@ -16,7 +16,7 @@ from types import FrameType
 from raysteps.common.errors import RaystepsError, reason
 from raysteps.common.platform import own_command
 from raysteps.common.process import end_what_runs
-from raysteps.course.manifest import choose_one, read_steps
+from raysteps.course.manifest import chosen_step
 from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
 from raysteps.progress.check import check_steps
@@ -41,7 +41,7 @@ def _say(text: str) -> None:
 def look(project: Project, name: str) -> None:
     """The visible part, told bit by bit."""
     kit = build_kit(project, _say).in_one_process()
-    step = choose_one(kit.steps, name)
+    step = chosen_step(project, name)
     out = project.build / "watch"
 
     def tell(result: StepResult, *, complete: bool = False) -> None:
@@ -62,7 +62,7 @@ def check(project: Project, name: str) -> None:
     """All of it, as `./raysteps check` does."""
     with contextlib.suppress(AttributeError, OSError):
         os.nice(_UNHURRIED)
-    chosen = [choose_one(read_steps(project), name)]
+    chosen = [chosen_step(project, name)]
     (result,) = check_steps(project, chosen, _say).results.steps
     _tell(WorkerLine(result=result, out=str(project.build / "check"), complete=True))
 

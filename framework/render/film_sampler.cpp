@@ -1,0 +1,126 @@
+#include "render/film_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <glm/common.hpp>
+
+#include "core/random_stream.hpp"
+#include "render/pixel_samples.hpp"
+#include "steps/01-camera-rays/camera_rays.hpp"
+#include "steps/10-sampling/sampling.hpp"
+
+namespace raysteps {
+namespace {
+
+constexpr int k_fine = 256;  // places along each side of a pixel
+constexpr std::uint32_t k_seed = 10;
+
+float reach_of(Filter filter) {
+    switch (filter) {
+        case Filter::box:
+            return 0.5F;
+        case Filter::tent:
+            return 1.0F;
+        case Filter::mitchell:
+            return 2.0F;
+    }
+    return 0.5F;
+}
+
+/// Pixels around a tile whose samples reach into it.
+int margin_of(Filter filter) { return static_cast<int>(std::ceil(reach_of(filter) - 0.5F)); }
+
+/// Also of a point outside of the unit square, as a wrong step may give: the picture shows it.
+int fine_place(int pixel, float point) {
+    const float inside = std::isfinite(point) ? glm::clamp(point, -8.0F, 8.0F) : 0.5F;
+    return pixel * k_fine + static_cast<int>(std::floor(inside * k_fine));
+}
+
+/// From the middle of the pixel to the middle of the finer pixel.
+float offset_of(int fine, int pixel) {
+    return (static_cast<float>(fine - pixel * k_fine) + 0.5F) / static_cast<float>(k_fine) - 0.5F;
+}
+
+Rect grown(const Rect& tile, int margin) {
+    return {.x = tile.x - margin,
+            .y = tile.y - margin,
+            .width = tile.width + 2 * margin,
+            .height = tile.height + 2 * margin};
+}
+
+}  // namespace
+
+FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& options)
+    : side_(side), options_(options), fine_camera_(finer(camera, k_fine)), frame_(view_frame(fine_camera_)) {
+    for (int index = 0; options.sampler == Sampler::halton && index < side * side; ++index) {
+        halton_points_.push_back(halton_point(static_cast<std::uint32_t>(index)));
+    }
+}
+
+std::vector<glm::vec2> FilmSampler::points_of(int x, int y) const {
+    RandomStream random(k_seed, (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x));
+    if (options_.sampler == Sampler::stratified) {
+        return stratified_samples(side_, random);
+    }
+    std::vector<glm::vec2> shifted;
+    const glm::vec2 shift = random.next_2d();
+    for (const glm::vec2& point : halton_points_) {
+        shifted.push_back(glm::fract(point + shift));
+    }
+    return shifted;
+}
+
+/// The samples of all pixels of an area, row by row.
+struct FilmSampler::Film {
+    Rect area;
+    std::vector<std::vector<FilmSample>> pixels;
+
+    /// From the middle of the pixel, no farther than the filter reaches.
+    [[nodiscard]] std::vector<PixelSample> near(int x, int y, const Rect& around, float reach) const {
+        std::vector<PixelSample> found;
+        for (int row = around.y - area.y; row < around.y - area.y + around.height; ++row) {
+            for (int column = around.x - area.x; column < around.x - area.x + around.width; ++column) {
+                for (const FilmSample& sample : pixels[static_cast<std::size_t>(row * area.width + column)]) {
+                    const glm::vec2 offset(offset_of(sample.x, x), offset_of(sample.y, y));
+                    if (std::max(std::abs(offset.x), std::abs(offset.y)) <= reach) {
+                        found.push_back({.offset = offset, .light = sample.light});
+                    }
+                }
+            }
+        }
+        return found;
+    }
+};
+
+std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
+    std::vector<FilmSample> samples;
+    for (const glm::vec2& point : points_of(x, y)) {
+        const int fine_x = fine_place(x, point.x);
+        const int fine_y = fine_place(y, point.y);
+        const Ray ray = primary_ray(fine_camera_, frame_, fine_x, fine_y);
+        samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray)});
+    }
+    return samples;
+}
+
+std::vector<Color> FilmSampler::colors_of(const Rect& tile, Integrator& integrator) const {
+    const int margin = margin_of(options_.filter);
+    Film film{.area = grown(tile, margin), .pixels = {}};
+    for (int y = film.area.y; y < film.area.y + film.area.height; ++y) {
+        for (int x = film.area.x; x < film.area.x + film.area.width; ++x) {
+            film.pixels.push_back(samples_of(x, y, integrator));
+        }
+    }
+    std::vector<Color> colors;
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+        for (int x = tile.x; x < tile.x + tile.width; ++x) {
+            const Rect around{.x = x - margin, .y = y - margin, .width = 2 * margin + 1, .height = 2 * margin + 1};
+            colors.push_back(reconstruct(film.near(x, y, around, reach_of(options_.filter)), options_.filter));
+        }
+    }
+    return colors;
+}
+
+}  // namespace raysteps

@@ -1,0 +1,50 @@
+#pragma once
+// Part two: the samples of all pixels, drawn, followed and put together by step 10.
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "core/camera.hpp"
+#include "core/pixel_sample.hpp"
+#include "render/integrator.hpp"
+#include "render/rect.hpp"
+
+namespace raysteps {
+
+/// Where samples come from. Halton's points are the same for all pixels, moved by an own random shift in each; what
+/// leaves on one side comes back on the other (Cranley and Patterson 1976).
+enum class Sampler { halton, stratified };
+
+struct SamplingOptions {
+    Sampler sampler = Sampler::halton;
+    Filter filter = Filter::tent;
+};
+
+/// Shared by all threads. The samples of a pixel depend on nothing but its place: so the picture is the same however it
+/// is cut into tiles, though those around a tile are followed again for its neighbour.
+class FilmSampler {
+public:
+    /// side * side samples in each pixel.
+    FilmSampler(const Camera& camera, int side, const SamplingOptions& options);
+
+    /// Of each pixel of the tile, row by row, from all samples within the filter's reach.
+    [[nodiscard]] std::vector<Color> colors_of(const Rect& tile, Integrator& integrator) const;
+
+private:
+    struct FilmSample {
+        int x;  ///< of the finer picture
+        int y;
+        Color light;
+    };
+    struct Film;
+
+    [[nodiscard]] std::vector<FilmSample> samples_of(int x, int y, Integrator& integrator) const;
+    [[nodiscard]] std::vector<glm::vec2> points_of(int x, int y) const;
+
+    int side_;
+    SamplingOptions options_;
+    Camera fine_camera_;  ///< a sample is a pixel of a finer picture, as step 01 aims at the middle of a pixel
+    ViewFrame frame_;
+    std::vector<glm::vec2> halton_points_;
+};
+
+}  // namespace raysteps

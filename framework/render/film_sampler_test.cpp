@@ -1,0 +1,90 @@
+// Pictures of part two: the same however they are cut up, smooth, and true to the light that is there.
+#include "render/film_sampler.hpp"
+
+#include <memory>
+
+#include "render/renderer.hpp"
+#include "testing/balls_on_floor.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+RenderOptions of_part_two(const SamplingOptions& sampling, int sample_side = 2) {
+    RenderOptions options;
+    options.step.step = 10;
+    options.sample_side = sample_side;
+    options.sampling = sampling;
+    return options;
+}
+
+/// Light to the left, black to the right of the line x = at in pixels, which runs from top to bottom.
+Scene half_dark(int side, float at) {
+    Scene scene;
+    scene.camera = {.from = {0.0F, 0.0F, 1.0F}, .angle = 90.0F, .width = side, .height = side};
+    scene.background = Color(1.0F);
+    const Fill black{.color = Color(0.0F), .kd = 0.0F};
+    const float x = 2.0F * at / static_cast<float>(side) - 1.0F;
+    scene.add(std::make_unique<Triangle>(glm::vec3(x, -9.0F, 0.0F), glm::vec3(9.0F, 0.0F, 0.0F),
+                                         glm::vec3(x, 9.0F, 0.0F), black));
+    return scene;
+}
+
+constexpr Sampler k_samplers[] = {Sampler::halton, Sampler::stratified};
+constexpr Filter k_filters[] = {Filter::box, Filter::tent, Filter::mitchell};
+
+}  // namespace
+
+TEST_CASE("Part two: a part of the picture, and any number of threads, give the same pixels", "[render]") {
+    Scene scene = balls_on_floor();
+    scene.camera.width = 40;
+    scene.camera.height = 36;
+    for (const Filter filter : k_filters) {
+        RenderOptions options = of_part_two({.sampler = Sampler::stratified, .filter = filter});
+        const Image whole = render(scene, options).image;
+        options.threads = 3;
+        options.crop = Rect{.x = 7, .y = 5, .width = 21, .height = 19};
+        const Image part = render(scene, options).image;
+        for (int y = 0; y < part.height(); ++y) {
+            for (int x = 0; x < part.width(); ++x) {
+                CAPTURE(x, y);
+                REQUIRE(part.at(x, y) == whole.at(x + 7, y + 5));
+            }
+        }
+    }
+}
+
+TEST_CASE("Part two: a pixel that an edge divides shows its share of the light", "[render]") {
+    INFO(
+        "the box, and an edge through a quarter of pixel 4: 0.25 of the light of white, which a screen shows as 0.537");
+    for (const Sampler sampler : k_samplers) {
+        const Image image =
+            render(half_dark(8, 4.25F), of_part_two({.sampler = sampler, .filter = Filter::box}, 8)).image;
+        double sum = 0.0;
+        for (int y = 0; y < 8; ++y) {
+            CHECK(static_cast<int>(image.at(3, y).r) == 255);
+            CHECK(static_cast<int>(image.at(5, y).r) == 0);
+            sum += static_cast<double>(image.at(4, y).r);
+        }
+        CHECK(sum / 8.0 == about(0.537 * 255.0, 0.03));
+    }
+}
+
+TEST_CASE("Part two: a wall of one colour stays so, whatever the filter", "[render]") {
+    Scene scene;
+    scene.camera = {.width = 9, .height = 7};
+    scene.background = Color(0.5F, 0.2F, 0.001F);
+    for (const Sampler sampler : k_samplers) {
+        for (const Filter filter : k_filters) {
+            const Image image = render(scene, of_part_two({.sampler = sampler, .filter = filter})).image;
+            for (int y = 0; y < 7; ++y) {
+                for (int x = 0; x < 9; ++x) {
+                    INFO("0.5, 0.2 and 0.001 are shown as 0.735, 0.485 and 0.0129");
+                    REQUIRE(image.at(x, y) == Rgb8{188, 124, 3});
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,66 @@
+// Samples, filters and the curve of a screen: step 10.
+#include "steps/10-sampling/sampling.hpp"
+#include "worker/functions.hpp"
+#include "worker/protocol.hpp"
+
+namespace raysteps {
+namespace {
+
+TokenWriter& write_point(TokenWriter& answer, const glm::vec2& point) { return answer.number(point.x).number(point.y); }
+
+// As often as asked, each time with a stream of its own, and at last with the first one again.
+void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {
+    const int side = words.whole();
+    const auto seed = static_cast<std::uint32_t>(words.whole());
+    const int times = words.count();
+    for (int number = 0; number <= times; ++number) {
+        RandomStream random(seed, static_cast<std::uint32_t>(number % times));
+        const std::vector<glm::vec2> points = stratified_samples(side, random);
+        answer.whole(static_cast<long long>(points.size()));
+        for (const glm::vec2& point : points) {
+            write_point(answer, point);
+        }
+    }
+}
+
+void ask_radical_inverse(TokenReader& words, TokenWriter& answer) {
+    const auto base = static_cast<std::uint32_t>(words.whole());
+    answer.number(radical_inverse(base, static_cast<std::uint32_t>(words.whole())));
+}
+
+void ask_halton_point(TokenReader& words, TokenWriter& answer) {
+    write_point(answer, halton_point(static_cast<std::uint32_t>(words.whole())));
+}
+
+void ask_tent_filter(TokenReader& words, TokenWriter& answer) { answer.number(tent_filter(words.number())); }
+
+void ask_mitchell_filter(TokenReader& words, TokenWriter& answer) { answer.number(mitchell_filter(words.number())); }
+
+void ask_reconstruct(TokenReader& words, TokenWriter& answer) {
+    const auto filter = static_cast<Filter>(words.whole());
+    std::vector<PixelSample> samples;
+    for (int left = words.count(); left > 0; --left) {
+        PixelSample sample;
+        sample.offset.x = words.number();
+        sample.offset.y = words.number();
+        sample.light = words.vector();
+        samples.push_back(sample);
+    }
+    answer.vector(reconstruct(samples, filter));
+}
+
+void ask_linear_to_srgb(TokenReader& words, TokenWriter& answer) { answer.number(linear_to_srgb(words.number())); }
+
+}  // namespace
+
+void add_sampling(FunctionTable& functions) {
+    functions["stratified_samples"] = ask_stratified_samples;
+    functions["radical_inverse"] = ask_radical_inverse;
+    functions["halton_point"] = ask_halton_point;
+    functions["tent_filter"] = ask_tent_filter;
+    functions["mitchell_filter"] = ask_mitchell_filter;
+    functions["reconstruct"] = ask_reconstruct;
+    functions["linear_to_srgb"] = ask_linear_to_srgb;
+}
+
+}  // namespace raysteps

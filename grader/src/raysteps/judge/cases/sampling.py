@@ -1,0 +1,345 @@
+"""Cases of step 10."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from raysteps.common.vectors import Vector
+from raysteps.judge.answers import (
+    Answer,
+    Tolerance,
+    channels,
+    first,
+    itself,
+    read_vector,
+    real,
+    words_of_number,
+    words_of_vector,
+)
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text
+from raysteps.judge.random_source import RandomSource
+from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_even
+
+# Stratified samples. Every order of the points is right, and every way to draw them: so no answer is compared with the
+# reference's, but each is tested for what the contract promises. The worker asks `times` times, each time with another
+# stream, and at last with the first one again.
+
+_BORDER = 1e-4  # of a square: a point so near to its border may have been rounded across
+_FEW, _MANY = 8, 32  # bins along a side of a square
+_MANY_POINTS = 32_768  # from here on the finer bins
+
+
+@dataclass(frozen=True)
+class _Draws:
+    """What came of each time."""
+
+    points: tuple[Numbers, ...]
+
+
+def _read_draws(tokens: TokenReader) -> _Draws:
+    draws = []
+    while not tokens.at_end():
+        size = tokens.whole(0, 1 << 20)
+        numbers = [tokens.real() for _ in range(2 * size)]
+        draws.append(np.array(numbers, dtype=np.float64).reshape(size, 2))
+    return _Draws(tuple(draws))
+
+
+def _words_of_draws(draws: _Draws) -> str:
+    if not draws.points:
+        return "nothing"
+    found = draws.points[0]
+    return f"{len(found)} points, first " + ", ".join(f"({text(f32(x))}, {text(f32(y))})" for x, y in found[:8])
+
+
+def _whole(inputs: Inputs, name: str) -> int:
+    value = inputs[name]
+    assert isinstance(value, Whole)
+    return value.value
+
+
+def _in_squares(points: Numbers, side: int) -> Numbers | None:
+    """Where in its square each point lies, in the order of the squares; none where a square has not just one point."""
+    places = points * side
+    near = np.abs(places - np.round(places)) < _BORDER
+    squares = np.clip(np.where(near, np.round(places), np.floor(places)), 0, side).astype(np.int64)
+    sure = ~near.any(axis=1)
+    index = squares[:, 1] * side + squares[:, 0]
+    if len(np.unique(index[sure])) != int(sure.sum()):
+        return None
+    if sure.all():
+        return np.asarray(places - squares)[np.argsort(index)]
+    return np.asarray(places % 1.0)[np.lexsort((places[:, 0], np.floor(places[:, 1] + _BORDER / 2)))]
+
+
+def _pairs(shares: Numbers) -> Iterator[tuple[Numbers, Numbers]]:
+    """Of squares beside and below each other. Shares: times, rows, columns, x and y."""
+    _, rows, columns, _ = shares.shape
+    yield shares[:, :, 0 : columns - 1 : 2], shares[:, :, 1::2]
+    yield shares[:, 0 : rows - 1 : 2], shares[:, 1::2]
+
+
+def _hang_together(one: Numbers, other: Numbers) -> bool:
+    """Any coordinate of a point of one with any of the other's."""
+    return not all(
+        are_independent(one[..., a].ravel(), other[..., b].ravel(), 2 * _FEW) for a in range(2) for b in range(2)
+    )
+
+
+def _are_copied(one: Numbers, other: Numbers) -> bool:
+    """Whether many of two numbers that should be apart are the same, but for rounding; not where all are."""
+    return (
+        one.size >= _ENOUGH
+        and float(one.std()) > _ALIKE
+        and bool((np.abs(one - other) < _ALIKE).mean(axis=(0, 1, 2)).max() > _BY_CHANCE)
+    )
+
+
+_SQUARES = "the points of different squares have to do with each other"
+_ENOUGH, _ALIKE, _BY_CHANCE = 400, 1e-5, 0.1
+
+
+def _problem_of_squares(shares: Numbers) -> str:
+    """Shares: times, rows, columns, x and y, each from 0 to 1 within its square. Numbers that were used several times
+    are looked for first: they make everything else uneven."""
+    if any(_are_copied(*pair) for pair in _pairs(shares)):
+        return _SQUARES
+    points = shares.reshape(-1, 2)
+    bins = _MANY if len(points) >= _MANY_POINTS else _FEW
+    ways = (points[:, 0], points[:, 1])
+    if not all(is_even(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12)) for way in ways):
+        return "the points do not lie everywhere in their squares, all places equally likely"
+    if not is_even(points, bins):
+        return "x and y of a point have to do with each other"
+    if any(_hang_together(*pair) for pair in _pairs(shares)):
+        return _SQUARES
+    if _hang_together(shares[0:-1:2], shares[1::2]):
+        return "the points are much the same for every stream"
+    return ""
+
+
+def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
+    side, times = _whole(inputs, "side"), _whole(inputs, "times")
+    if len(actual.points) != times + 1:
+        return "no proper answer came"
+    if any(len(points) != side * side for points in actual.points):
+        return "there are not side * side points"
+    if not all(bool(np.all((points >= 0) & (points <= 1))) for points in actual.points):
+        return "a point lies outside of the unit square"
+    in_squares = [_in_squares(points, side) for points in actual.points[:-1]]
+    shares = [found for found in in_squares if found is not None]
+    if len(shares) != times:
+        return "a square has no point, or two"
+    if not np.array_equal(actual.points[0], actual.points[-1]):
+        return "the same stream gave other points; all numbers must come from it"
+    return _problem_of_squares(np.minimum(np.array(shares), 1.0).reshape(times, side, side, 2))
+
+
+def _draws(draw: RandomSource, side: int, points: int) -> Inputs:
+    times = 2 * math.ceil(points / side / side / 2)
+    return {"side": Whole(side), "seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(times)}
+
+
+_STRATIFIED = Function(
+    "stratified_samples",
+    Answer(_read_draws, _words_of_draws, _draws_problem),
+    (
+        Group("a few squares", lambda d: _draws(d, d.whole(2, 4), 2048)),
+        Group("one square", lambda d: _draws(d, 1, 2048)),
+        Group("many squares", lambda d: _draws(d, d.whole(5, 16), 4096)),
+        Group("very many points", lambda d: _draws(d, d.whole(4, 8), 65_536)),
+    ),
+)
+
+# Low-discrepancy points.
+
+_CLOSE = Tolerance(2e-6, 2e-6)
+_PRIMES = (2, 3, 5, 7, 11, 13, 29, 101)
+
+
+def _share_problem(_inputs: Inputs, expected: float, actual: float) -> str:
+    if actual >= 1:
+        return "the answer is not below 1"
+    return real("the answer", expected, actual, _CLOSE)
+
+
+def _inverse(base: int, index: int) -> Inputs:
+    return {"base": Whole(base), "index": Whole(index)}
+
+
+def _base(draw: RandomSource) -> int:
+    return _PRIMES[draw.whole(0, len(_PRIMES) - 1)]
+
+
+def _next_to_one(draw: RandomSource) -> Inputs:
+    """All digits are the largest one."""
+    base = (2, 3, 10)[draw.whole(0, 2)]
+    digits = math.floor(math.log(1e9) / math.log(base))
+    return _inverse(base, base ** draw.whole(digits - 1, digits) - 1)
+
+
+_RADICAL_INVERSE = Function(
+    "radical_inverse",
+    Answer(lambda tokens: tokens.real(), words_of_number, _share_problem),
+    (
+        Group("any base and index", lambda d: _inverse(_base(d), d.whole(1, 10_000))),
+        Group("base 2", lambda d: _inverse(2, d.whole(1, 64))),
+        Group("one digit", lambda d: _inverse(d.whole(3, 40), d.whole(1, 2))),
+        Group("index 0", lambda d: _inverse(_base(d), 0), exact=True),
+        Group("a large index", lambda d: _inverse(_base(d), d.whole(10_000_000, 1_000_000_000))),
+        Group("close to 1", _next_to_one, exact=True),
+    ),
+)
+
+_Point = tuple[float, float]
+
+
+def _read_point(tokens: TokenReader) -> _Point:
+    return tokens.real(), tokens.real()
+
+
+def _words_of_point(point: _Point) -> str:
+    return f"({text(point[0])}, {text(point[1])})"
+
+
+def _point_problem(_inputs: Inputs, expected: _Point, actual: _Point) -> str:
+    return first(real("x", expected[0], actual[0], _CLOSE), real("y", expected[1], actual[1], _CLOSE))
+
+
+_HALTON = Function(
+    "halton_point",
+    Answer(_read_point, _words_of_point, _point_problem),
+    (
+        Group("any index", lambda d: {"index": Whole(d.whole(1, 10_000))}),
+        Group("the first points", lambda d: {"index": Whole(d.whole(0, 15))}, exact=True),
+        Group("a large index", lambda d: {"index": Whole(d.whole(10_000_000, 1_000_000_000))}),
+    ),
+)
+
+# Filters, and what becomes of samples.
+
+_WEIGHT = Answer(
+    lambda tokens: tokens.real(),
+    words_of_number,
+    lambda _, expected, actual: real("the weight", expected, actual, Tolerance(2e-5, 2e-5)),
+)
+
+
+def _distance(draw: RandomSource, low: float, high: float) -> Inputs:
+    return {"distance": Real(f32(draw.sign() * draw.fine(low, high)))}
+
+
+def _simple_distance(draw: RandomSource, most: int) -> Inputs:
+    return {"distance": Real(draw.whole(-2 * most, 2 * most) / 2)}
+
+
+_TENT = Function(
+    "tent_filter",
+    _WEIGHT,
+    (
+        Group("within reach", lambda d: _distance(d, 0.02, 0.98)),
+        Group("simple numbers", lambda d: _simple_distance(d, 1), exact=True),
+        Group("beyond its reach", lambda d: _distance(d, 1.01, 4), exact=True),
+    ),
+)
+_MITCHELL = Function(
+    "mitchell_filter",
+    _WEIGHT,
+    (
+        Group("within reach", lambda d: _distance(d, 0.02, 1.9)),
+        Group("the middle part", lambda d: _distance(d, 0.02, 0.98)),
+        Group("where it is below 0", lambda d: _distance(d, 1.15, 1.9)),
+        Group("simple numbers", lambda d: _simple_distance(d, 2), exact=True),
+        Group("beyond its reach", lambda d: _distance(d, 2.01, 6), exact=True),
+    ),
+)
+
+_BOX, _TENT_KIND, _MITCHELL_KIND = range(3)  # as in core/pixel_sample.hpp
+_REACH = (0.5, 1.0, 2.0)
+
+
+def _sample(draw: RandomSource, reach: float, light: Vector) -> PixelSample:
+    return PixelSample((draw.real(-reach, reach), draw.real(-reach, reach)), light)
+
+
+def _samples(draw: RandomSource, filters: tuple[int, ...], size: int, *, brightest: float = 2.0) -> Inputs:
+    """The first one lies near the middle, so that the weights never add up to little."""
+    kind = filters[draw.whole(0, len(filters) - 1)]
+    near = _sample(draw, 0.2, draw.color(0.1, brightest))
+    others = [_sample(draw, 0.98 * _REACH[kind], draw.color(0.1, brightest)) for _ in range(size - 1)]
+    return {"filter": Whole(kind), "samples": PixelSamples((near, *others))}
+
+
+_EVERY = (_BOX, _TENT_KIND, _MITCHELL_KIND)
+
+
+def _one_is_bright(draw: RandomSource) -> Inputs:
+    inputs = _samples(draw, _EVERY, draw.whole(4, 9))
+    samples = inputs["samples"]
+    assert isinstance(samples, PixelSamples)
+    bright = PixelSample((draw.real(-0.4, 0.4), draw.real(-0.4, 0.4)), draw.color(100, 1000))
+    return {**inputs, "samples": PixelSamples((*samples.samples, bright))}
+
+
+def _of_no_weight(draw: RandomSource) -> Inputs:
+    """No sample at all, or only such as lie beyond the filter's reach."""
+    kind = _EVERY[draw.whole(0, 1)]
+    out = [PixelSample((draw.sign() * draw.real(1.1, 3), draw.real(-1, 1)), draw.color()) for _ in range(3)]
+    return {"filter": Whole(kind), "samples": PixelSamples(tuple(out[: draw.whole(0, 3)]))}
+
+
+def _negative_light(draw: RandomSource) -> Inputs:
+    """A bright sample where the filter is below 0."""
+    near = PixelSample((draw.real(-0.1, 0.1), draw.real(-0.1, 0.1)), draw.color(0.1, 0.3))
+    far = PixelSample((draw.sign() * draw.real(1.3, 1.7), draw.real(-0.1, 0.1)), draw.color(20, 30))
+    return {"filter": Whole(_MITCHELL_KIND), "samples": PixelSamples((near, far))}
+
+
+_COLOR = Answer(
+    read_vector,
+    words_of_vector,
+    lambda _, expected, actual: channels("the light", expected, actual, Tolerance(2e-4, 5e-4)),
+    near=itself,
+)
+_RECONSTRUCT = Function(
+    "reconstruct",
+    _COLOR,
+    (
+        Group("tent and Mitchell", lambda d: _samples(d, (_TENT_KIND, _MITCHELL_KIND), d.whole(4, 16))),
+        Group("the box", lambda d: _samples(d, (_BOX,), d.whole(2, 16))),
+        Group("one sample", lambda d: _samples(d, _EVERY, 1)),
+        Group("one is very bright", _one_is_bright),
+        Group("the answer is below 0", _negative_light),
+        Group("nothing counts", _of_no_weight, exact=True),
+    ),
+)
+
+
+# The curve of a screen.
+
+
+def _channel(value: float) -> Inputs:
+    return {"channel": Real(f32(value))}
+
+
+_NO_LIGHT = (-1.0, -0.001, -100.0, -math.inf, math.nan, -0.0)
+_SRGB = Function(
+    "linear_to_srgb",
+    Answer(
+        lambda tokens: tokens.real(),
+        words_of_number,
+        lambda _, expected, actual: real("the channel", expected, actual, Tolerance(2e-5, 1e-4)),
+    ),
+    (
+        Group("any channel", lambda d: _channel(d.fine(0.01, 0.99))),
+        Group("the darkest", lambda d: _channel(d.fine(0.0001, 0.003))),
+        Group("0 and 1", lambda d: _channel(float(d.whole(0, 1))), exact=True),
+        Group("above 1", lambda d: _channel((1.001, 1.5, 30.0, 1e30, math.inf)[d.whole(0, 4)]), exact=True),
+        Group("negative or NaN", lambda d: _channel(_NO_LIGHT[d.whole(0, 5)]), exact=True),
+    ),
+)
+
+FUNCTIONS = (_STRATIFIED, _RADICAL_INVERSE, _HALTON, _TENT, _MITCHELL, _RECONSTRUCT, _SRGB)

@@ -1,0 +1,142 @@
+"""Tests whose errors are fixed: right numbers pass, wrong ones are found, and the tail is that of the books."""
+
+import math
+
+import numpy as np
+import pytest
+
+from raysteps.judge.answers import Verdict
+from raysteps.judge.cases.sampling import FUNCTIONS
+from raysteps.judge.functions import Case
+from raysteps.judge.protocol import Inputs, Whole, text
+from raysteps.judge.statistics import Numbers, are_independent, chi_square_tail, has_mean, is_even
+
+_SEED = 20
+
+
+@pytest.mark.parametrize(
+    ("value", "degrees", "tail"),
+    [  # from published tables of the distribution's upper quantiles
+        (3.841459, 1, 0.05),
+        (5.991465, 2, 0.05),
+        (6.634897, 1, 0.01),
+        (18.307038, 10, 0.05),
+        (29.588298, 10, 0.001),
+        (82.528727, 63, 0.05),
+        (103.442377, 63, 0.001),
+        (1000.0, 1, 0.0),
+        (0.0, 5, 1.0),
+    ],
+)
+def test_the_tail_is_that_of_the_tables(value: float, degrees: int, tail: float) -> None:
+    assert chi_square_tail(value, degrees) == pytest.approx(tail, rel=1e-4, abs=1e-12)
+
+
+def test_a_tail_far_out_is_as_small_as_it_is() -> None:
+    assert chi_square_tail(4 * 70.0, 2) == pytest.approx(math.exp(-140.0), rel=1e-9)
+
+
+def test_even_numbers_pass_and_uneven_ones_do_not() -> None:
+    draw = np.random.default_rng(_SEED)
+    even = draw.random(20_000)
+    assert is_even(even, 16)
+    assert has_mean(even, 0.5, math.sqrt(1 / 12))
+    assert not is_even(even * 0.97, 16)
+    assert not has_mean(even * 0.97, 0.5, math.sqrt(1 / 12))
+    assert is_even(draw.random((20_000, 2)), 8)
+    assert not is_even(np.stack([even, even], axis=1), 8)
+    assert are_independent(even[::2], even[1::2], 16)
+    assert not are_independent(even, np.asarray((even + 0.01 * draw.random(20_000)) % 1.0), 16)
+
+
+def test_too_few_numbers_tell_nothing() -> None:
+    assert is_even(np.zeros(10), 16)
+
+
+# What the judge says of points that are wrong in one way.
+
+_STRATIFIED = FUNCTIONS[0]
+_SIDE, _TIMES = 4, 512
+
+
+def _inputs(side: int = _SIDE, times: int = _TIMES) -> Inputs:
+    return {"side": Whole(side), "seed": Whole(1), "times": Whole(times)}
+
+
+def _right(side: int = _SIDE, times: int = _TIMES) -> Numbers:
+    """Times, squares, x and y."""
+    draw = np.random.default_rng(_SEED)
+    corners = np.array([(column, row) for row in range(side) for column in range(side)])
+    return np.asarray((corners + draw.random((times, side * side, 2))) / side)
+
+
+def _verdict(points: Numbers, inputs: Inputs, *, last: Numbers | None = None) -> Verdict:
+    def line(found: Numbers) -> str:
+        times = [*found, found[0] if last is None or found is not points else last]
+        return " ".join(f"{len(one)} " + " ".join(text(float(x)) for x in one.ravel()) for one in times)
+
+    expected = line(_right(_whole(inputs, "side"), _whole(inputs, "times")))
+    return _STRATIFIED.answer.verdict(_STRATIFIED.name, inputs, expected, line(points))
+
+
+def _whole(inputs: Inputs, name: str) -> int:
+    value = inputs[name]
+    assert isinstance(value, Whole)
+    return value.value
+
+
+def test_right_points_in_any_order_are_right() -> None:
+    draw = np.random.default_rng(_SEED + 1)
+    corners = np.array([(column, row) for column in range(_SIDE) for row in range(_SIDE)])
+    points = (corners + draw.random((_TIMES, _SIDE * _SIDE, 2))) / _SIDE
+    shuffled = np.stack([draw.permutation(one) for one in points])
+    assert _verdict(shuffled, _inputs()).problem == ""
+
+
+def test_a_point_on_the_border_of_its_square_may_be_rounded_across() -> None:
+    points = _right()
+    points[0, 5] = (2 / _SIDE, 2 / _SIDE)  # of the square in column 1 and row 1, just at its end
+    points[1, 15] = (1.0, 1.0)
+    assert _verdict(points, _inputs()).problem == ""
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda p: p[:, :-1], "there are not side * side points"),
+        (lambda p: p * 1.2, "outside of the unit square"),
+        (lambda p: np.random.default_rng(3).random(p.shape), "a square has no point, or two"),
+        (lambda p: (np.floor(p * _SIDE) + 0.5 * ((p * _SIDE) % 1)) / _SIDE, "do not lie everywhere"),
+        (lambda p: np.floor(p * _SIDE) / _SIDE + 0.5 / _SIDE, "do not lie everywhere"),
+        (
+            lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[..., :1]) / _SIDE,
+            "x and y of a point",
+        ),
+        (lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[:, :1]) / _SIDE, "different squares"),
+        (
+            lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[np.arange(len(p)) // 2]) / _SIDE,
+            "the same for every stream",
+        ),
+    ],
+)
+def test_each_fault_has_its_words(change: object, said: str) -> None:
+    assert callable(change)
+    assert said in _verdict(np.asarray(change(_right())), _inputs()).problem
+
+
+def test_the_same_stream_must_give_the_same_points() -> None:
+    points = _right()
+    assert "the same stream gave other points" in _verdict(points, _inputs(), last=points[1]).problem
+
+
+def test_one_square_is_tested_too() -> None:
+    points = _right(1, 2048)
+    assert _verdict(points, _inputs(1, 2048)).problem == ""
+    assert "x and y" in _verdict(points[..., :1].repeat(2, axis=-1), _inputs(1, 2048)).problem
+
+
+def test_few_points_can_be_told_too() -> None:
+    """Smallest counterexamples are looked for among them."""
+    case = Case("stratified_samples", "a few squares", _inputs(2, 1))
+    assert _verdict(_right(2, 1), case.inputs).problem == ""
+    assert "a square has no point" in _verdict(_right(2, 1)[:, [0, 0, 1, 2]], case.inputs).problem

@@ -1,0 +1,136 @@
+"""Step 10: where samples lie, what they are worth, and what a screen is sent."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tools.bench.charts import Axis, Chart, Series, log_axis, svg_text
+from tools.figures.drawing import Drawing
+
+_WIDE = 560.0
+_SEED = 10
+_Points = NDArray[np.float64]
+
+
+def _inverse(base: int, index: int) -> float:
+    answer, place = 0.0, 1.0
+    while index > 0:
+        place /= base
+        answer += place * (index % base)
+        index //= base
+    return answer
+
+
+def _random(draw: np.random.Generator, side: int) -> _Points:
+    return draw.random((side * side, 2))
+
+
+def _stratified(draw: np.random.Generator, side: int) -> _Points:
+    corners = np.array([(column, row) for row in range(side) for column in range(side)])
+    return np.asarray((corners + draw.random((side * side, 2))) / side)
+
+
+def _halton(draw: np.random.Generator, side: int) -> _Points:
+    """Moved by a random shift, as in each pixel."""
+    points = np.array([(_inverse(2, i), _inverse(3, i)) for i in range(side * side)])
+    return np.asarray((points + draw.random(2)) % 1.0)
+
+
+_WAYS = {"anywhere": _random, "stratified": _stratified, "Halton": _halton}
+
+
+def points() -> Drawing:
+    """64 of each kind."""
+    figure = Drawing(
+        640,
+        245,
+        "64 samples in a pixel",
+        "Three squares with 64 points each. Points that lie anywhere come in heaps and leave holes. Stratified ones "
+        "lie one in each of 8 by 8 squares. Halton's points are spread evenly, with no point close to another.",
+    )
+    draw = np.random.default_rng(_SEED)
+    side, size = 8, 184.0
+    for number, (name, make) in enumerate(_WAYS.items()):
+        left, top = 22 + number * 206, 22
+        if name == "stratified":
+            for line in range(1, side):
+                at = size * line / side
+                figure.line((left + at, top), (left + at, top + size), "muted thin")
+                figure.line((left, top + at), (left + size, top + at), "muted thin")
+        figure.rect((left, top), size, size)
+        for x, y in make(draw, side):
+            figure.dot((left + size * x, top + size * y), "blue", 2.6)
+        figure.text((left + size / 2, 230), name, "small", "middle")
+    return figure
+
+
+def _error(name: str, side: int) -> float:
+    """Of the share of a pixel that lies beyond an edge: root mean square over many edges."""
+    draw = np.random.default_rng(_SEED)
+    errors = []
+    for _ in range(400):
+        angle, off = draw.uniform(0, 2 * math.pi), draw.uniform(-0.3, 0.3)
+        normal = np.array((math.cos(angle), math.sin(angle)))
+        grid = (np.arange(256) + 0.5) / 256 - 0.5
+        right = float((grid[:, None] * normal[0] + grid[None, :] * normal[1] < off).mean())
+        found = float(((_WAYS[name](draw, side) - 0.5) @ normal < off).mean())
+        errors.append(found - right)
+    return float(np.sqrt(np.mean(np.square(errors))))
+
+
+def errors() -> str:
+    """How they shrink with the number of samples."""
+    sides = (1, 2, 3, 4, 6, 8, 12, 16)
+    lines = {name: [(float(side * side), _error(name, side)) for side in sides] for name in _WAYS}
+    x = log_axis("samples in the pixel", [at for line in lines.values() for at, _ in line])
+    y = log_axis("error at an edge, 1 is white", [value for line in lines.values() for _, value in line])
+    words = (
+        "Both axes are logarithmic. All begin at a half. With 256 samples the error is 0.03 where they lie anywhere, "
+        "and less than a third of that where they are stratified or Halton's."
+    )
+    chart = Chart("more samples, less error", x, y, [Series(name, line) for name, line in lines.items()])
+    return svg_text([chart], width=_WIDE, description=words, plate=True)
+
+
+def _tent(x: float) -> float:
+    return max(0.0, 1 - abs(x))
+
+
+def _mitchell(x: float) -> float:
+    x = abs(x)
+    if x < 1:
+        return (7 * x**3 - 12 * x**2 + 16 / 3) / 6
+    return (-7 / 3 * x**3 + 12 * x**2 - 20 * x + 32 / 3) / 6 if x < 2 else 0.0
+
+
+def filters() -> str:
+    """Weights against the distance from the middle of the pixel."""
+    at = [i / 50 for i in range(-125, 126)]
+    series = [
+        Series("box", [(x, 1.0 if abs(x) <= 0.5 else 0.0) for x in at], marked=False),
+        Series("tent", [(x, _tent(x)) for x in at], marked=False),
+        Series("Mitchell", [(x, _mitchell(x)) for x in at], marked=False),
+    ]
+    x, y = Axis("distance from the middle, in pixels", -2.5, 2.5), Axis("weight", -0.2, 1.0)
+    words = (
+        "The box is 1 up to half a pixel to either side. The tent falls evenly from 1 to 0 at a distance of 1. "
+        "Mitchell's filter is 8/9 in the middle, passes 0 a little after 1, is slightly negative, and ends at 2."
+    )
+    return svg_text([Chart("what a sample is worth", x, y, series)], width=_WIDE, description=words, plate=True)
+
+
+def _srgb(c: float) -> float:
+    return 12.92 * c if c <= 0.0031308 else 1.055 * float(c ** (1 / 2.4)) - 0.055
+
+
+def screen() -> str:
+    """From light to what a screen is sent."""
+    light = [i / 200 for i in range(201)]
+    series = [
+        Series("sRGB", [(c, _srgb(c)) for c in light], marked=False),
+        Series("as it is", [(c, c) for c in light], marked=False),
+    ]
+    x, y = Axis("linear light", 0.0, 1.0), Axis("what the screen is sent", 0.0, 1.0)
+    words = "The curve rises steeply from 0: a light of 0.2 is sent as 0.48 and one of 0.5 as 0.74. It ends at 1."
+    return svg_text([Chart("the curve of a screen", x, y, series)], width=_WIDE, description=words, plate=True)
