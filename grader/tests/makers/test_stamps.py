@@ -1,5 +1,6 @@
 """A check is not run again where nothing that it can depend on has changed, and is where anything has."""
 
+import importlib.metadata
 import os
 import subprocess
 import sys
@@ -144,6 +145,18 @@ def test_another_machine_is_another_matter(small: Project, monkeypatch: pytest.M
     monkeypatch.setattr(stamps, "machine_mark", lambda: "with a new compiler")
     _run(_counting(ran), small)
     assert len(ran) == 2
+
+
+def test_a_machine_is_the_same_once_the_kit_was_set_up_in_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which writes a description of the kit beside its sources, and one that is installed: the same package twice."""
+    mark = stamps.machine_mark.__wrapped__
+    found = list(importlib.metadata.distributions())
+    monkeypatch.setattr(importlib.metadata, "distributions", lambda: found)
+    once = mark()
+    found.append(found[0])
+    assert mark() == once
+    found[:2] = []
+    assert mark() != once
 
 
 @pytest.mark.parametrize("verdict", ["failed", "skipped"])
