@@ -5,7 +5,6 @@
 #include "inspect/ray_recorder.hpp"
 #include "render/encode.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
-#include "steps/07-tone-mapping/tone_mapping.hpp"
 
 namespace raysteps {
 namespace {
@@ -98,7 +97,7 @@ PixelRecord inspect_pixel(const Scene& scene, const Camera& camera, const Accele
     if (record.color) {
         record.bytes = encode(*record.color, options.step);
         if (options.step >= 7) {
-            record.mapped = tone_map(*record.color);
+            record.mapped = shown_color(*record.color, options.step);
         }
     }
     list_near(scene, record);

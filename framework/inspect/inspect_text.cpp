@@ -31,7 +31,9 @@ void write_end(TextLines& out, const PixelRecord& record) {
         return;
     }
     if (record.mapped) {
-        out.line(0, "tone mapping", brief(*record.color) + " becomes " + brief(*record.mapped));
+        const bool for_screen = is_of_part_two(record.options.step);
+        out.line(0, for_screen ? "for a screen" : "tone mapping",
+                 brief(*record.color) + " becomes " + brief(*record.mapped));
     } else {
         out.line(0, "colour", brief(*record.color) + ", cut off at 1");
     }

@@ -107,7 +107,7 @@ struct PixelRecord {
     RayNode eye;
     bool endless = false;         ///< the rays went on far beyond the greatest depth, and were stopped
     std::optional<Color> color;   ///< of the pixel, before tone mapping
-    std::optional<Color> mapped;  ///< after it, from step 07 on
+    std::optional<Color> mapped;  ///< as it is shown, from step 07 on
     Rgb8 bytes;
     Stats stats;
     SearchCounts counts;  ///< of all rays; unique_surfaces: different ones in the whole pixel

@@ -12,6 +12,7 @@ import pytest
 from course_fakes import printed, small_project, text
 
 from raysteps.cli import app as cli
+from raysteps.cli.todo_steps import last_written, unfinished
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import (
     Step,
@@ -214,6 +215,19 @@ def test_a_command_line_is_told_of_the_part(
     ):
         assert cli.main(line.split()) == UsageError.exit_code
         assert "step 08-refraction belongs to part 2; `parts = [1, 2]` in course.toml" in capsys.readouterr().err
+
+
+def test_own_pictures_are_drawn_with_the_parts_before(kit: Project, settle: Callable[[str], Path]) -> None:
+    """Whether the course has them or not, and never with a part after."""
+    settle("parts = [2]")
+    assert _numbers([step for step, _ in unfinished(kit, 8)]) == "1234578"
+    step = kit_steps(kit)[0]
+    shutil.copy(kit.solutions / step.path, kit.steps / step.path)
+    assert _numbers([step for step, _ in unfinished(kit, 8)]) == "234578"
+    assert last_written(kit) == 1
+    settle("parts = [1]")
+    _add(kit, "03-phong-shading", "part = 2")
+    assert _numbers([step for step, _ in unfinished(kit, 7)]) == "2457"
 
 
 def test_an_autograder_knows_the_parts(settle: Callable[[str], Path]) -> None:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, of_another_part, of_other_parts, read_steps
+from raysteps.course.manifest import Step, kit_steps, of_another_part, of_other_parts, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import unfinished_functions
 
@@ -24,8 +24,10 @@ def _left_in(project: Project, step: Step) -> list[str]:
 
 def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
     """Steps up to this one, and their functions that nobody has written yet. Of bonus steps and trees only this one
-    counts: pictures can do without."""
-    steps = [step for step in read_steps(project) if step.index <= upto]
+    counts: pictures can do without. Parts before its own are drawn with, whether the course has them or not."""
+    every = kit_steps(project)
+    part = next((step.part for step in every if step.index == upto), 1)
+    steps = [step for step in every if step.index <= upto and step.part <= part]
     needed = [step for step in steps if step.index == upto or not (step.bonus or step.is_about_a_tree)]
     return [(step, left) for step in needed if (left := _left_in(project, step))]
 
@@ -33,7 +35,7 @@ def unfinished(project: Project, upto: int) -> list[tuple[Step, list[str]]]:
 def last_written(project: Project) -> int:
     """The last step whose picture the student's own steps can draw; 0 while step 01 is not written."""
     last = 0
-    for step in read_steps(project):
+    for step in kit_steps(project):
         if step.index <= _LAST_PICTURE and not _left_in(project, step):
             last = step.index
         elif not (step.bonus or step.is_about_a_tree):

@@ -216,6 +216,10 @@ def added(one: Color, other: Color) -> Color:
     return [a + b for a, b in zip(_floats(one), _floats(other), strict=True)]
 
 
-def tone_mapped(channel: Number) -> float:
+def shown(channel: Number, *, for_screen: bool) -> float:
+    """Tone mapped, or as sRGB."""
     value = as_float(channel)
+    if for_screen:
+        light = min(value, 1.0) if value > 0 else 0.0
+        return 12.92 * light if light <= 0.0031308 else 1.055 * math.pow(light, 1 / 2.4) - 0.055
     return 0.0 if not value > 0 else 1.0 if math.isinf(value) else value / (value + 1)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from raysteps.inspector import blame as expected
-from raysteps.inspector.blame import blame_bounce, blame_hit, blame_shadow, start_problem, tone_mapped
+from raysteps.inspector.blame import blame_bounce, blame_hit, blame_shadow, shown, start_problem
 from raysteps.inspector.model import Frame, Hit, LightShare, Ray, Record, Way
 from raysteps.inspector.records import (
     CLOSE,
@@ -272,13 +272,17 @@ def _frame(mine: Frame, reference: Frame) -> Iterator[Difference]:
             yield Difference(("frame",), words, "view_frame")
 
 
+_TONE = "tone mapping", "tone_map"
+
+
 def _ending(mine: Record, reference: Record) -> Iterator[Difference]:
     """From the colour to the bytes."""
     if mine.color is not None and mine.mapped is not None and reference.mapped is not None:
-        exact = [tone_mapped(channel) for channel in mine.color]
+        exact = [shown(channel, for_screen=mine.is_of_part_two) for channel in mine.color]
         if diverged(mine.mapped, reference.mapped, exact, CLOSE):
-            words = f"tone mapping: yours makes {point(mine.mapped)} of {point(mine.color)}"
-            yield Difference(("mapped",), f"{words}, the reference {point(reference.mapped)}", "tone_map")
+            what, function = ("the curve of a screen", "linear_to_srgb") if mine.is_of_part_two else _TONE
+            words = f"{what}: yours makes {point(mine.mapped)} of {point(mine.color)}"
+            yield Difference(("mapped",), f"{words}, the reference {point(reference.mapped)}", function)
     words = f"the bytes: yours are {mine.bytes}, the reference's {reference.bytes}"
     for channel, byte in zip(mine.mapped or [], mine.bytes or [], strict=False):
         size = 255 * min(max(as_float(channel), 0.0), 1.0)

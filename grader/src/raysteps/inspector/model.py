@@ -235,7 +235,7 @@ class Record:
     schema: Literal["raysteps/inspect/v1"]
     scene: str
     surfaces: Count
-    step: Annotated[int, Meta(ge=1, le=9)]
+    step: Annotated[int, Meta(ge=1, le=99)]
     view: Literal["color", "normals"]
     depth: Annotated[int, Meta(ge=1)]
     accel: Accel
@@ -254,3 +254,8 @@ class Record:
     counts: SearchCounts
     left_out: LeftOut
     near: list[NearSurface]
+
+    @property
+    def is_of_part_two(self) -> bool:
+        """Where step 10 shows the colour, as render/integrator.hpp says."""
+        return 10 <= self.step < 20

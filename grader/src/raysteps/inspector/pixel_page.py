@@ -118,7 +118,8 @@ def lines_of(record: Record) -> list[Line]:
     lines = [Line(("frame",), 0, f"camera: forward {point(frame.forward)}, up {point(frame.up)}")]
     lines += _ray(record.ray, (EYE,), 0, record.step)
     if record.mapped is not None:
-        lines.append(Line(("mapped",), 0, f"tone mapping {point(record.mapped)}"))
+        what = "for a screen" if record.is_of_part_two else "tone mapping"
+        lines.append(Line(("mapped",), 0, f"{what} {point(record.mapped)}"))
     ending = "the rays never end" if record.endless else f"bytes {' '.join(map(str, record.bytes or []))}"
     return [*lines, Line(("bytes",), 0, ending)]
 
