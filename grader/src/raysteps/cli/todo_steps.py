@@ -64,8 +64,8 @@ def wanted_step(project: Project, words: Sequence[str]) -> int:
     for other in of_other_parts(project):
         if word in (other.number, str(other.index)):
             raise UsageError(f"--step: {of_another_part(steps, other)}")
-    if not re.fullmatch("[0-9]{1,2}", word) or not 1 <= int(word) <= last:
-        raise UsageError(f"--step: expected a whole number from 1 to {last}, found '{word}'")
+    if not re.fullmatch("[0-9]{1,2}", word) or int(word) not in [step.index for step in kit_steps(project)]:
+        raise UsageError(f"--step: expected the number of a step, such as {last}, found '{word}'")
     return int(word)
 
 
@@ -85,8 +85,8 @@ def as_far_as_written(project: Project, words: Sequence[str]) -> tuple[list[str]
 
 def without_tree(project: Project, step: int, words: Sequence[str]) -> list[str]:
     """What to add to the words of a picture so that it needs no tree that nobody has written yet."""
-    steps = [one for one in read_steps(project) if one.index < step and one.is_about_a_tree]
-    missing = step <= _LAST_PICTURE and any(_left_in(project, one) for one in steps)
+    trees = [one for one in kit_steps(project) if one.index < step and one.is_about_a_tree]
+    missing = step not in _TREES.values() and any(_left_in(project, one) for one in trees)
     return ["--accel", "none"] if missing and "--accel" not in words else []
 
 
