@@ -12,8 +12,7 @@ import pytest
 from course_fakes import printed, small_project, text
 
 from raysteps.cli import app as cli
-from raysteps.cli.todo_steps import wanted_step, without_tree
-from raysteps.cli.todo_steps import last_written, unfinished
+from raysteps.cli.todo_steps import last_written, unfinished, wanted_step, without_tree
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import (
     Step,
