@@ -46,8 +46,8 @@ def points() -> Drawing:
         640,
         245,
         "64 samples in a pixel",
-        "Three squares with 64 points each. Points that lie anywhere come in heaps and leave holes. Stratified ones lie "
-        "one in each of 8 by 8 squares. Halton's points are spread evenly, with no point close to another.",
+        "Three squares with 64 points each. Points that lie anywhere come in heaps and leave holes. Stratified ones lie"
+        " one in each of 8 by 8 squares. Halton's points are spread evenly, with no point close to another.",
     )
     draw = np.random.default_rng(_SEED)
     side, size = 8, 184.0
@@ -86,8 +86,8 @@ def errors() -> str:
     x = log_axis("samples in the pixel", [at for line in lines.values() for at, _ in line])
     y = log_axis("error at an edge, 1 is white", [value for line in lines.values() for _, value in line])
     words = (
-        "Both axes are logarithmic. All begin at a half. With 256 samples the error is 0.03 where they lie anywhere, and "
-        "less than a third of that where they are stratified or Halton's."
+        "Both axes are logarithmic. All begin at a half. With 256 samples the error is 0.03 where they lie anywhere,"
+        " and less than a third of that where they are stratified or Halton's."
     )
     chart = Chart("more samples, less error", x, y, [Series(name, line) for name, line in lines.items()])
     return svg_text([chart], width=_WIDE, description=words, plate=True)
@@ -114,8 +114,8 @@ def filters() -> str:
     ]
     x, y = Axis("distance from the middle, in pixels", -2.5, 2.5), Axis("weight", -0.2, 1.0)
     words = (
-        "The box is 1 up to half a pixel to either side. The tent falls evenly from 1 to 0 at a distance of 1. Mitchell's "
-        "filter is 8/9 in the middle, passes 0 a little after 1, is slightly negative, and ends at 2."
+        "The box is 1 up to half a pixel to either side. The tent falls evenly from 1 to 0 at a distance of 1."
+        " Mitchell's filter is 8/9 in the middle, passes 0 a little after 1, is slightly negative, and ends at 2."
     )
     return svg_text([Chart("what a sample is worth", x, y, series)], width=_WIDE, description=words, plate=True)
 
