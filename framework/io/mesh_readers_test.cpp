@@ -81,7 +81,8 @@ TEST_CASE("PLY in either byte order", "[ply]") {
 
 TEST_CASE("PLY with normals, texture coordinates, unknown elements and a face of four corners", "[ply]") {
     const MeshData mesh = read_ply(
-        "ply\r\nformat ascii 1.0\r\nelement vertex 4\r\nproperty double x\r\nproperty double y\r\nproperty double z\r\n"
+        "ply\r\nformat  ascii 1.0 \r\nelement vertex 4\r\nproperty double x\r\nproperty double y\r\nproperty double "
+        "z\r\n"
         "property float nx\r\nproperty float ny\r\nproperty float nz\r\nproperty float s\r\nproperty float t\r\n"
         "element edge 1\r\nproperty list uchar int ends\r\nelement face 1\r\nproperty list int int vertex_index\r\n"
         "property int colour\r\nend_header\r\n"

@@ -19,6 +19,7 @@
 #include "io/files.hpp"
 #include "io/mesh_data.hpp"
 #include "io/obj_reader.hpp"
+#include "io/pbrt_mesh.hpp"
 #include "io/pbrt_scanner.hpp"
 #include "io/ply_reader.hpp"
 #include "io/texture_reader.hpp"
@@ -61,7 +62,6 @@ Texture checkerboard(const Color& first, const Color& second) {
     return texture;
 }
 
-/// Each corner's normal is the sum of those of the triangles around it, large ones counting more.
 glm::vec3 flat_normal(const MeshData& mesh, const std::array<std::uint32_t, 3>& triangle) {
     const glm::vec3& a = mesh.positions[triangle[0]];
     return glm::cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a);
@@ -370,7 +370,7 @@ private:
         if (kind == "sphere") {
             add_sphere(scanner, parameters);
         } else if (kind == "trianglemesh") {
-            add_mesh(scanner, token, mesh_of(scanner, parameters));
+            add_mesh(scanner, token, pbrt_mesh(scanner, parameters));
         } else if (kind == "plymesh") {
             add_mesh(scanner, token, read_ply(path_to(scanner, token, parameters.string("filename"))));
         } else if (kind == "objmesh") {
@@ -400,76 +400,10 @@ private:
         scene_.add(std::make_unique<Sphere>(placed(scanner, token, glm::vec3(0.0F)), radius, state_.material.fill));
     }
 
-    static std::vector<glm::vec3> triples(const PbrtScanner& scanner, const PbrtParameter* parameter) {
-        std::vector<glm::vec3> found;
-        if (parameter != nullptr) {
-            const std::vector<float>& values = parameter->numbers;
-            if (values.size() % 3 != 0) {
-                scanner.fail(parameter->at, "three numbers for each corner", std::to_string(values.size()));
-            }
-            for (std::size_t i = 0; i < values.size(); i += 3) {
-                found.emplace_back(values[i], values[i + 1], values[i + 2]);
-            }
-        }
-        return found;
-    }
-
-    static MeshData mesh_of(const PbrtScanner& scanner, const PbrtParameters& parameters) {
-        MeshData mesh;
-        const PbrtParameter* positions = parameters.find("P");
-        if (positions == nullptr) {
-            scanner.fail(parameters.directive(), "\"point3 P\" of the mesh", "none");
-        }
-        mesh.positions = triples(scanner, positions);
-        const PbrtParameter* normals = parameters.find("N");
-        mesh.normals = triples(scanner, normals);
-        if (normals != nullptr && mesh.normals.size() != mesh.positions.size()) {
-            scanner.fail(normals->at, "as many normals as corners", std::to_string(mesh.normals.size()));
-        }
-        read_uvs(scanner, parameters, mesh);
-        read_triangles(scanner, parameters, mesh);
-        return mesh;
-    }
-
-    static void read_uvs(const PbrtScanner& scanner, const PbrtParameters& parameters, MeshData& mesh) {
-        const PbrtParameter* uvs = parameters.find("uv");
-        if (uvs == nullptr) {
-            return;
-        }
-        if (uvs->numbers.size() != 2 * mesh.positions.size()) {
-            scanner.fail(uvs->at, "two numbers for each corner", std::to_string(uvs->numbers.size()));
-        }
-        for (std::size_t i = 0; i < uvs->numbers.size(); i += 2) {
-            mesh.uvs.emplace_back(uvs->numbers[i], uvs->numbers[i + 1]);
-        }
-    }
-
-    static void read_triangles(const PbrtScanner& scanner, const PbrtParameters& parameters, MeshData& mesh) {
-        const PbrtParameter* indices = parameters.find("indices");
-        if (indices == nullptr && mesh.positions.size() == 3) {
-            mesh.triangles.push_back({0, 1, 2});
-            return;
-        }
-        if (indices == nullptr || indices->numbers.empty() || indices->numbers.size() % 3 != 0) {
-            scanner.fail(indices == nullptr ? parameters.directive() : indices->at,
-                         "\"integer indices\", three for each triangle", "another number of them");
-        }
-        const std::vector<float>& numbers = indices->numbers;
-        const auto is_corner = [&](float number) {
-            return number >= 0.0F && number < static_cast<float>(mesh.positions.size()) && number == std::floor(number);
-        };
-        if (!std::all_of(numbers.begin(), numbers.end(), is_corner)) {
-            scanner.fail(indices->at, "numbers of corners from 0 to " + std::to_string(mesh.positions.size() - 1),
-                         "another number");
-        }
-        for (std::size_t i = 0; i < numbers.size(); i += 3) {
-            mesh.triangles.push_back({static_cast<std::uint32_t>(numbers[i]),
-                                      static_cast<std::uint32_t>(numbers[i + 1]),
-                                      static_cast<std::uint32_t>(numbers[i + 2])});
-        }
-    }
-
     void add_mesh(const PbrtScanner& scanner, const Token& token, const MeshData& mesh) {
+        if (mesh.triangles.empty()) {
+            scanner.fail(token, "a mesh with triangles", "none");
+        }
         const glm::dmat3 for_normals = glm::transpose(glm::inverse(glm::dmat3(mirror_ * state_.transform)));
         std::vector<glm::vec3> positions;
         for (const glm::vec3& position : mesh.positions) {

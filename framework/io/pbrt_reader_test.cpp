@@ -188,3 +188,32 @@ TEST_CASE("a scene that came as text names no files", "[pbrt][errors]") {
           "bad.pbrt:1:12: expected a scene without other files, found `/etc/passwd`");
     CHECK(error_of("Include \"more.pbrt\"") == "bad.pbrt:1:1: expected a scene without other files, found `more.pbrt`");
 }
+
+TEST_CASE("meshes and other files beside a scene", "[pbrt]") {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "raysteps-pbrt-test";
+    std::filesystem::create_directories(folder);
+    write_file(folder / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_file(folder / "empty.obj", "v 0 0 0\n");
+    write_file(folder / "more.pbrt", "Shape \"objmesh\" \"string filename\" \"mesh.obj\"\n");
+    write_file(folder / "endless.pbrt", "Include \"endless.pbrt\"\n");
+    const auto read_text = [&](const std::string& text) {
+        write_file(folder / "scene.pbrt", k_view + "WorldBegin\n" + text);
+        return read_pbrt(folder / "scene.pbrt");
+    };
+    CHECK(read_text("Include \"more.pbrt\"").surfaces().size() == 1);
+    const auto complaint = [&](const std::string& text) {
+        try {
+            static_cast<void>(read_text(text));
+        } catch (const ReadError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    CHECK(complaint("Shape \"objmesh\" \"string filename\" \"empty.obj\"")
+              .ends_with("scene.pbrt:2:1: expected a mesh with triangles, found none"));
+    CHECK(complaint("Shape \"plymesh\" \"string filename\" \"none.ply\"")
+              .ends_with("none.ply: expected a file, found nothing of that name"));
+    CHECK(complaint("Include \"endless.pbrt\"")
+              .ends_with("endless.pbrt:1:1: expected at most 8 files that include each other, found one more"));
+    std::filesystem::remove_all(folder);
+}

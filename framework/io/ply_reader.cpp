@@ -202,11 +202,13 @@ private:
 
     void read_format() {
         const std::string_view line = next_line();
-        if (line == "format ascii 1.0") {
+        const std::vector<std::string_view> words = words_of(line);
+        const bool is_known = words.size() == 3 && words[0] == "format" && words[2] == "1.0";
+        if (is_known && words[1] == "ascii") {
             format_ = Format::text;
-        } else if (line == "format binary_little_endian 1.0") {
+        } else if (is_known && words[1] == "binary_little_endian") {
             format_ = Format::little;
-        } else if (line == "format binary_big_endian 1.0") {
+        } else if (is_known && words[1] == "binary_big_endian") {
             format_ = Format::big;
         } else {
             fail("`format` and ascii, binary_little_endian or binary_big_endian, and 1.0", line);
