@@ -1,0 +1,18 @@
+#include "core/mesh_triangle.hpp"
+
+#include <utility>
+
+namespace raysteps {
+
+MeshTriangle::MeshTriangle(const MeshFace& face, const Fill& fill, std::shared_ptr<const MeshTexture> texture)
+    : Triangle(face[0].position, face[1].position, face[2].position, fill), face_(face), texture_(std::move(texture)) {}
+
+std::optional<HitRecord> MeshTriangle::intersect(const Ray& ray) const {
+    std::optional<HitRecord> hit = Triangle::intersect(ray);
+    if (hit) {
+        hit->mesh_triangle = static_cast<std::uint32_t>(order() + 1);
+    }
+    return hit;
+}
+
+}  // namespace raysteps
