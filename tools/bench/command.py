@@ -6,15 +6,18 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 
-from raysteps.course.project import Project
+from raysteps.course.project import Project, generated
 from tools.bench.docs import bench_docs
 from tools.bench.grading import grading
 from tools.bench.loop import bench_loop
-from tools.bench.parse import bench_parse
+from tools.bench.model import ParseNumbers, ParseRow, keep
 from tools.bench.pictures import ThreadsOptions, bench_threads, boxes
+from tools.bench.programs import ask_pinned, checked, portable
 from tools.bench.render import RenderOptions, bench_render
 from tools.bench.scale import ScaleOptions, bench_scale
+from tools.bench.tables import median, quartiles, terminal_table
 
 
 def _number(least: int, most: int) -> Callable[[str], int]:
@@ -85,6 +88,39 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_rounds(add, 3)
 
     commands.add_parser("docs", help="tables and figures of docs/benchmarks.md, from what was measured last")
+
+
+# How fast scenes are read.
+
+_LARGE = (("tetrahedra", 9), ("rings", 30), ("mountain", 9))
+
+
+def bench_parse(project: Project, scenes: list[Path], rounds: int, console: Console) -> int:
+    """Measures, prints a table and writes build/bench/parse.json."""
+    named = checked(scenes)
+    with console.status("building the benchmarks"):
+        programs = portable(project)
+    with console.status("making large scenes"):
+        large = named or [generated(project, kind, size) for kind, size in _LARGE]
+    rows: list[ParseRow] = []
+    for scene in large:
+        with console.status(f"reading {escape(scene.name)}"):
+            words = ("parse", scene, "--rounds", str(rounds))
+            rows.append(ask_pinned(ParseRow, programs.bench, *words, scene=scene.stem))
+    headings = ("scene", "size", "surfaces", "speed", "quartiles")
+    table = terminal_table("reading scenes, one thread, the text already in memory", headings)
+    for row in rows:
+        speed = row.megabytes_per_second
+        table.add_row(
+            escape(row.scene),
+            f"{row.bytes / 1e6:.1f} MB",
+            str(row.surfaces),
+            median(speed, 1, " MB/s"),
+            quartiles(speed, 1),
+        )
+    console.print(table)
+    keep(project, ParseNumbers(machine=programs.machine, rows=rows), console)
+    return 0
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:

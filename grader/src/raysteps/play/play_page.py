@@ -87,15 +87,20 @@ def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]
 # Files in one.
 
 
-def packed(content: Mapping[str, bytes]) -> bytes:
-    """A tar, compressed; the same bytes for the same files."""
+def tar_of(content: Mapping[str, bytes]) -> bytes:
+    """The same bytes for the same files."""
     data = io.BytesIO()
     with tarfile.open(fileobj=data, mode="w", format=tarfile.GNU_FORMAT) as archive:
         for name, file in sorted(content.items()):
             info = tarfile.TarInfo(name)
             info.size = len(file)
             archive.addfile(info, io.BytesIO(file))
-    return gzip.compress(data.getvalue(), 6, mtime=0)
+    return data.getvalue()
+
+
+def packed(content: Mapping[str, bytes]) -> bytes:
+    """A tar, compressed."""
+    return gzip.compress(tar_of(content), 6, mtime=0)
 
 
 def _squeezed(path: Path) -> bytes:
