@@ -36,11 +36,15 @@ class Inside:
     compiled: bool = False
 
 
+def is_page(folder: Path) -> bool:
+    """By the files that no page does without."""
+    return all((folder / name).is_file() for name in (_PAGE, _COMPILER, _SYSTEM, _KIT))
+
+
 def folder_of_page(folder: Path, path: Path) -> Path | None:
     """The page, within the folder, that the file is a part of."""
     above = [one for one in path.parents if one == folder or folder in one.parents]
-    names = (_PAGE, _COMPILER, _SYSTEM, _KIT)
-    return next((one for one in above if all((one / name).is_file() for name in names)), None)
+    return next((one for one in above if is_page(one)), None)
 
 
 def is_part(name: str) -> bool:
