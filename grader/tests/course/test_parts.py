@@ -298,3 +298,10 @@ def test_a_picture_of_part_two_needs_no_tree_either(kit: Project) -> None:
     assert without_tree(kit, 8, []) == ["--accel", "none"]
     assert without_tree(kit, 10, []) == ["--accel", "none"]
     assert without_tree(kit, 9, []) == []
+
+
+def test_an_own_step_goes_out_without_the_part_between(project: Project) -> None:
+    every = read_all_steps(project)
+    own = replace(every[0], id="20-fog", part=1)
+    assert _numbers(first_steps(["1-9", "20"], [*every, own])) == "12345678920"
+    assert [step.number for step in first_steps(["10"], every)] == [f"{number:02}" for number in range(1, 11)]
