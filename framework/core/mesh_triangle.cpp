@@ -5,7 +5,9 @@
 namespace raysteps {
 
 MeshTriangle::MeshTriangle(const MeshFace& face, const Fill& fill, std::shared_ptr<const MeshTexture> texture)
-    : Triangle(face[0].position, face[1].position, face[2].position, fill), face_(face), texture_(std::move(texture)) {}
+    : Triangle(face.front().position, face.at(1).position, face.back().position, fill),
+      face_(face),
+      texture_(std::move(texture)) {}
 
 std::optional<HitRecord> MeshTriangle::intersect(const Ray& ray) const {
     std::optional<HitRecord> hit = Triangle::intersect(ray);

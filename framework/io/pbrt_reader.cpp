@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -235,8 +237,8 @@ private:
         camera.up = glm::normalize(at({0.0, 1.0, 0.0, 0.0}));
         // `fov` is that of the shorter side; the kit's angle is the upright one.
         const float half = glm::tan(glm::radians(fov_) / 2.0F);
-        const float aspect = static_cast<float>(camera.width) / static_cast<float>(camera.height);
-        camera.angle = glm::degrees(2.0F * std::atan(aspect < 1.0F ? half / aspect : half));
+        const glm::vec2 sides(camera.width, camera.height);
+        camera.angle = glm::degrees(2.0F * std::atan(sides.x < sides.y ? half * sides.y / sides.x : half));
     }
 
     // The world.
@@ -437,10 +439,8 @@ private:
 
     [[nodiscard]] glm::vec3 placed(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) const {
         const glm::vec3 found(mirror_ * state_.transform * glm::dvec4(point, 1.0));
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(found[axis]) <= k_farthest)) {
-                scanner.fail(token, "points within a thousand million of 0", "one that is farther away");
-            }
+        if (!glm::all(glm::lessThanEqual(glm::abs(found), glm::vec3(k_farthest)))) {  // NaN is not, either
+            scanner.fail(token, "points within a thousand million of 0", "one that is farther away");
         }
         return found;
     }
