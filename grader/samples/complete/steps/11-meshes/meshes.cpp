@@ -11,10 +11,10 @@ namespace raysteps {
 
 glm::vec3 barycentric(const MeshFace& face, const glm::vec3& point) {
     const auto& [a, b, c] = face;
-    const glm::vec3 whole = glm::cross(b.position - a.position, c.position - a.position);
-    const float area = glm::dot(whole, whole);
-    const float weight_b = glm::dot(glm::cross(point - a.position, c.position - a.position), whole) / area;
-    const float weight_c = glm::dot(glm::cross(b.position - a.position, point - a.position), whole) / area;
+    const glm::vec3 across = glm::cross(b.position - a.position, c.position - a.position);
+    const float area = glm::dot(across, across);
+    const float weight_b = glm::dot(glm::cross(point - a.position, c.position - a.position), across) / area;
+    const float weight_c = glm::dot(glm::cross(b.position - a.position, point - a.position), across) / area;
     return {1.0F - weight_b - weight_c, weight_b, weight_c};
 }
 
@@ -72,14 +72,14 @@ Texture half_size(const Texture& texture) {
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             Color sum = k_black;
-            int count = 0;
+            int amount = 0;
             for (int row = 2 * y; row < std::min(2 * y + 2, texture.height); ++row) {
                 for (int column = 2 * x; column < std::min(2 * x + 2, texture.width); ++column) {
                     sum += texture.texel(column, row);
-                    ++count;
+                    ++amount;
                 }
             }
-            texels.push_back(sum / static_cast<float>(count));
+            texels.push_back(sum / static_cast<float>(amount));
         }
     }
     return {width, height, texels};
