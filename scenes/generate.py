@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes procedural NFF scenes of any size.
+"""Makes procedural scenes of any size: NFF, and pbrt's format for those with meshes.
 
 python scenes/generate.py KIND [--size N] [--seed S] -o FILE.nff
 python scenes/generate.py --check     are the committed scenes what this program makes?
@@ -63,7 +63,7 @@ def check() -> int:
     """0 when every committed scene is what the generator makes, else 1."""
     wrong = {entry.file: difference(entry) for entry in entries()}
     listed = {entry.file for entry in entries()}
-    wrong |= {path.name: "is not in list.toml" for path in COMMITTED.glob("*.nff") if path.name not in listed}
+    wrong |= {path.name: "is not in list.toml" for path in COMMITTED.iterdir() if path.suffix in (".nff", ".pbrt") and path.name not in listed}
     wrong = {name: text for name, text in wrong.items() if text}
     for name, text in sorted(wrong.items()):
         print(f"scenes/generated/{name}: {text}", file=sys.stderr)
@@ -74,7 +74,7 @@ def check() -> int:
 
 def parser() -> argparse.ArgumentParser:
     sizes = ", ".join(f"{name} {kind.size} (1 to {kind.largest})" for name, kind in KINDS.items())
-    about = "Makes procedural NFF scenes of any size."
+    about = "Makes procedural scenes of any size: NFF, and pbrt's format for those with meshes."
     result = argparse.ArgumentParser(prog="generate.py", description=about)
     result.add_argument("kind", metavar="KIND", nargs="?", choices=tuple(KINDS), help=", ".join(KINDS))
     result.add_argument("--size", type=int, metavar="N", help=f"default and range: {sizes}")

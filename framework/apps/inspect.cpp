@@ -9,6 +9,7 @@
 #include "io/nff_reader.hpp"
 #include "io/platform.hpp"
 #include "render/accelerator_registry.hpp"
+#include "render/mesh_detail.hpp"
 
 namespace {
 
@@ -18,7 +19,8 @@ void run(const InspectOptions& options) {
     const Scene scene = load_scene(options.picture.scene, options.picture.size);
     check_pixel(options, scene.camera);
     const Acceleration acceleration = options.picture.acceleration.value_or(default_accelerator(options.picture.step));
-    const auto accelerator = make_accelerator(acceleration, scene.surfaces());
+    const auto accelerator =
+        with_mesh_details(make_accelerator(acceleration, scene.surfaces()), scene, options.picture.step);
     const StepOptions step{options.picture.step, options.picture.view, options.picture.depth};
     PixelRecord record = inspect_pixel(scene, scene.camera, *accelerator, acceleration, step, options.x, options.y);
     record.scene = options.picture.scene;

@@ -58,6 +58,11 @@ TEST_CASE("Several rays for each pixel are a square number of them", "[apps]") {
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "1"}).sample_side == 1);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "9"}).sample_side == 3);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "64"}).sample_side == 8);
+    const auto options =
+        parse_options({"a.nff", "-o", "b", "--step", "10", "--sampler", "stratified", "--filter", "box"});
+    CHECK(options.sampling.sampler == Sampler::stratified);
+    CHECK(options.sampling.filter == Filter::box);
+    CHECK_THROWS_AS(parse_options({"a.nff", "-o", "b", "--filter", "gauss"}), UsageError);
     for (const char* samples : {"0", "2", "81", "-4", "4x", "04", ""}) {
         CHECK(complaint_about({"a.nff", "-o", "b", "--samples", samples}) ==
               "--samples: expected 1, 4, 9, 16, 25, 36, 49 or 64 rays for each pixel, found '" + std::string(samples) +

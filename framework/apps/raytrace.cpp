@@ -45,7 +45,7 @@ void print_spd_counts(const Scene&, const RaytraceOptions&) {
 #endif
 
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
-    const int usual = is_of_part_two(options.step) ? 4 : 1;
+    const int usual = is_of_part_two(options.step) && !options.map ? 4 : 1;
     const Rendering rendering = render(scene, {.step = {options.step, options.view, options.depth},
                                                .acceleration = acceleration_of(options),
                                                .threads = default_threads(),

@@ -4,6 +4,7 @@
 
 #include "core/cone.hpp"
 #include "core/inward_sphere.hpp"
+#include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -29,6 +30,10 @@ SurfaceInfo describe(const Surface& surface) {
                            info.points = corners(*triangle);
                        },
                        [&](const SmoothTriangle* triangle) {
+                           info.kind = "smooth-triangle";
+                           info.points = corners(*triangle);
+                       },
+                       [&](const MeshTriangle* triangle) {
                            info.kind = "smooth-triangle";
                            info.points = corners(*triangle);
                        },

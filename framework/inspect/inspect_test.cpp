@@ -1,7 +1,9 @@
 // The record tells the truth about a pixel, and leaves the pixel as it is.
+#include "core/mesh_triangle.hpp"
 #include "inspect/inspect_json.hpp"
 #include "inspect/inspect_text.hpp"
 #include "inspect/test_scenes.hpp"
+#include "render/mesh_detail.hpp"
 #include "render/renderer.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "testing/testing.hpp"
@@ -129,4 +131,19 @@ TEST_CASE("The text tells the whole life", "[inspect]") {
         INFO(words);
         CHECK(text.find(words) != std::string::npos);
     }
+}
+
+TEST_CASE("A hit of a mesh is that of its triangle, whatever step 11 makes of it", "[inspect]") {
+    const glm::vec3 lean = glm::normalize(glm::vec3(0.3F, 0.2F, 1.0F));
+    const MeshFace face{MeshCorner{{-2.0F, -2.0F, 0.0F}, lean}, MeshCorner{{2.0F, -2.0F, 0.0F}, lean},
+                        MeshCorner{{0.0F, 3.0F, 0.0F}, lean}};
+    Scene scene;
+    scene.camera.width = scene.camera.height = 9;
+    scene.lights = {{{0.0F, 0.0F, 9.0F}, k_white}};
+    scene.add(std::make_unique<MeshTriangle>(face, k_matte, nullptr));
+    const auto details = with_mesh_details(make_accelerator(Acceleration::none, scene.surfaces()), scene, 11);
+    const PixelRecord record = inspect_pixel(scene, scene.camera, *details, Acceleration::none, options_of(11), 4, 4);
+    REQUIRE(record.eye.hit.has_value());
+    CHECK(record.eye.hit->surface == std::size_t{0});
+    CHECK_THAT(record.eye.hit->hit.normal, IsNear(lean));
 }

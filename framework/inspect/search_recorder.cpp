@@ -8,7 +8,11 @@ namespace {
 
 thread_local SearchRecorder* t_listening = nullptr;
 
+/// Step 11 gives a hit of a mesh another normal, position and colour, and leaves its mark.
 bool same(const HitRecord& a, const HitRecord& b) {
+    if (a.mesh_triangle != 0 || b.mesh_triangle != 0) {
+        return a.mesh_triangle == b.mesh_triangle;
+    }
     return a.position == b.position && a.normal == b.normal && a.fill.color == b.fill.color && a.fill.ks == b.fill.ks &&
            a.front_face == b.front_face;
 }

@@ -11,6 +11,7 @@
 #include "io/files.hpp"
 #include "io/nff_surfaces.hpp"
 #include "io/numbers.hpp"
+#include "io/pbrt_reader.hpp"
 #include "io/token_scanner.hpp"
 
 namespace raysteps {
@@ -203,8 +204,16 @@ private:
 
 Scene read_nff(const std::filesystem::path& path) { return read_nff(read_file(path), display_name(path)); }
 
+/// NFF has no such entity; pbrt's scenes have that line.
+static bool is_pbrt(std::string_view text) {
+    constexpr std::string_view k_line = "WorldBegin";
+    return text.starts_with(k_line) || text.find('\n' + std::string(k_line)) != std::string_view::npos;
+}
+
 Scene load_scene(std::string_view path, const std::optional<PictureSize>& size) {
-    Scene scene = read_nff(path_of(path));
+    const std::filesystem::path file = path_of(path);
+    const std::string text = read_file(file);
+    Scene scene = is_pbrt(text) ? read_pbrt(file) : read_nff(text, display_name(file));
     if (size) {
         scene.camera.width = size->width;
         scene.camera.height = size->height;

@@ -19,7 +19,8 @@ struct PictureSize {
 /// All throw ReadError when the file cannot be read or is not what NFF asks for.
 [[nodiscard]] Scene read_nff(const std::filesystem::path& path);
 
-/// A scene as it was typed, for a picture of this size; nothing: the size that the scene names.
+/// A scene as it was typed, for a picture of this size; nothing: the size that the scene names. NFF, or pbrt's format
+/// where a line begins with `WorldBegin`.
 [[nodiscard]] Scene load_scene(std::string_view path, const std::optional<PictureSize>& size);
 
 /// `name` stands for the file in messages.

@@ -8,6 +8,7 @@
 
 #include "core/cone.hpp"
 #include "core/inward_sphere.hpp"
+#include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
 #include "core/sphere.hpp"
 #include "core/triangle.hpp"
@@ -83,6 +84,12 @@ private:
                                corner(triangle->a(), triangle->normal_a());
                                corner(triangle->b(), triangle->normal_b());
                                corner(triangle->c(), triangle->normal_c());
+                           },
+                           [this](const MeshTriangle* triangle) {
+                               text_ += "pp 3\n";
+                               for (const MeshCorner& one : triangle->face()) {
+                                   corner(one.position, one.normal);
+                               }
                            },
                            [this](const Cone* cone) { write_cone(*cone); },
                            [this](std::monostate) { text_ += "# a surface that NFF has no entity for\n"; }},

@@ -10,6 +10,7 @@
 
 #include "remote/lent.hpp"
 #include "remote/session.hpp"
+#include "remote/textures.hpp"
 #include "remote/travel.hpp"
 #include "remote/trees.hpp"
 
@@ -67,6 +68,21 @@ struct Parameter<RandomStream&> {
     static Received receive(Reader& in) { return std::make_unique<RandomStream>(read<RandomStream>(in)); }
     static RandomStream& give(const Received& random) { return *random; }
 };
+
+template <typename T>
+struct KnownParameter {
+    using Received = std::shared_ptr<const T>;
+    static int send(Writer& out, const T& value) {
+        Known<T>::all().write(out, value, Session::current().wire().together());
+        return 0;
+    }
+    static Received receive(Reader& in) { return Known<T>::all().read(in); }
+    static const T& give(const Received& value) { return *value; }
+};
+template <>
+struct Parameter<const Texture&> : KnownParameter<Texture> {};
+template <>
+struct Parameter<const Pyramid&> : KnownParameter<Pyramid> {};
 
 template <>
 struct Parameter<const SurfaceList&> {

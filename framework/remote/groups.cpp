@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/cone.hpp"
+#include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
 #include "remote/lent.hpp"
 #include "remote/searches.hpp"
@@ -18,7 +19,7 @@ GroupId oldest_kept(GroupId newest) {
     return newest > k_kept ? newest - k_kept : 0;
 }
 
-enum class Look : std::uint8_t { sphere, triangle, smooth_triangle, cone, other };
+enum class Look : std::uint8_t { sphere, triangle, smooth_triangle, mesh_triangle, cone, other };
 
 /// Looks like a box from outside. What a ray meets in it only the other end knows.
 class UnknownSurface final : public Surface {
@@ -64,6 +65,10 @@ void describe(Writer& out, const Surface& surface) {
                         write(out, normal);
                     }
                 },
+                [&](const MeshTriangle* triangle) {
+                    out.put(Look::mesh_triangle);
+                    write<Triangle>(out, *triangle);
+                },
                 [&](const Cone* cone) {
                     out.put(Look::cone);
                     for (const Cone::End& end : {cone->base(), cone->apex()}) {
@@ -105,6 +110,12 @@ std::unique_ptr<Surface> copy(Reader& in) {
             return std::make_unique<SmoothTriangle>(SmoothTriangle::Corner{flat.a(), normals[0]},
                                                     SmoothTriangle::Corner{flat.b(), normals[1]},
                                                     SmoothTriangle::Corner{flat.c(), normals[2]}, flat.fill());
+        }
+        case Look::mesh_triangle: {  // whose hits are marked; what comes of the mark is done at home
+            const auto flat = read<Triangle>(in);
+            const MeshFace face{MeshCorner{.position = flat.a()}, MeshCorner{.position = flat.b()},
+                                MeshCorner{.position = flat.c()}};
+            return std::make_unique<MeshTriangle>(face, flat.fill(), nullptr);
         }
         case Look::cone: {
             const Cone::End base = read_end(in);

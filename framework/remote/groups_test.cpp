@@ -3,6 +3,7 @@
 
 #include "core/cone.hpp"
 #include "core/inward_sphere.hpp"
+#include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
 #include "remote/travel.hpp"
 #include "testing/testing.hpp"
@@ -116,4 +117,26 @@ TEST_CASE("only what an open question has lent can be asked for", "[remote]") {
         CHECK_THROWS_AS(groups.lent({group->id + 1, 0}), BadMessage);
     }
     CHECK_THROWS_AS(groups.lent({group->id, 1}), BadMessage);
+}
+
+TEST_CASE("Of a mesh the other end knows the triangle and its mark", "[remote]") {
+    MeshFace face{MeshCorner{{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}},
+                  MeshCorner{{1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}},
+                  MeshCorner{{0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}}};
+    Scene scene;
+    scene.add(std::make_unique<Sphere>(glm::vec3(9.0F), 1.0F, k_fill));
+    scene.add(std::make_unique<MeshTriangle>(face, k_fill, nullptr));
+    Groups here;
+    Groups there;
+    std::string bytes;
+    Writer out(bytes);
+    const auto own = here.write(out, scene.surfaces());
+    Reader in(bytes);
+    const auto copied = there.read(in);
+    const Shape shape = copied->scene.surfaces().at(1)->shape();
+    REQUIRE(std::holds_alternative<const MeshTriangle*>(shape));
+    CHECK(std::get<const MeshTriangle*>(shape)->b() == face[1].position);
+    const auto hit = std::get<const MeshTriangle*>(shape)->intersect({{0.2F, 0.2F, 3.0F}, {0.0F, 0.0F, -1.0F}});
+    REQUIRE(hit.has_value());
+    CHECK(hit->mesh_triangle == 2);
 }

@@ -10,9 +10,11 @@
 #include "core/camera.hpp"
 #include "core/hit_record.hpp"
 #include "core/light.hpp"
+#include "core/mesh_face.hpp"
 #include "core/pixel_sample.hpp"
 #include "core/random_stream.hpp"
 #include "core/sphere.hpp"
+#include "core/texture.hpp"
 #include "core/triangle.hpp"
 #include "remote/message.hpp"
 
@@ -72,12 +74,16 @@ constexpr auto fields(auto& record) {
         return std::tie(record.position, record.color);
     } else if constexpr (std::is_same_v<Record, PixelSample>) {
         return std::tie(record.offset, record.light);
+    } else if constexpr (std::is_same_v<Record, MeshCorner>) {
+        return std::tie(record.position, record.normal, record.uv);
+    } else if constexpr (std::is_same_v<Record, Texture>) {
+        return std::tie(record.width, record.height, record.texels);
     } else if constexpr (std::is_same_v<Record, Interval>) {
         return std::tie(record.enter, record.leave);
     } else {
         static_assert(std::is_same_v<Record, HitRecord>, "name the fields of this type here");
         return std::tie(record.position, record.fill, record.normal, record.ray_direction, record.distance,
-                        record.front_face);
+                        record.front_face, record.mesh_triangle);
     }
 }
 

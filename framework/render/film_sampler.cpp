@@ -32,10 +32,11 @@ float reach_of(Filter filter) {
 /// Pixels around a tile whose samples reach into it.
 int margin_of(Filter filter) { return static_cast<int>(std::ceil(reach_of(filter) - 0.5F)); }
 
-/// Also of a point outside of the unit square, as a wrong step may give: the picture shows it.
-int fine_place(int pixel, float point) {
-    const float inside = std::isfinite(point) ? glm::clamp(point, -8.0F, 8.0F) : 0.5F;
-    return pixel * k_fine + static_cast<int>(std::floor(inside * k_fine));
+/// Also of a point outside of the unit square, as a wrong step may give: within the picture of `size` pixels, which
+/// shows it.
+int fine_place(int pixel, float point, int size) {
+    const float near = std::isfinite(point) ? glm::clamp(point, -8.0F, 8.0F) : 0.5F;
+    return std::clamp(pixel * k_fine + static_cast<int>(std::floor(near * k_fine)), 0, size - 1);
 }
 
 /// From the middle of the pixel to the middle of the finer pixel.
@@ -43,11 +44,13 @@ float offset_of(int fine, int pixel) {
     return (static_cast<float>(fine - pixel * k_fine) + 0.5F) / static_cast<float>(k_fine) - 0.5F;
 }
 
-Rect grown(const Rect& tile, int margin) {
-    return {.x = tile.x - margin,
-            .y = tile.y - margin,
-            .width = tile.width + 2 * margin,
-            .height = tile.height + 2 * margin};
+/// With so many pixels around it, as far as there is a picture: beyond it step 01 promises nothing.
+Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
+    const int left = std::max(tile.x - margin, 0);
+    const int top = std::max(tile.y - margin, 0);
+    const int right = std::min(tile.x + tile.width + margin, fine_camera.width / k_fine);
+    const int bottom = std::min(tile.y + tile.height + margin, fine_camera.height / k_fine);
+    return {.x = left, .y = top, .width = right - left, .height = bottom - top};
 }
 
 }  // namespace
@@ -67,7 +70,8 @@ std::vector<glm::vec2> FilmSampler::points_of(int x, int y) const {
     std::vector<glm::vec2> shifted;
     const glm::vec2 shift = random.next_2d();
     for (const glm::vec2& point : halton_points_) {
-        shifted.push_back(glm::fract(point + shift));
+        const glm::vec2 moved = point + shift;
+        shifted.push_back(moved - glm::step(glm::vec2(1.0F), moved));
     }
     return shifted;
 }
@@ -97,8 +101,8 @@ struct FilmSampler::Film {
 std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
     std::vector<FilmSample> samples;
     for (const glm::vec2& point : points_of(x, y)) {
-        const int fine_x = fine_place(x, point.x);
-        const int fine_y = fine_place(y, point.y);
+        const int fine_x = fine_place(x, point.x, fine_camera_.width);
+        const int fine_y = fine_place(y, point.y, fine_camera_.height);
         const Ray ray = primary_ray(fine_camera_, frame_, fine_x, fine_y);
         samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray)});
     }
@@ -107,7 +111,7 @@ std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integ
 
 std::vector<Color> FilmSampler::colors_of(const Rect& tile, Integrator& integrator) const {
     const int margin = margin_of(options_.filter);
-    Film film{.area = grown(tile, margin), .pixels = {}};
+    Film film{.area = grown(tile, margin, fine_camera_), .pixels = {}};
     for (int y = film.area.y; y < film.area.y + film.area.height; ++y) {
         for (int x = film.area.x; x < film.area.x + film.area.width; ++x) {
             film.pixels.push_back(samples_of(x, y, integrator));
@@ -116,7 +120,7 @@ std::vector<Color> FilmSampler::colors_of(const Rect& tile, Integrator& integrat
     std::vector<Color> colors;
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            const Rect around{.x = x - margin, .y = y - margin, .width = 2 * margin + 1, .height = 2 * margin + 1};
+            const Rect around = grown({.x = x, .y = y, .width = 1, .height = 1}, margin, fine_camera_);
             colors.push_back(reconstruct(film.near(x, y, around, reach_of(options_.filter)), options_.filter));
         }
     }

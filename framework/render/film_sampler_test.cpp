@@ -1,6 +1,7 @@
 // Pictures of part two: the same however they are cut up, smooth, and true to the light that is there.
 #include "render/film_sampler.hpp"
 
+#include <array>
 #include <memory>
 
 #include "render/renderer.hpp"
@@ -69,6 +70,40 @@ TEST_CASE("Part two: a pixel that an edge divides shows its share of the light",
             sum += static_cast<double>(image.at(4, y).r);
         }
         CHECK(sum / 8.0 == about(0.537 * 255.0, 0.03));
+    }
+}
+
+TEST_CASE("Part two: a filter that reaches farther takes in more of the neighbours", "[render]") {
+    INFO("white to the left of pixel 4: 3 and 4 lie beside the edge");
+    const auto row = [](Filter filter) {
+        const Image image = render(half_dark(8, 4.0F), of_part_two({.filter = filter}, 8)).image;
+        return std::array{static_cast<int>(image.at(2, 3).r), static_cast<int>(image.at(3, 3).r),
+                          static_cast<int>(image.at(4, 3).r), static_cast<int>(image.at(5, 3).r)};
+    };
+    const auto box = row(Filter::box);
+    const auto tent = row(Filter::tent);
+    const auto mitchell = row(Filter::mitchell);
+    CHECK(box == std::array{255, 255, 0, 0});
+    INFO("of the tent an eighth lies beyond the edge: 7/8 are shown as 0.943, 1/8 as 0.389");
+    CHECK(tent[0] == 255);
+    CHECK(static_cast<double>(tent[1]) == about(0.943 * 255.0, 0.02));
+    CHECK(static_cast<double>(tent[2]) == about(0.389 * 255.0, 0.05));
+    CHECK(tent[3] == 0);
+    INFO("Mitchell's is steeper than the tent, and a little too bright or too dark farther on");
+    CHECK(mitchell[1] < 255);
+    CHECK(mitchell[2] > 0);
+    CHECK(mitchell[3] == 0);
+}
+
+TEST_CASE("Part two: a map shows the rays through the middle of each pixel", "[render]") {
+    RenderOptions options = of_part_two({}, 1);
+    options.measure_cost = true;
+    const Rendering ten = render(balls_on_floor(), options);
+    options.step.step = 9;
+    const Rendering nine = render(balls_on_floor(), options);
+    REQUIRE(ten.costs.width() == nine.costs.width());
+    for (std::size_t i = 0; i < ten.costs.pixels().size(); ++i) {
+        REQUIRE(ten.costs.pixels()[i].surface_tests == nine.costs.pixels()[i].surface_tests);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "core/threads.hpp"
 #include "render/accelerator_registry.hpp"
 #include "render/encode.hpp"
+#include "render/mesh_detail.hpp"
 #include "render/pixel_samples.hpp"
 #include "render/progress.hpp"
 #include "render/tile_rays.hpp"
@@ -118,7 +119,8 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const Rect crop =
         options.crop.value_or(Rect{.x = 0, .y = 0, .width = scene.camera.width, .height = scene.camera.height});
     const Clock::time_point build_start = Clock::now();
-    const std::unique_ptr<Accelerator> accelerator = make_accelerator(options.acceleration, scene.surfaces());
+    const std::unique_ptr<Accelerator> accelerator =
+        with_mesh_details(make_accelerator(options.acceleration, scene.surfaces()), scene, options.step.step);
     const double build_seconds = seconds_since(build_start);
 
     const Clock::time_point render_start = Clock::now();

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "render/integrator.hpp"
+
 namespace raysteps {
 namespace {
 
@@ -20,7 +22,7 @@ bool register_shading_hook(int step, ShadingHook hook) {
 Color apply_shading_hooks(Tracer& tracer, const Ray& ray, const Color& color, int step) {
     Color seen = color;
     for (const auto& [own_step, hook] : registered()) {
-        if (own_step <= step) {
+        if (own_step <= step && is_of_part_two(own_step) == is_of_part_two(step)) {
             seen = hook(tracer, ray, seen);
         }
     }

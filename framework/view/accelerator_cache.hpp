@@ -3,9 +3,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "core/scene.hpp"
 #include "render/accelerator_registry.hpp"
+#include "render/mesh_detail.hpp"
 
 namespace raysteps {
 
@@ -14,11 +16,11 @@ public:
     explicit AcceleratorCache(const Scene& scene) : scene_(scene) {}
 
     /// From any thread; others that ask meanwhile wait. Throws what make_accelerator throws.
-    [[nodiscard]] const Accelerator& get(Acceleration kind) {
+    [[nodiscard]] const Accelerator& get(Acceleration kind, int step) {
         const std::scoped_lock lock(mutex_);
-        std::unique_ptr<Accelerator>& structure = built_[kind];
+        std::unique_ptr<Accelerator>& structure = built_[{kind, adds_mesh_details(step)}];
         if (!structure) {
-            structure = make_accelerator(kind, scene_.surfaces());
+            structure = with_mesh_details(make_accelerator(kind, scene_.surfaces()), scene_, step);
         }
         return *structure;
     }
@@ -26,7 +28,7 @@ public:
 private:
     const Scene& scene_;
     std::mutex mutex_;
-    std::map<Acceleration, std::unique_ptr<Accelerator>> built_;
+    std::map<std::pair<Acceleration, bool>, std::unique_ptr<Accelerator>> built_;  ///< with details of meshes, or not
 };
 
 }  // namespace raysteps

@@ -41,7 +41,7 @@ bool AsyncInspector::idle_within(std::chrono::milliseconds timeout) {
 std::string AsyncInspector::inspected(const Question& question) {
     try {
         const RenderRequest& request = question.request;
-        const Accelerator& accelerator = accelerators_.get(request.acceleration);
+        const Accelerator& accelerator = accelerators_.get(request.acceleration, request.step.step);
         PixelRecord record = inspect_pixel(scene_, request.camera, accelerator, request.acceleration, request.step,
                                            question.pixel.x, question.pixel.y);
         record.scene = name_;

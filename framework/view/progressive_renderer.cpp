@@ -127,7 +127,7 @@ void ProgressiveRenderer::work() {
 }
 
 void ProgressiveRenderer::trace(const RenderRequest& request) {
-    const Accelerator& accelerator = accelerators_.get(request.acceleration);
+    const Accelerator& accelerator = accelerators_.get(request.acceleration, request.step.step);
     for (const int side : k_pass_sides) {
         if (given_up()) {
             return;

@@ -14,6 +14,7 @@ FunctionTable all_functions() {
     add_light(functions);
     add_trees(functions);
     add_sampling(functions);
+    add_meshes(functions);
     return functions;
 }
 

@@ -15,6 +15,7 @@ void add_intersections(FunctionTable& functions);
 void add_light(FunctionTable& functions);
 void add_trees(FunctionTable& functions);
 void add_sampling(FunctionTable& functions);
+void add_meshes(FunctionTable& functions);
 
 /// For solutions/NN-name/worker.cpp of a step that the kit does not know: offers a function before main begins. Always
 /// true.

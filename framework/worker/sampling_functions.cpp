@@ -8,11 +8,26 @@ namespace {
 
 TokenWriter& write_point(TokenWriter& answer, const glm::vec2& point) { return answer.number(point.x).number(point.y); }
 
+int at_least(int least, int number) {
+    if (number < least) {
+        throw ProtocolError("expected at least " + std::to_string(least) + ", found " + std::to_string(number));
+    }
+    return number;
+}
+
+Filter read_filter(TokenReader& words) {
+    const int kind = words.whole();
+    if (kind < 0 || kind > static_cast<int>(Filter::mitchell)) {
+        throw ProtocolError("there is no filter " + std::to_string(kind));
+    }
+    return static_cast<Filter>(kind);
+}
+
 // As often as asked, each time with a stream of its own, and at last with the first one again.
 void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {
     const int side = words.whole();
     const auto seed = static_cast<std::uint32_t>(words.whole());
-    const int times = words.count();
+    const int times = at_least(1, words.count());
     for (int number = 0; number <= times; ++number) {
         RandomStream random(seed, static_cast<std::uint32_t>(number % times));
         const std::vector<glm::vec2> points = stratified_samples(side, random);
@@ -24,7 +39,7 @@ void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_radical_inverse(TokenReader& words, TokenWriter& answer) {
-    const auto base = static_cast<std::uint32_t>(words.whole());
+    const auto base = static_cast<std::uint32_t>(at_least(2, words.whole()));
     answer.number(radical_inverse(base, static_cast<std::uint32_t>(words.whole())));
 }
 
@@ -37,7 +52,7 @@ void ask_tent_filter(TokenReader& words, TokenWriter& answer) { answer.number(te
 void ask_mitchell_filter(TokenReader& words, TokenWriter& answer) { answer.number(mitchell_filter(words.number())); }
 
 void ask_reconstruct(TokenReader& words, TokenWriter& answer) {
-    const auto filter = static_cast<Filter>(words.whole());
+    const auto filter = read_filter(words);
     std::vector<PixelSample> samples;
     for (int left = words.count(); left > 0; --left) {
         PixelSample sample;

@@ -1,10 +1,11 @@
-"""Makers of procedural scenes. Each module has a function build(size, rng) that returns a Scene."""
+"""Makers of procedural scenes: functions of size and rng that return a Scene, or a MeshScene for part two."""
 
 import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from . import gears, mountain, rings, ripples, sphereflake, tetrahedra
+from . import gears, meshes, mountain, rings, ripples, sphereflake, tetrahedra
+from .meshes import MeshScene
 from .nff import Scene
 
 
@@ -12,7 +13,7 @@ from .nff import Scene
 class Kind:
     """A kind of scene: its maker, the size used when none is given, and the largest allowed."""
 
-    build: Callable[[int, random.Random], Scene]
+    build: Callable[[int, random.Random], Scene | MeshScene]
     size: int
     largest: int
 
@@ -24,6 +25,8 @@ KINDS: dict[str, Kind] = {
     "mountain": Kind(mountain.build, 6, 10),
     "gears": Kind(gears.build, 4, 30),
     "ripples": Kind(ripples.build, 16, 100),
+    "vase": Kind(meshes.vase, 6, 200),
+    "knot": Kind(meshes.knot, 5, 200),
 }
 
 

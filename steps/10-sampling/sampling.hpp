@@ -10,9 +10,9 @@
 
 namespace raysteps {
 
-/// side * side points of the unit square, 0 <= x, y < 1, in any order. Cut the unit square into side x side squares of
-/// one size: each holds one point, which may be anywhere in it, all places equally likely, whatever the other points do
-/// (jittered sampling; Cook 1986). All random numbers come from the stream. side >= 1.
+/// side * side points of the unit square, 0 <= x, y <= 1 (1 by rounding only), in any order. Cut the unit square into
+/// side x side squares of one size: each holds one point, which may be anywhere in it, all places equally likely,
+/// whatever the other points do (jittered sampling; Cook 1986). All random numbers come from the stream. side >= 1.
 [[nodiscard]] std::vector<glm::vec2> stratified_samples(int side, RandomStream& random);
 
 /// The digits of the index in that base, mirrored at the point: 6 is 110 in base 2 and becomes 0.011 in base 2, 0.375
@@ -25,8 +25,8 @@ namespace raysteps {
 /// 1 in the middle of the pixel, falling evenly to 0 at a distance of 1 to either side, 0 beyond.
 [[nodiscard]] float tent_filter(float distance);
 
-/// Mitchell and Netravali's filter (1988) with B = C = 1/3: 8/9 in the middle, a little below 0 between 1 and 2 to
-/// either side, 0 beyond.
+/// Mitchell and Netravali's filter (1988) with B = C = 1/3: 8/9 in the middle, a little below 0 from 8/7 to 2
+/// on either side, 0 beyond.
 [[nodiscard]] float mitchell_filter(float distance);
 
 /// 1 within the pixel, up to half a pixel to either side, 0 beyond. This one is written.

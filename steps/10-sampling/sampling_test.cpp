@@ -160,7 +160,7 @@ TEST_CASE("mitchell_filter: known values", "[10-sampling][mitchell_filter]") {
     CHECK(mitchell_filter(1.0F) == about(1.0 / 18.0));
     CHECK(mitchell_filter(0.999F) == about(1.0 / 18.0, 1e-3));
     CHECK(mitchell_filter(0.5F) == about(0.534722));
-    INFO("a little below 0 between 1 and 2");
+    INFO("a little below 0 from 8/7 to 2");
     CHECK(mitchell_filter(1.5F) == about(-0.0347222));
     CHECK(mitchell_filter(-1.5F) == about(-0.0347222));
     CHECK(mitchell_filter(-0.5F) == about(0.534722));

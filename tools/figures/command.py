@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, plots, rays, renders, sampling, shading
+from tools.figures import bending, boxes, meshes, plots, rays, renders, sampling, shading
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
@@ -44,6 +44,10 @@ _DIAGRAMS = {
     "08-ball": bending.glass_ball,
     "09-cut": boxes.cut,
     "10-points": sampling.points,
+    "11-weights": meshes.weights,
+    "11-lift": meshes.lift,
+    "11-texels": meshes.texels,
+    "11-levels": meshes.levels,
 }
 _CURVES = {
     "03-highlight": plots.highlight,

@@ -35,8 +35,13 @@ class Shot:
     scene: str
     args: tuple[str, ...]
 
+    @property
+    def file(self) -> str:
+        """NFF, unless it says otherwise."""
+        return self.scene if "." in self.scene else f"{self.scene}.nff"
+
     def pixels(self, kit: BuiltKit) -> Pixels:
-        return reference_picture(kit, kit.project.scenes / f"{self.scene}.nff", (*self.args, *_SMALL))
+        return reference_picture(kit, kit.project.scenes / self.file, (*self.args, *_SMALL))
 
 
 def _lesson(name: str, *args: str) -> Shot:
@@ -60,6 +65,8 @@ SHOTS = {
     "08-after": _lesson("glass", "--step", "8"),
     "10-before": _lesson("three-spheres", "--step", "9"),
     "10-after": _lesson("three-spheres", "--step", "10", "--samples", "16", "--filter", "mitchell"),
+    "11-before": Shot("generated/vase.pbrt", ("--step", "10")),
+    "11-after": Shot("generated/vase.pbrt", ("--step", "11")),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 

@@ -5,7 +5,7 @@ import json
 import os
 import shutil
 import sys
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -109,8 +109,16 @@ def build_site(stage: Path, out: Path, work: Path) -> list[str]:
 
 # Copies what the site shows to a folder of its own, with the few changes that the site needs and a forge does not.
 
-GALLERY = Path("gallery/index.html")
-_OPEN_GALLERY = '\n\n## Open it\n\n<p><a href="../gallery/index.html">The gallery of this site</a></p>\n'
+GALLERY, PLAY = Path("gallery/index.html"), Path("play/index.html")
+# Pages that were made before, by the documents that tell of them.
+_MADE_BEFORE = {
+    Path("docs/gallery.md"): (GALLERY, "The gallery of this site"),
+    Path("docs/play.md"): (PLAY, "The page to work in"),
+}
+
+
+def _open(page: Path, name: str) -> str:
+    return f'\n\n## Open it\n\n<p><a href="../{page.as_posix()}">{name}</a></p>\n'
 
 
 def _tag(block: Block) -> str:
@@ -166,13 +174,13 @@ class _Stage:
         path.write_text(text, encoding="utf-8")
 
 
-def stage(project: Project, folder: Path, made_pages: Mapping[Path, str], *, gallery: bool) -> None:
-    """Fills the folder. `made_pages` are the texts of pages that nobody wrote; `gallery` is whether the site has its
-    page."""
+def stage(project: Project, folder: Path, made_pages: Mapping[Path, str], made_before: Collection[Path]) -> None:
+    """Fills the folder. `made_pages` are the texts of pages that nobody wrote; `made_before` is which of GALLERY and
+    PLAY the site has."""
     made = _Stage(project, folder)
     for document in documents(project):
-        is_gallery = gallery and document == Path("docs/gallery.md")
-        made.put(document, _OPEN_GALLERY if is_gallery else _menu(project, document))
+        known = _MADE_BEFORE.get(document)
+        made.put(document, _open(*known) if known and known[0] in made_before else _menu(project, document))
     for page, text in made_pages.items():
         made.write(page, text)
     static = folder / "_static"

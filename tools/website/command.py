@@ -11,8 +11,11 @@ from rich.markup import escape
 from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
+from raysteps.release.leaks import find_leaks
+from raysteps.release.page_parts import is_page
+from raysteps.release.secrets import gather
 from raysteps.report.terminal import short_path
-from tools.website.build import GALLERY, build_site, check_place, check_tools, put, stage
+from tools.website.build import GALLERY, PLAY, build_site, check_place, check_tools, put, stage
 from tools.website.documents import COMMANDS_PAGE, dead_links, documents
 from tools.website.made_pages import api_pages, command_page
 
@@ -21,10 +24,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Where it goes, and what else comes along."""
     parser.add_argument("--out", type=Path, metavar="DIR", help="where index.html goes (build/site)")
     parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery made before, to be part of the site")
+    parser.add_argument("--play", type=Path, metavar="DIR", help="a students' page to work in, made before, likewise")
 
 
-def _check(out: Path, gallery: Path | None) -> None:
+def _check(project: Project, out: Path, gallery: Path | None, play: Path | None) -> None:
     check_place(out)
+    if play is not None:
+        if not is_page(play):
+            raise UsageError(
+                f"{play}: expected a page to work in; make one in a students' kit: ./raysteps play --out DIR"
+            )
+        leaks = find_leaks(gather(project), play)
+        if leaks:
+            raise UsageError(f"{play}: must not be published: {leaks[0]}")
     if gallery is not None and not (gallery / GALLERY.name).is_file():
         raise UsageError(
             f"{gallery}: expected a folder with {GALLERY.name} in it; make one with: ./raysteps gallery --out {gallery}"
@@ -39,17 +51,19 @@ def _troubles(project: Project) -> list[str]:
     return [*dead_links(project.root, written), *bad_formulas(project.root, written)]
 
 
-def _build(project: Project, out: Path, gallery: Path | None, pages: dict[Path, str], console: Console) -> list[str]:
-    """Builds beside its place, and puts it there when nothing is wrong."""
+def _build(
+    project: Project, out: Path, made_before: dict[Path, Path], pages: dict[Path, str], console: Console
+) -> list[str]:
+    """Builds beside its place, and puts it there when nothing is wrong. `made_before` says where pages are from."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
         work = Path(name)
         (work / "stage").mkdir()
-        stage(project, work / "stage", pages, gallery=gallery is not None)
+        stage(project, work / "stage", pages, made_before)
         with console.status("building the site"):
             troubles = build_site(work / "stage", work / "site", work)
-        if gallery is not None:
-            shutil.copytree(gallery, work / "site" / GALLERY.parent)
+        for page, folder in made_before.items():
+            shutil.copytree(folder, work / "site" / page.parent)
         if not troubles:
             put(work / "site", out)
     return troubles
@@ -58,12 +72,14 @@ def _build(project: Project, out: Path, gallery: Path | None, pages: dict[Path, 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Builds all of it anew."""
     out: Path = (arguments.out or project.build / "site").absolute()
-    _check(out, arguments.gallery)
+    _check(project, out, arguments.gallery, arguments.play)
     check_tools()
     troubles = _troubles(project)
     if not troubles:
         pages = {COMMANDS_PAGE: command_page(project, new_parser(project)), **api_pages(project)}
-        troubles = _build(project, out, arguments.gallery, pages, console)
+        asked = {GALLERY: arguments.gallery, PLAY: arguments.play}
+        made_before = {page: folder for page, folder in asked.items() if folder is not None}
+        troubles = _build(project, out, made_before, pages, console)
     for trouble in troubles:
         console.print(escape(trouble), highlight=False)
     if troubles:

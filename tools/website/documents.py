@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from raysteps.common.markdown import Block, anchors, targets
-from raysteps.course.manifest import read_steps
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 
 # Made from the command line and from the headers, so not in the repository.
@@ -54,7 +54,7 @@ def below(project: Project, page: Path) -> tuple[Path, ...]:
 
 def sections(project: Project) -> list[Section]:
     """The menu. A document that no section names stands under the last one, so that none is ever missing."""
-    handouts = tuple(Path("steps") / step.id / "README.md" for step in read_steps(project))
+    handouts = tuple(Path("steps") / step.id / "README.md" for step in kit_steps(project))
     named = {name for _, names in _SECTIONS for name in names}
     others = sorted(path.stem for path in (project.root / "docs").glob("*.md") if path.stem not in named)
     made = []

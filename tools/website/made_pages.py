@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from raysteps.course.manifest import read_steps
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE
 
@@ -148,7 +148,7 @@ def api_pages(project: Project) -> dict[Path, str]:
     core = sorted((project.root / "framework" / "core").glob("*.hpp"))
     contracts = [
         _section(f"{step.number} {step.title}", path, f"[Its handout](../steps/{step.id}/README.md); `{path.name}`.")
-        for step in read_steps(project)
+        for step in kit_steps(project)
         for path in sorted((project.steps / step.id).glob("*.hpp"))
     ]
     return {

@@ -263,7 +263,7 @@ def test_a_step_that_is_none_is_all_that_is_told(
 ) -> None:
     """Neither advice for it nor a build comes first."""
     assert main(["render", "scene.nff", "-o", "picture.png", *words]) == 2
-    assert capsys.readouterr().err == f"raysteps: --step: expected a whole number from 1 to 9, found '{found}'\n"
+    assert capsys.readouterr().err == f"raysteps: --step: expected the number of a step, 1-9, found '{found}'\n"
 
 
 @pytest.mark.parametrize(("code", "advised"), [(2, False), (0, True)])

@@ -12,7 +12,7 @@ import pytest
 from course_fakes import printed, small_project, text
 
 from raysteps.cli import app as cli
-from raysteps.cli.todo_steps import last_written, unfinished
+from raysteps.cli.todo_steps import last_written, unfinished, wanted_step, without_tree
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import (
     Step,
@@ -20,6 +20,7 @@ from raysteps.course.manifest import (
     chosen_steps,
     course_steps,
     dated_steps,
+    earlier,
     kit_steps,
     read_all_steps,
     read_step,
@@ -272,3 +273,35 @@ def test_a_course_without_trees_ranks_nobody(
     monkeypatch.setattr(cli, "here", lambda: kit)
     assert cli.main(["leaderboard", str(kit.root)]) == UsageError.exit_code
     assert "no step of this course has a tree whose work is counted" in capsys.readouterr().err
+
+
+def test_pictures_are_drawn_with_no_part_after_their_own(project: Project) -> None:
+    """An own step 20 of part one goes on from step 09, though part two's numbers lie between."""
+    every = read_all_steps(project)
+    own = replace(every[0], id="20-fog", part=1)
+    tenth = next(step for step in every if step.id == "10-sampling")
+    assert _numbers(earlier(own, [*every, own])) == "123456789"
+    assert _numbers(earlier(tenth, [*every, own])) == "123456789"
+    assert _numbers(earlier(every[3], every)) == "123"
+
+
+@pytest.mark.parametrize("word", ["0", "12", "19", "x"])
+def test_a_picture_is_of_a_step_that_there_is(project: Project, settle: Callable[[str], Path], word: str) -> None:
+    settle("parts = [1, 2]")
+    with pytest.raises(UsageError, match="--step: expected the number of a step"):
+        wanted_step(project, ["--step", word])
+    assert wanted_step(project, ["--step", "10"]) == 10
+
+
+def test_a_picture_of_part_two_needs_no_tree_either(kit: Project) -> None:
+    """The stubs of this kit build none."""
+    assert without_tree(kit, 8, []) == ["--accel", "none"]
+    assert without_tree(kit, 10, []) == ["--accel", "none"]
+    assert without_tree(kit, 9, []) == []
+
+
+def test_an_own_step_goes_out_without_the_part_between(project: Project) -> None:
+    every = read_all_steps(project)
+    own = replace(every[0], id="20-fog", part=1)
+    assert _numbers(first_steps(["1-9", "20"], [*every, own])) == "12345678920"
+    assert [step.number for step in first_steps(["10"], every)] == [f"{number:02}" for number in range(1, 11)]

@@ -45,12 +45,13 @@ def test_a_twin_moves_the_camera_a_little_and_keeps_the_rest(project: Project, s
             before = _lines((project.root / image.scene).read_text(encoding="utf-8"))
             after = _lines(scene.nff)
             differing = [(a, b) for a, b in zip(before, after, strict=True) if a != b]
-            assert [a for a, _ in differing if a.startswith("from")], scene.name
-            assert all(a.startswith(("from ", "s ")) and a[:2] == b[:2] for a, b in differing), scene.name
+            assert [a for a, _ in differing if a.startswith(("from ", "LookAt "))], scene.name
+            assert all(a.startswith(("from ", "s ", "LookAt ")) and a[:2] == b[:2] for a, b in differing), scene.name
             for a, b in differing:
                 old, new = ([float(word) for word in line.split()[1:]] for line in (a, b))
-                reach = 0.15 * max(1.0, *(abs(x) for x in old)) if a.startswith("from") else 0.06 * old[3]
-                assert all(abs(x - y) < max(reach, 1.0 * a.startswith("from")) for x, y in zip(old, new, strict=True))
+                is_view = a.startswith(("from ", "LookAt "))
+                reach = 0.15 * max(1.0, *(abs(x) for x in old)) if is_view else 0.06 * old[3]
+                assert all(abs(x - y) < max(reach, 1.0 * is_view) for x, y in zip(old, new, strict=True))
 
 
 def test_the_seed_decides(project: Project, steps: list[Step]) -> None:
@@ -70,3 +71,13 @@ def test_spheres_that_are_seen_from_inside_stay() -> None:
     lines = perturbed_scene(nff, RandomSource("seed"), spheres=True).splitlines()
     assert lines[4] == "s 0 0 0 -40"
     assert lines[3] != "s 0 0 0 1"
+
+
+def test_a_scene_of_pbrts_form_moves_the_eye_and_nothing_else() -> None:
+    scene = "Scale -1 1 1\nLookAt 0 2 9  0 1 0  0 1 0\nWorldBegin\n"
+    before, line, after = perturbed_scene(scene, RandomSource("seed"), spheres=False).splitlines()
+    assert (before, after) == ("Scale -1 1 1", "WorldBegin")
+    words = line.split()
+    assert words[0] == "LookAt"
+    assert words[4:] == ["0", "1", "0", "0", "1", "0"]
+    assert words[1:4] != ["0", "2", "9"]

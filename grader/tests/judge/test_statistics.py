@@ -1,6 +1,7 @@
 """Tests whose errors are fixed: right numbers pass, wrong ones are found, and the tail is that of the books."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from raysteps.judge.answers import Verdict
 from raysteps.judge.cases.sampling import FUNCTIONS
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Inputs, Whole, text
-from raysteps.judge.statistics import Numbers, are_independent, chi_square_tail, has_mean, is_even
+from raysteps.judge.statistics import Numbers, are_independent, chi_square_tail, has_mean, is_uniform
 
 _SEED = 20
 
@@ -39,18 +40,18 @@ def test_a_tail_far_out_is_as_small_as_it_is() -> None:
 def test_even_numbers_pass_and_uneven_ones_do_not() -> None:
     draw = np.random.default_rng(_SEED)
     even = draw.random(20_000)
-    assert is_even(even, 16)
+    assert is_uniform(even, 16)
     assert has_mean(even, 0.5, math.sqrt(1 / 12))
-    assert not is_even(even * 0.97, 16)
-    assert not has_mean(even * 0.97, 0.5, math.sqrt(1 / 12))
-    assert is_even(draw.random((20_000, 2)), 8)
-    assert not is_even(np.stack([even, even], axis=1), 8)
+    assert not is_uniform(even * 0.97, 16)
+    assert not has_mean(even * 0.95, 0.5, math.sqrt(1 / 12))
+    assert is_uniform(draw.random((20_000, 2)), 8)
+    assert not is_uniform(np.stack([even, even], axis=1), 8)
     assert are_independent(even[::2], even[1::2], 16)
     assert not are_independent(even, np.asarray((even + 0.01 * draw.random(20_000)) % 1.0), 16)
 
 
 def test_too_few_numbers_tell_nothing() -> None:
-    assert is_even(np.zeros(10), 16)
+    assert is_uniform(np.zeros(10), 16)
 
 
 # What the judge says of points that are wrong in one way.
@@ -115,13 +116,72 @@ def test_a_point_on_the_border_of_its_square_may_be_rounded_across() -> None:
         (lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[:, :1]) / _SIDE, "different squares"),
         (
             lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[np.arange(len(p)) // 2]) / _SIDE,
-            "the same for every stream",
+            "the same for different streams",
         ),
     ],
 )
 def test_each_fault_has_its_words(change: object, said: str) -> None:
     assert callable(change)
     assert said in _verdict(np.asarray(change(_right())), _inputs()).problem
+
+
+def _shares(points: Numbers) -> Numbers:
+    """Times, rows, columns, x and y."""
+    return np.asarray(points.reshape(len(points), _SIDE, _SIDE, 2) * _SIDE % 1.0)
+
+
+def _with_shares(points: Numbers, shares: Numbers) -> Numbers:
+    return np.asarray((np.floor(points * _SIDE) + shares.reshape(points.shape)) / _SIDE)
+
+
+def _turned_round(shares: Numbers) -> None:
+    shares[:, :, 1::2] = 1 - shares[:, :, 0::2]
+
+
+def _two_columns_on(shares: Numbers) -> None:
+    shares[:, :, 2:] = shares[:, :, :2]
+
+
+def _far_corner(shares: Numbers) -> None:
+    shares[:, -1, -1] = shares[:, 0, 0]
+
+
+def _y_of_x_before(shares: Numbers) -> None:
+    shares[:, :, 1::2, 1] = 1 - shares[:, :, 0::2, 0]
+
+
+def _every_other_stream(shares: Numbers) -> None:
+    shares[2::4] = shares[0::4]
+
+
+@pytest.mark.parametrize("times", [128, 512])
+@pytest.mark.parametrize(
+    ("copy", "said"),
+    [
+        (_turned_round, "different squares"),
+        (_two_columns_on, "different squares"),
+        (_far_corner, "different squares"),
+        (_y_of_x_before, "different squares"),
+        (_every_other_stream, "different streams"),
+    ],
+)
+def test_numbers_that_are_used_again_are_found_wherever(copy: Callable[[Numbers], None], said: str, times: int) -> None:
+    points = _right(_SIDE, times)
+    shares = _shares(points)
+    copy(shares)
+    assert said in _verdict(_with_shares(points, shares), _inputs(_SIDE, times)).problem
+
+
+@pytest.mark.parametrize("side", [3, 5])
+def test_odd_sides_are_right_too(side: int) -> None:
+    assert _verdict(_right(side, 256), _inputs(side, 256)).problem == ""
+
+
+@pytest.mark.parametrize("line", ["", "0", "16 0.5", "nan", "16 " + "nan " * 32, "1000000 0.5", "0 " * 100_000])
+def test_whatever_a_line_holds_it_is_an_answer(line: str) -> None:
+    inputs = _inputs(_SIDE, 2)
+    right = " ".join("16 " + " ".join(text(float(x)) for x in one.ravel()) for one in _right(_SIDE, 2)[[0, 1, 0]])
+    assert _STRATIFIED.answer.verdict(_STRATIFIED.name, inputs, right, line).problem
 
 
 def test_the_same_stream_must_give_the_same_points() -> None:

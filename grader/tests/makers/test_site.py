@@ -123,6 +123,27 @@ def test_what_is_missing_is_named(
     assert not (tmp_path / "new").exists()
 
 
+_PAGE = '<!doctype html><title>play</title><pre><script type="application/json" id="data">{"model":"stub"}</script>'
+
+
+def _page_in(folder: Path) -> Path:
+    """One with the files that make it a page, and nothing in them."""
+    folder.mkdir()
+    (folder / "index.html").write_text(_PAGE, encoding="utf-8")
+    for name in ("clang.wasm.gz", "system.tar.gz", "kit.tar.gz"):
+        (folder / name).touch()
+    return folder
+
+
+def test_only_a_page_without_solutions_is_taken_in(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "no page").mkdir()
+    assert main(["docs", "--out", str(tmp_path / "new"), "--play", str(tmp_path / "no page")]) == 2
+    assert "expected a page to work in; make one in a students' kit" in capsys.readouterr().err
+    assert main(["docs", "--out", str(tmp_path / "new"), "--play", str(_page_in(tmp_path / "page"))]) == 2
+    assert "must not be published: clang.wasm.gz: is not packed as the page packs it" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
 class _Links(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
@@ -139,12 +160,22 @@ class _Links(HTMLParser):
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Built once, with a gallery."""
+    """Built once, with a gallery and a page to work in."""
     folder = tmp_path_factory.mktemp("site")
     (folder / "gallery").mkdir()
     (folder / "gallery" / "index.html").write_text("<!doctype html><title>gallery</title>", encoding="utf-8")
-    assert main(["docs", "--out", str(folder / "out"), "--gallery", str(folder / "gallery")]) == 0
+    made_before = ["--gallery", str(folder / "gallery"), "--play", str(_page_in(folder / "made"))]
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("tools.website.command.find_leaks", lambda *_: [])
+        assert main(["docs", "--out", str(folder / "out"), *made_before]) == 0
     return folder / "out"
+
+
+@_TOGETHER
+def test_the_site_has_the_page_to_work_in_and_leads_there(site: Path) -> None:
+    assert (site / "play" / "kit.tar.gz").is_file()
+    assert (site / "play" / "index.html").read_text(encoding="utf-8") == _PAGE
+    assert '<a href="../play/index.html">The page to work in</a>' in (site / "docs" / "play.html").read_text("utf-8")
 
 
 @_TOGETHER

@@ -155,7 +155,7 @@ def test_a_machine_is_the_same_once_the_kit_was_set_up_in_it(monkeypatch: pytest
     once = mark()
     found.append(found[0])
     assert mark() == once
-    found[:2] = []
+    found[:] = [one for one in found if one.metadata["Name"] != "numpy"]
     assert mark() != once
 
 

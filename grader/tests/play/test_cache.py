@@ -62,7 +62,13 @@ class _Installed:
 def test_another_library_is_another_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     include = tmp_path / "include"
     deep = include / "glm" / "detail" / "type.inl"
-    for path in (deep, include / "glm" / "glm.hpp", include / "catch2" / "catch.hpp", include / "stb_image_write.h"):
+    for path in (
+        deep,
+        include / "glm" / "glm.hpp",
+        include / "catch2" / "catch.hpp",
+        include / "stb_image.h",
+        include / "stb_image_write.h",
+    ):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(path.name)
     monkeypatch.setattr(web_kit, "Sources", lambda _project: _Installed(include))
@@ -72,7 +78,13 @@ def test_another_library_is_another_folder(tmp_path: Path, monkeypatch: pytest.M
         return WebKit(Project(tmp_path), WebClang(tmp_path, tmp_path)).libraries
 
     before = libraries()
-    assert _cache(before) == ["catch2/catch.hpp", "glm/detail/type.inl", "glm/glm.hpp", "stb_image_write.h"]
+    assert _cache(before) == [
+        "catch2/catch.hpp",
+        "glm/detail/type.inl",
+        "glm/glm.hpp",
+        "stb_image.h",
+        "stb_image_write.h",
+    ]
     assert libraries() == before
     deep.write_text("upgraded")
     after = libraries()

@@ -19,6 +19,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
+from raysteps.grading.build_messages import twice_message, undefined_message
 from raysteps.images.compare import compare, parse_ppm
 from raysteps.play.play_page import PlayServer, first_includes, handout, publish, refuse_to_publish, with_places
 from raysteps.toolchain.catch2 import parse_report
@@ -67,12 +68,12 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
 
 _PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <script type="module" src="check.js"></script>"""
-_CHECK = """import { readReport } from "./report.js";
+_CHECK = """import { linkerWords, readReport } from "./report.js";
 import { compare, readPpm } from "./pictures.js";
 import { firstIncludes } from "./includes.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
 const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
-window.checks = { readReport, firstIncludes, judge };
+window.checks = { linkerWords, readReport, firstIncludes, judge };
 """
 
 
@@ -210,6 +211,21 @@ def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server
             assert one["failure"] == failure
     assert page.evaluate("checks.readReport('<Catch2TestRun><TestCase/></Catch2TestRun>')") is None
     assert page.evaluate("checks.readReport('<Catch2TestRun>')") is None
+
+
+def test_what_the_linker_says_in_the_words_of_the_grader(watched: Watched, server: PlayServer) -> None:
+    """Functions that a contract asks for: test_play_page.py."""
+    page = _open(watched, server)
+    words = {"twice": twice_message("{}"), "undefined": [undefined_message((one,)) for one in ("{}", "{} and {}")]}
+    said = "wasm-ld: error: duplicate symbol: raysteps::far(float)\n>>> defined in /work/own-01.o\n"
+    helpers = "".join(f"wasm-ld: error: /work/own-02.o: undefined symbol: raysteps::f{one}()\n" for one in "12345612")
+    for text, wanted in (
+        (said, twice_message("raysteps::far(float)")),
+        (helpers, undefined_message(tuple(f"f{one}()" for one in "123456"))),
+        ("camera_rays.cpp:3:1: error: no such thing\n", None),
+        ("", None),
+    ):
+        assert page.evaluate("([text, words]) => checks.linkerWords(text, words)", [text, words]) == wanted
 
 
 def test_the_page_finds_the_same_first_includes(

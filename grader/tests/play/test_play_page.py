@@ -21,6 +21,7 @@ from play_pages import STARTED, save, says, with_packages, write
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
+from raysteps.grading.build_messages import missing_message, undefined_message
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer, publish
 from raysteps.submission.load import load_submission
@@ -129,6 +130,24 @@ def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> No
     page.locator("#play-problems button").first.click()
     expect(page.locator(".cm-activeLine")).to_have_text("    return ray.orgin;")
     expect(page.locator("#play-problems button").first).to_have_text(f"camera_rays.cpp:{line}")
+
+
+def test_what_the_linker_misses_is_told_as_the_native_kit_tells_it(page: "Page", solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    right = solved["01-camera-rays"]
+    problems = page.locator("#play-problems")
+    save(page, right.replace("glm::vec3 point_at(", "glm::vec3 point_on("))
+    point = "point_at(Ray const&, float)"
+    expect(problems).to_have_text(missing_message((point,)), timeout=STARTED)
+    _says(page, r"It does not compile\.")
+    save(page, right[: right.index("namespace")])
+    expect(problems).to_contain_text(missing_message((point, ""))[-40:], timeout=STARTED)
+    expect(problems).to_contain_text(" and ")
+    helper = "float far(float);\n"
+    declared = right.replace("namespace raysteps {", f"namespace raysteps {{ {helper}", 1)
+    save(page, declared.replace(_POINT, "return far(distance) * ray.direction;"))
+    expect(problems).to_have_text(undefined_message(("far(float)",)), timeout=STARTED)
 
 
 def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[str, str]) -> None:

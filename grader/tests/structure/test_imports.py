@@ -19,8 +19,8 @@ _FLOORS = (
     {"images", "judge"},
     {"diagnosis", "report"},
     {"grading"},
-    {"classroom", "finale", "gallery", "progress", "release"},
-    {"desk", "exports", "inspector", "play", "watch"},
+    {"classroom", "finale", "gallery", "play", "progress"},
+    {"desk", "exports", "inspector", "release", "watch"},
     {"cli"},
     {"__main__", "tools"},
 )

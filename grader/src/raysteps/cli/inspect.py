@@ -87,8 +87,8 @@ def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
         if said:
             print(f"raysteps: {said}", file=sys.stderr)
     at = words.index("--step") if "--step" in words else len(words)
-    step = chosen_step(project, (words[at + 1 : at + 2] or [str(usual_step(project))])[0])
-    return InspectOptions(arguments.scene, arguments.x, arguments.y, step.index, (*words[:at], *words[at + 2 :]))
+    step = int((words[at + 1 : at + 2] or [usual_step(project)])[0])
+    return InspectOptions(arguments.scene, arguments.x, arguments.y, step, (*words[:at], *words[at + 2 :]))
 
 
 def _say_unfinished(project: Project, options: InspectOptions) -> None:

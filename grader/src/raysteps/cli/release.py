@@ -1,6 +1,11 @@
 """The command `release`."""
 
 import argparse
+import tempfile
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import date
 from pathlib import Path
 
@@ -27,7 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Where to, and what of it; or what to look through."""
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("--out", type=Path, metavar="DIR", help="a new or empty folder, or an earlier release")
-    where.add_argument("--check", type=Path, metavar="DIR", help="look for solutions in a folder that is to go out")
+    where.add_argument(
+        "--check", type=Path, metavar="PATH", help="look for solutions in a folder or zip that is to go out"
+    )
     parser.add_argument(
         "--steps", "--only", nargs="+", default=[], metavar="STEP", help="the first steps only, such as 1-4"
     )
@@ -49,10 +56,31 @@ def refuse_inside(project: Project, out: Path) -> None:
         raise UsageError(f"{out}: lies in the kit's own folder; expected one elsewhere, such as ../{out.name}")
 
 
-def check(secrets: Secrets, folder: Path, console: Console) -> int:
-    """0 only when all of the folder was searched, as all of it may be handed out."""
-    if not folder.is_dir():
-        raise UsageError(f"{folder}: expected the folder of a release")
+@contextmanager
+def _unpacked(place: Path) -> Iterator[Path]:
+    """The folder, or what a zip holds, as a folder."""
+    if place.is_dir():
+        yield place
+        return
+    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
+        try:
+            with zipfile.ZipFile(place) as archive:
+                names = archive.namelist()
+                if len({name.lower() for name in names}) < len(names):
+                    raise UsageError(f"{place}: holds two files of one name, so not all of it can be looked through")
+                archive.extractall(folder)
+        except (OSError, RuntimeError, NotImplementedError, zipfile.BadZipFile, zlib.error) as error:
+            raise UsageError(f"{place}: expected the folder of a release or of a page, or a zip of one") from error
+        yield Path(folder)
+
+
+def check(secrets: Secrets, place: Path, console: Console) -> int:
+    """0 only when all of it was searched, as all of it may be handed out."""
+    with _unpacked(place) as folder:
+        return _check_folder(secrets, folder, console)
+
+
+def _check_folder(secrets: Secrets, folder: Path, console: Console) -> int:
     left_out = not_searched(folder)
     leaks = tell(console, find_leaks(secrets, folder, tried=True))
     if not leaks:

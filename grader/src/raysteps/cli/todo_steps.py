@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, kit_steps, of_another_part, of_other_parts, read_steps
+from raysteps.course.manifest import Step, kit_steps, of_another_part, of_other_parts, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.stubs import unfinished_functions
 
@@ -60,12 +60,11 @@ def wanted_step(project: Project, words: Sequence[str]) -> int:
         return usual_step(project)
     word = last_value(words, "--step") or ""
     steps = read_steps(project)
-    last = steps[-1].index
     for other in of_other_parts(project):
         if word in (other.number, str(other.index)):
             raise UsageError(f"--step: {of_another_part(steps, other)}")
-    if not re.fullmatch("[0-9]{1,2}", word) or not 1 <= int(word) <= last:
-        raise UsageError(f"--step: expected a whole number from 1 to {last}, found '{word}'")
+    if not re.fullmatch("[0-9]{1,2}", word) or int(word) not in [step.index for step in kit_steps(project)]:
+        raise UsageError(f"--step: expected the number of a step, {' or '.join(steps_words(steps))}, found '{word}'")
     return int(word)
 
 
@@ -85,8 +84,8 @@ def as_far_as_written(project: Project, words: Sequence[str]) -> tuple[list[str]
 
 def without_tree(project: Project, step: int, words: Sequence[str]) -> list[str]:
     """What to add to the words of a picture so that it needs no tree that nobody has written yet."""
-    steps = [one for one in read_steps(project) if one.index < step and one.is_about_a_tree]
-    missing = step <= _LAST_PICTURE and any(_left_in(project, one) for one in steps)
+    trees = [one for one in kit_steps(project) if one.index < step and one.is_about_a_tree]
+    missing = step not in _TREES.values() and any(_left_in(project, one) for one in trees)
     return ["--accel", "none"] if missing and "--accel" not in words else []
 
 

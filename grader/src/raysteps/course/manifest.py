@@ -219,6 +219,11 @@ def up_to(step: Step, steps: Sequence[Step]) -> list[Step]:
     return [other for other in steps if other.part == step.part and other.index <= step.index]
 
 
+def earlier(step: Step, steps: Sequence[Step]) -> list[Step]:
+    """Those of the steps that its pictures are drawn with, trees or not: none of a part after its own."""
+    return [other for other in steps if other.part <= step.part and other.index < step.index]
+
+
 _RANGE = re.compile(r"([0-9]{1,2})[-\u2013]([0-9]{1,2})")
 STEPS_HELP = "such as 1-4, 01 02 or 1,3"  # what `choose` takes
 

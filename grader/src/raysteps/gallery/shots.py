@@ -9,7 +9,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import join_and, printable, shorten
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, earlier
 from raysteps.course.project import Project, generated
 from raysteps.course.stubs import unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
@@ -186,7 +186,7 @@ class MySteps:
 
     def _program(self, step: Step) -> tuple[Program | None, str]:
         if step.id not in self._programs:
-            up_to = [other for other in self._kit.steps if other.index <= step.index]
+            up_to = self._kit.handed_in_up_to(step)
             own = {other.number: self._binaries[other.id] for other in up_to if other.id in self._binaries}
             program, ran = self._build.program("raytrace", step, own, self._limits[step.id], together=True)
             self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _LONGEST))
@@ -200,7 +200,9 @@ class MySteps:
 
     def _remarks(self, step: Step) -> str:
         missing = [
-            other.number for other in self._kit.steps if other.index < step.index and other.id not in self._binaries
+            other.number
+            for other in earlier(step, self._kit.steps)
+            if other.id not in self._binaries or other not in self._kit.handed_in_up_to(step)
         ]
         stand_in = f"The reference stands in for {join_and(missing)}." if missing else ""
         return " ".join(filter(None, [self._notes[step.id], stand_in]))

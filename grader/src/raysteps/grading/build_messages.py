@@ -102,6 +102,11 @@ def undefined_message(names: tuple[str, ...]) -> str:
     return f"It does not build: {shown} is called, but defined nowhere. Is the signature the same in both places?"
 
 
+def twice_message(name: str) -> str:
+    """A function that stands there twice."""
+    return f"It does not build: {name} is defined twice."
+
+
 def is_of_a_linker(output: str) -> bool:
     """Whether a function is missing, or there twice."""
     return bool(_MISSING.search(output) or _TWICE.search(output))
@@ -124,7 +129,7 @@ def link_message(ran: TaskResult) -> str:
     missing, twice = _MISSING.search(said), _TWICE.search(said)
     if twice is not None:
         name = twice["name"] or twice["theirs"].partition(" already defined")[0]
-        return f"It does not build: {shorten(name, 200)} is defined twice."
+        return twice_message(shorten(name, 200))
     if missing is None:
         return "It does not build: the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)

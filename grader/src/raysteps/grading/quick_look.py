@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, earlier
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
@@ -68,8 +68,8 @@ class QuickLook:
         kept = own_libraries(self.kit)
         work = GradingContext(self.kit, own_files, self.sandbox, folder, self.out, kept=kept)
         with ThreadPoolExecutor() as pool:
-            earlier = [step for step in self.kit.steps if step.index < self.step.index]
-            own = own_steps(work, self.step, compile_steps(work, earlier, pool, {}))
+            before = earlier(self.step, self.kit.steps)
+            own = own_steps(work, self.step, compile_steps(work, before, pool, {}))
             return own | {self.step.number: binary}
 
     def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path, source: str) -> StepResult:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, RaystepsError, reason
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
@@ -31,8 +31,8 @@ from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 
 def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -> dict[str, Path]:
     """By number, the student's steps before this one that build; the kit's stub stands in for the others."""
-    earlier = [other for other in work.kit.steps if other.index < step.index and other.id in compiled]
-    binaries = {other.number: compiled[other.id].binary for other in earlier}
+    before = [other for other in earlier(step, work.kit.steps) if other.id in compiled]
+    binaries = {other.number: compiled[other.id].binary for other in before}
     return {number: binary for number, binary in binaries.items() if binary is not None}
 
 
@@ -124,7 +124,7 @@ def name_crash(
     alone, limits = kit.has_reference, kit.limits_of(step)
     with suppress(RaystepsError, OSError), tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         work = GradingContext(kit.sanitized(), submission, sandbox, Path(folder), Path(folder))
-        sources = [other for other in kit.steps if other is step or (other.index < step.index and not alone)]
+        sources = [*([] if alone else earlier(step, kit.steps)), step]
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             compiled = compile_steps(work, sources, pool, {})
         binary = compiled[step.id].binary
@@ -150,8 +150,8 @@ _TROUBLE = {
 
 def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> list[str]:
     """Earlier steps that are not right, and the pictures to compare with. Trees show in their own pictures only."""
-    earlier = [other for other in work.kit.steps if other.index < step.index and not other.is_about_a_tree]
-    wrong = [other for other in earlier if not is_right(found[other.id])]
+    before = [other for other in earlier(step, work.kit.steps) if not other.is_about_a_tree]
+    wrong = [other for other in before if not is_right(found[other.id])]
     if not wrong:
         return []
     first, *others = wrong

@@ -12,7 +12,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash, write_bytes, write_json
 from raysteps.common.process import run
 from raysteps.common.text import in_seconds, printable, shorten
-from raysteps.course.manifest import ImageCase, Step
+from raysteps.course.manifest import ImageCase, Step, earlier
 from raysteps.course.project import Project
 from raysteps.images.compare import (
     PictureError,
@@ -199,7 +199,7 @@ def error_for_nothing(kit: BuiltKit, step: Step, scene: Path, args: tuple[str, .
     simple = error_without_work(reference)
     if step.index <= _FIRST_WITH_LIGHT or "--accel" in args or "--step" not in args:
         return simple
-    before = reference_picture(kit, scene, at_step(args, step.index - 1))
+    before = reference_picture(kit, scene, at_step(args, earlier(step, kit.steps)[-1].index))
     return min(simple, mean_error(before, reference))
 
 

@@ -8,6 +8,8 @@ from raysteps.judge.functions import Function
 from raysteps.judge.protocol import (
     Box,
     Camera,
+    Corner,
+    Face,
     Fill,
     Frame,
     Hit,
@@ -17,10 +19,13 @@ from raysteps.judge.protocol import (
     PixelSample,
     PixelSamples,
     ProtocolError,
+    Pyramid,
     Ray,
     Real,
+    Texture,
     TokenReader,
     Vec,
+    Vec2,
     Whole,
     f32,
 )
@@ -70,6 +75,17 @@ def _pixel_sample(n: _Numbers) -> PixelSample:
     return PixelSample((n.real(), n.real()), n.vector())
 
 
+def _corner(n: _Numbers) -> Corner:
+    return Corner(n.vector(), n.vector(), (n.real(), n.real()))
+
+
+def _texture(n: _Numbers) -> Texture:
+    width, height = n.whole(), n.whole()
+    if width < 1 or not 0 < width * height <= _MAX_ITEMS:
+        raise ProtocolError("the answer holds a number out of range")
+    return Texture(width, tuple(n.vector() for _ in range(width * height)))
+
+
 def _hit(n: _Numbers) -> Hit:
     position, fill, normal, direction = n.vector(), _fill(n), n.vector(), n.vector()
     return Hit(position, normal, direction, n.real(), fill, n.flag())
@@ -109,6 +125,10 @@ _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Light: _light,
     Lights: lambda n: Lights(n.many(_light)),
     PixelSamples: lambda n: PixelSamples(n.many(_pixel_sample)),
+    Vec2: lambda n: Vec2((n.real(), n.real())),
+    Face: lambda n: Face(_corner(n), _corner(n), _corner(n)),
+    Texture: _texture,
+    Pyramid: lambda n: Pyramid(n.many(_texture)),
     Hit: _hit,
     Box: lambda n: Box(n.vector(), n.vector()),
     Sphere: lambda n: Sphere(n.vector(), n.real(), _fill(n)),

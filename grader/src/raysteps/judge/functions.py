@@ -94,6 +94,7 @@ _MODULES = {
     "08": "refraction",
     "09": "bvh",
     "10": "sampling",
+    "11": "meshes",
 }
 
 

@@ -15,8 +15,8 @@ from raysteps.course.project import Project
 from raysteps.judge.plan import Plan, RandomPlan, TwinPlan
 from raysteps.judge.random_source import RandomSource
 
-# Changes an NFF scene a little, so that it still shows what it is meant to show. Only lines of a known form are
-# touched: `from`, `at` and `up` of the viewpoint, and spheres that stand on one line.
+# Changes a scene a little, so that it still shows what it is meant to show. Only lines of a known form are touched:
+# `from`, `at` and `up` of the viewpoint, and spheres that stand on one line; of a scene in pbrt's format `LookAt`.
 
 _TURN = (2.0, 4.0)  # degrees about the vertical, one way or the other
 _TILT = 1.0  # degrees up or down, at most
@@ -52,16 +52,27 @@ def _text(v: Vector) -> str:
     return " ".join(f"{x:.6g}" for x in v)
 
 
-def _move_camera(lines: list[str], draw: RandomSource) -> None:
-    place, origin = _point(lines, "from")
-    _, at = _point(lines, "at")
-    _, up = _point(lines, "up")
+def _moved(origin: Vector, at: Vector, up: Vector, draw: RandomSource) -> Vector:
     view = minus(origin, at)
     turned = _turned(view, unit(up), draw.sign() * draw.real(*_TURN))
     side = cross(up, turned)
     if length(side) > 0:
         turned = _turned(turned, unit(side), draw.real(-_TILT, _TILT))
-    lines[place] = "from " + _text(add(at, turned, draw.real(1 - _DISTANCE, 1 + _DISTANCE)))
+    return add(at, turned, draw.real(1 - _DISTANCE, 1 + _DISTANCE))
+
+
+def _move_camera(lines: list[str], draw: RandomSource) -> None:
+    for i, line in enumerate(lines):
+        numbers = _numbers(line.split()[1:]) if line.startswith("LookAt ") else None
+        if numbers is not None and len(numbers) == 9:
+            x, y, z, *rest = numbers
+            moved = _moved((x, y, z), (rest[0], rest[1], rest[2]), (rest[3], rest[4], rest[5]), draw)
+            lines[i] = f"LookAt {_text(moved)} " + " ".join(f"{number:.6g}" for number in rest)
+            return
+    place, origin = _point(lines, "from")
+    _, at = _point(lines, "at")
+    _, up = _point(lines, "up")
+    lines[place] = "from " + _text(_moved(origin, at, up, draw))
 
 
 def _move_spheres(lines: list[str], draw: RandomSource) -> None:

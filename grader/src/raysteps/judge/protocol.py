@@ -228,6 +228,76 @@ class PixelSamples:
 
 
 @dataclass(frozen=True)
+class Vec2:
+    """A place in a texture, or its size."""
+
+    value: tuple[float, float]
+
+    def numbers(self) -> list[Number]:
+        return list(self.value)
+
+    def words(self) -> str:
+        return f"({text(self.value[0])}, {text(self.value[1])})"
+
+
+@dataclass(frozen=True)
+class Corner:
+    position: Vector
+    normal: Vector
+    uv: tuple[float, float] = (0.0, 0.0)
+
+    def numbers(self) -> list[Number]:
+        return [*self.position, *self.normal, *self.uv]
+
+    def words(self) -> str:
+        return f"position {vector_words(self.position)} normal {vector_words(self.normal)} uv {Vec2(self.uv).words()}"
+
+
+@dataclass(frozen=True)
+class Face:
+    """A triangle of a mesh."""
+
+    a: Corner
+    b: Corner
+    c: Corner
+
+    def numbers(self) -> list[Number]:
+        return [*self.a.numbers(), *self.b.numbers(), *self.c.numbers()]
+
+    def words(self) -> str:
+        return "; ".join(corner.words() for corner in (self.a, self.b, self.c))
+
+
+@dataclass(frozen=True)
+class Texture:
+    """Its colours, row by row."""
+
+    width: int
+    texels: tuple[Vector, ...]
+
+    @property
+    def height(self) -> int:
+        return len(self.texels) // self.width
+
+    def numbers(self) -> list[Number]:
+        return [self.width, self.height, *(number for texel in self.texels for number in texel)]
+
+    def words(self) -> str:
+        return f"{self.width} x {self.height}: " + " ".join(vector_words(texel) for texel in self.texels)
+
+
+@dataclass(frozen=True)
+class Pyramid:
+    levels: tuple[Texture, ...]
+
+    def numbers(self) -> list[Number]:
+        return [len(self.levels), *(number for level in self.levels for number in level.numbers())]
+
+    def words(self) -> str:
+        return "; ".join(level.words() for level in self.levels)
+
+
+@dataclass(frozen=True)
 class Hit:
     """A hit record."""
 

@@ -1,7 +1,8 @@
 """Whether random numbers are what they ought to be: tests whose errors are fixed in advance.
 
-A grade asks some hundred of them. Each calls a right function wrong with a probability of 10^-12, so that a right
-submission fails with less than 10^-9; how small a fault is found depends on how many numbers are drawn.
+A grade makes some thousand of them. Each calls a right function wrong with a probability of about 10^-13 (of counts of
+16 and more, 10^-12 at most), so that a right submission fails with less than 10^-9; how small a fault is found depends
+on how many numbers are drawn.
 """
 
 import math
@@ -11,8 +12,9 @@ from numpy.typing import NDArray
 
 Numbers = NDArray[np.float64]
 
-SURPRISE = 1e-12
-_DEVIATIONS = 7.2  # of a normal variable, which is farther off with a probability of 6e-13
+SIGNIFICANCE = 1e-13
+_DEVIATIONS = 7.5  # of a normal variable, which is farther off with a probability of 6e-14
+_MIN_EXPECTED = 16  # in each bin: with fewer, chi-square is no longer the distribution
 
 
 def chi_square_tail(value: float, degrees: int) -> float:
@@ -33,25 +35,33 @@ def has_mean(numbers: Numbers, mean: float, deviation: float) -> bool:
     return abs(float(numbers.mean()) - mean) <= _DEVIATIONS * deviation / math.sqrt(len(numbers))
 
 
-def is_even(shares: Numbers, bins: int) -> bool:
+def is_uniform(shares: Numbers, bins: int) -> bool:
     """Whether numbers from 0 to 1, or rows of several such numbers, are spread evenly over the bins of each (Pearson's
     chi-square test). What is drawn too seldom to tell is taken as even."""
     rows = shares[:, None] if shares.ndim == 1 else shares
     cells = bins ** rows.shape[1]
-    expected = len(rows) / cells
-    if expected < _LEAST_EXPECTED:
+    expected_count = len(rows) / cells
+    if expected_count < _MIN_EXPECTED:
         return True
     places = np.minimum((rows * bins).astype(np.int64), bins - 1)
     index = places @ (bins ** np.arange(rows.shape[1]))
     found = np.bincount(index, minlength=cells)
-    surprise = float(((found - expected) ** 2).sum() / expected)
-    return chi_square_tail(surprise, cells - 1) >= SURPRISE
-
-
-_LEAST_EXPECTED = 16
+    statistic = float(((found - expected_count) ** 2).sum() / expected_count)
+    return chi_square_tail(statistic, cells - 1) >= SIGNIFICANCE
 
 
 def are_independent(first: Numbers, second: Numbers, bins: int) -> bool:
-    """Of two rows of even numbers from 0 to 1: the difference, going round, is even where they have nothing to do with
-    each other, and is not where one is made of the other."""
-    return is_even((first - second) % 1.0, bins)
+    """Of two rows of even numbers from 0 to 1: sum and difference, going round, are even where they have nothing to do
+    with each other. One of them is not where one number is made of the other, turned round or not."""
+    return is_uniform((first - second) % 1.0, bins) and is_uniform((first + second) % 1.0, bins)
+
+
+def many_alike(rows: Numbers, gap: float) -> bool:
+    """Whether, within the rows, many more numbers from 0 to 1 lie within `gap` of another one than chance explains."""
+    pairs = rows.shape[0] * (rows.shape[1] - 1)
+    alike = int((np.diff(np.sort(rows, axis=1), axis=1) <= gap).sum())
+    by_chance = pairs * rows.shape[1] * gap
+    return bool(alike > max(_MIN_ALIKE, _ALIKE_SHARE * pairs, 10 * by_chance))
+
+
+_MIN_ALIKE, _ALIKE_SHARE = 20, 0.01

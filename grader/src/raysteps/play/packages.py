@@ -52,6 +52,9 @@ CLANG = Package(
     "22.0.0-git20542-10",
     "V31/z9GrJECKeACTDUyvg2llbEUiFi3bxtL5HSg7H/6sydSxdI/AoVAD9F5ozrfLjotWl0B9rghR87m+DUM/zg==",
 )
+# The marks of what the page takes from it: the compiler, and headers and libraries.
+CLANG_WASM = "1dbd9fbfef8c76591093baa47e26b98e5da7d44cb265d8faef2221c496ff28da"
+CLANG_SYSTEM = "fb6e00a1f3e12849963d5dfe6a663ae92c2d8c9da619a9755c5198eb86f581d7"
 EDITOR = (
     Package(
         "@codemirror/autocomplete",
@@ -265,12 +268,17 @@ def clear(cache: Path, used: Iterable[Path]) -> None:
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
-def written_once(cache: Path, name: str, content: Mapping[str, bytes]) -> Path:
-    """A folder of these files, by their paths. Its name changes with every byte, so it never has to be changed."""
+def content_mark(content: Mapping[str, bytes]) -> str:
+    """Changes with every byte of these files, and with their paths."""
     digest = hashlib.sha256()
     for path, data in sorted(content.items()):
         digest.update(f"{path}\0{len(data)}\0".encode() + data)
-    folder = cache / f"{name}-{digest.hexdigest()[:12]}"
+    return digest.hexdigest()
+
+
+def written_once(cache: Path, name: str, content: Mapping[str, bytes]) -> Path:
+    """A folder of these files, by their paths. Its name changes with every byte, so it never has to be changed."""
+    folder = cache / f"{name}-{content_mark(content)[:12]}"
     if not folder.is_dir():
         with new_folder(folder) as new:
             whole = new / folder.name

@@ -19,6 +19,7 @@ from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targe
 from raysteps.course.manifest import ImageCase, Step, course_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
+from raysteps.grading.build_messages import missing_message, twice_message, undefined_message
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
@@ -29,6 +30,7 @@ from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
 
 Say = Callable[[str], None]
 
+_NAMES = (("{}",), ("{}", "{}"))  # one function that the linker misses, and several
 _RAYTRACE = ["--threads", "1", "--quiet", "-o", "/out/picture.ppm", "--stats", "/out/stats.json"]
 
 
@@ -87,15 +89,20 @@ def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]
 # Files in one.
 
 
-def packed(content: Mapping[str, bytes]) -> bytes:
-    """A tar, compressed; the same bytes for the same files."""
+def tar_of(content: Mapping[str, bytes]) -> bytes:
+    """The same bytes for the same files."""
     data = io.BytesIO()
     with tarfile.open(fileobj=data, mode="w", format=tarfile.GNU_FORMAT) as archive:
         for name, file in sorted(content.items()):
             info = tarfile.TarInfo(name)
             info.size = len(file)
             archive.addfile(info, io.BytesIO(file))
-    return gzip.compress(data.getvalue(), 6, mtime=0)
+    return data.getvalue()
+
+
+def packed(content: Mapping[str, bytes]) -> bytes:
+    """A tar, compressed."""
+    return gzip.compress(tar_of(content), 6, mtime=0)
 
 
 def _squeezed(path: Path) -> bytes:
@@ -193,6 +200,9 @@ class PlayPage:
             "raytrace": _RAYTRACE,
             "noTests": NO_TESTS,
             "tooManyTests": TOO_MANY_TESTS,
+            "missing": [missing_message(names) for names in _NAMES],
+            "undefined": [undefined_message(names) for names in _NAMES],
+            "twice": twice_message("{}"),
         }
         content = {
             "model": self._kit.model,

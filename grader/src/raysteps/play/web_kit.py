@@ -37,6 +37,7 @@ _TEST_MAIN, _RAYTRACE = f"{_MAIN}test_main", (_QUIET, f"{_MAIN}raytrace_main")
 _HEADERS = {
     "glm": ("glm",),
     "catch2/catch.hpp": ("catch2/catch.hpp",),
+    "stb_image.h": ("stb_image.h", "stb/stb_image.h"),
     "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h"),
 }
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
@@ -158,7 +159,7 @@ class WebKit:
 
     @cached_property
     def libraries(self) -> Path:
-        """The headers of GLM, Catch2 and stb_image_write by themselves: beside them lie those of this system. The
+        """The headers of GLM, Catch2 and stb by themselves: beside them lie those of this system. The
         folder's name changes with every byte of them."""
         content: dict[str, bytes] = {}
         for name in _HEADERS:

@@ -204,6 +204,13 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
     return True
 
 
+def _up_to_the_last(steps: list[Step], chosen: list[Step]) -> list[Step]:
+    """Of each part up to its last chosen step; of parts before these, all."""
+    last = {step.part: step.index for step in chosen}
+    whole = [step.part for step in steps if step.part not in last and step.part < max(last)]
+    return [step for step in steps if step.part in whole or step.index <= last.get(step.part, 0)]
+
+
 def first_steps(names: Sequence[str], steps: list[Step], said_by: str = "", others: Sequence[Step] = ()) -> list[Step]:
     """The steps with these names, all when there are none. One alone stands for all up to it; `said_by` tells where the
     names are from. `others`: see `choose`."""
@@ -212,7 +219,7 @@ def first_steps(names: Sequence[str], steps: list[Step], said_by: str = "", othe
         chosen = choose(steps, names, others)
     except UsageError as error:
         raise UsageError(f"{where}: {error}") from error
-    until = [step for step in steps if step.index <= chosen[-1].index]
+    until = _up_to_the_last(steps, chosen)
     if chosen != until and (len(chosen) > 1 or said_by):
         raise UsageError(
             f"{where}: expected the first and the last, such as {steps_words(steps[:4])[0]}; "

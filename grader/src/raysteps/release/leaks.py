@@ -13,6 +13,7 @@ from pathlib import Path
 
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count, join_and
+from raysteps.release.page_parts import Problem, folder_of_page, is_part, look_into
 from raysteps.release.secrets import Secrets, words_in
 from raysteps.updater.generated_files import CACHE, HISTORY, all_places
 
@@ -282,11 +283,30 @@ def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
         yield Leak(place.as_posix(), None, "whatever it was made of", "a link; a release has none")
         yield from _leaks_in(secrets, place.as_posix(), str(path.readlink()).encode())
     elif path.is_file():
-        data = path.read_bytes()
-        problem = strange(data)
-        if problem:
-            yield Leak(place.as_posix(), None, "whatever it was made of", problem)
-        yield from _leaks_in(secrets, place.as_posix(), data)
+        page = folder_of_page(folder, path)
+        name = path.relative_to(page).as_posix() if page else ""
+        if is_part(name):
+            yield from _in_page(secrets, name, place.as_posix(), path.read_bytes())
+        else:
+            yield from _in_data(secrets, place.as_posix(), path.read_bytes())
+
+
+def _in_data(secrets: Secrets, place: str, data: bytes) -> Iterator[Leak]:
+    problem = strange(data)
+    if problem:
+        yield Leak(place, None, "whatever it was made of", problem)
+    yield from _leaks_in(secrets, place, data)
+
+
+def _in_page(secrets: Secrets, name: str, place: str, data: bytes) -> Iterator[Leak]:
+    """A part of the page to work in."""
+    for found in look_into(name, place, data, secrets.functions):
+        if isinstance(found, Problem):
+            yield Leak(found.place, None, "whatever it was made of", found.text)
+        elif found.compiled:
+            yield from _leaks_in(secrets, found.place, found.data)
+        else:
+            yield from _in_data(secrets, found.place, found.data)
 
 
 def find_leaks(secrets: Secrets, folder: Path, *, tried: bool = False) -> list[Leak]:

@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
@@ -12,6 +12,7 @@ from raysteps.course.manifest import read_all_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import USUAL_SEED, read_course
 from raysteps.course.stubs import pristine_stub, solution_regions, tokens
+from raysteps.release.page_parts import mangled
 
 # What the kit keeps to itself, text by text, and from where each is.
 
@@ -197,6 +198,7 @@ class Secrets:
     sequences: NgramIndex
     names: dict[str, str]  # and where they come from
     seed: str | None
+    functions: Mapping[str, str] = field(default_factory=dict)  # of the steps, by their names in objects
 
     def tells_seed(self, words: Sequence[Word]) -> Word | None:
         """The word that is the seed, where it is called so."""
@@ -234,4 +236,5 @@ def gather(project: Project, shared: Sequence[Allowlist] | None = None) -> Secre
     for one in read_allowlist() if shared is None else shared:
         secret.allow(one.words)
     seed = read_course(project).seed
-    return Secrets(secret, _helpers(project), None if seed in (None, USUAL_SEED) else str(seed))
+    functions = {mangled(name): name for step in read_all_steps(project) for name in step.functions}
+    return Secrets(secret, _helpers(project), None if seed in (None, USUAL_SEED) else str(seed), functions)

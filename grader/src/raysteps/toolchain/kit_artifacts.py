@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from raysteps.common.platform import executable
-from raysteps.course.manifest import Step, kit_steps, up_to
+from raysteps.course.manifest import Step, earlier, kit_steps, up_to
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
 from raysteps.toolchain.link import Description, RemoteParts, library_name, link, without_names
@@ -237,7 +237,7 @@ class BuiltKit:
         else stands there."""
         if self.has_reference:
             return up_to(step, self.steps)
-        return [other for other in self.steps if other.index <= step.index]
+        return [*earlier(step, self.steps), step]
 
     def reference(self, kind: Kind, step: Step | None = None) -> Path:
         """A program in which every step is the reference's."""

@@ -14,7 +14,7 @@ from pathlib import Path
 import watchfiles
 
 from raysteps.common.text import count
-from raysteps.course.manifest import Step, read_steps
+from raysteps.course.manifest import Step, earlier, read_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.fingerprint import PROGRAM_FOLDERS, kit_files
 from raysteps.watch.events import ChangeNoticed, FileSaved, FileVanished, Owner, Post
@@ -74,9 +74,8 @@ class FileWatcher:
         """From now on this step; what its files hold now is no news."""
         with self._lock:
             self._step = step
-            self._earlier = [
-                self._project.steps / other.path for other in read_steps(self._project) if other.index < step.index
-            ]
+            before = earlier(step, read_steps(self._project))
+            self._earlier = [self._project.steps / other.path for other in before]
             self._kit.look()
             self._seen = self._snapshot()
             self._away_since: float | None = None

@@ -21,7 +21,7 @@ from raysteps.judge.answers import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_even
+from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike
 
 # Stratified samples. Every order of the points is right, and every way to draw them: so no answer is compared with the
 # reference's, but each is tested for what the contract promises. The worker asks `times` times, each time with another
@@ -30,6 +30,7 @@ from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_eve
 _BORDER = 1e-4  # of a square: a point so near to its border may have been rounded across
 _FEW, _MANY = 8, 32  # bins along a side of a square
 _MANY_POINTS = 32_768  # from here on the finer bins
+_MAX_TIMES = 10_000
 
 
 @dataclass(frozen=True)
@@ -40,8 +41,8 @@ class _Draws:
 
 
 def _read_draws(tokens: TokenReader) -> _Draws:
-    draws = []
-    while not tokens.at_end():
+    draws: list[Numbers] = []
+    while not tokens.at_end() and len(draws) <= _MAX_TIMES:
         size = tokens.whole(0, 1 << 20)
         numbers = [tokens.real() for _ in range(2 * size)]
         draws.append(np.array(numbers, dtype=np.float64).reshape(size, 2))
@@ -82,43 +83,38 @@ def _pairs(shares: Numbers) -> Iterator[tuple[Numbers, Numbers]]:
     yield shares[:, 0 : rows - 1 : 2], shares[:, 1::2]
 
 
-def _hang_together(one: Numbers, other: Numbers) -> bool:
-    """Any coordinate of a point of one with any of the other's."""
+def _are_dependent(one: Numbers, other: Numbers) -> bool:
+    """Any coordinate of a point of one on any of the other's."""
     return not all(
         are_independent(one[..., a].ravel(), other[..., b].ravel(), 2 * _FEW) for a in range(2) for b in range(2)
     )
 
 
-def _are_copied(one: Numbers, other: Numbers) -> bool:
-    """Whether many of two numbers that should be apart are the same, but for rounding; not where all are."""
-    return (
-        one.size >= _ENOUGH
-        and float(one.std()) > _ALIKE
-        and bool((np.abs(one - other) < _ALIKE).mean(axis=(0, 1, 2)).max() > _BY_CHANCE)
-    )
-
-
 _SQUARES = "the points of different squares have to do with each other"
-_ENOUGH, _ALIKE, _BY_CHANCE = 400, 1e-5, 0.1
+_STREAMS = "points are the same for different streams"
+_ROUNDING = 1e-6  # of a place in a square: float knows it no better
 
 
 def _problem_of_squares(shares: Numbers) -> str:
     """Shares: times, rows, columns, x and y, each from 0 to 1 within its square. Numbers that were used several times
-    are looked for first: they make everything else uneven."""
-    if any(_are_copied(*pair) for pair in _pairs(shares)):
-        return _SQUARES
+    are looked for first: they make everything else uneven. Where all are the same they are no copies."""
+    times, rows, columns, _ = shares.shape
+    if float(shares.std()) > _ROUNDING:
+        in_time = shares.reshape(times, rows * columns, 2)
+        if any(many_alike(in_time[..., axis], _ROUNDING) for axis in range(2)):
+            return _SQUARES
+        if any(many_alike(in_time[..., axis].T, 0.0) for axis in range(2)):
+            return _STREAMS
     points = shares.reshape(-1, 2)
     bins = _MANY if len(points) >= _MANY_POINTS else _FEW
     ways = (points[:, 0], points[:, 1])
-    if not all(is_even(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12)) for way in ways):
+    if not all(is_uniform(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12)) for way in ways):
         return "the points do not lie everywhere in their squares, all places equally likely"
-    if not is_even(points, bins):
+    if not is_uniform(points, bins):
         return "x and y of a point have to do with each other"
-    if any(_hang_together(*pair) for pair in _pairs(shares)):
+    if any(_are_dependent(*pair) for pair in _pairs(shares)):
         return _SQUARES
-    if _hang_together(shares[0:-1:2], shares[1::2]):
-        return "the points are much the same for every stream"
-    return ""
+    return _STREAMS if _are_dependent(shares[0:-1:2], shares[1::2]) else ""
 
 
 def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:

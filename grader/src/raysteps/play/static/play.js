@@ -4,7 +4,7 @@ import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner } from "./programs.js";
-import { readReport } from "./report.js";
+import { linkerWords, readReport } from "./report.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -423,7 +423,10 @@ class Page {
         mine.push(...(isMine ? [problem] : []));
         room.append(this.#problem(problem, isMine));
       }
-      if (!problems.length && text.trim()) {
+      const words = linkerWords(text, data.words);
+      if (words) {
+        room.append(make("p", { class: "play-problem play-error" }, words));
+      } else if (!problems.length && text.trim()) {
         room.append(make("pre", { tabindex: 0 }, text.trim()));
       }
     }

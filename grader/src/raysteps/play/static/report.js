@@ -17,6 +17,24 @@ function shorten(text, limit = MOST_LETTERS) {
   return text.length <= limit ? text : `${text.slice(0, limit)} ...`;
 }
 
+/** What the linker says, in the words of the grader, or nothing where it says something else. What only the student's
+ * own objects ask for is a helper; all else is a function of a contract. */
+export function linkerWords(said, words) {
+  const twice = /duplicate symbol: (.+)/.exec(said);
+  if (twice) {
+    return words.twice.replace("{}", () => shorten(twice[1], 200));
+  }
+  const missed = [...said.matchAll(/error: ([^\n]+): undefined symbol: ([^\n]+)/g)];
+  const asked = missed.filter(([, object]) => !object.includes("/own-"));
+  const names = new Set((asked.length ? asked : missed).map(([, , name]) => name.replaceAll("raysteps::", "")));
+  const shown = [...names].slice(0, asked.length ? names.size : 5).map((name) => shorten(name, 200));
+  const [one, several] = asked.length ? words.missing : words.undefined;
+  const last = shown.pop();
+  return shown.length
+    ? several.replace("{} and {}", () => `${shown.join(", ")} and ${last}`)
+    : last && one.replace("{}", () => last);
+}
+
 function textOf(element) {
   return element ? shorten(element.textContent.trim()) : "";
 }

@@ -1,0 +1,21 @@
+#pragma once
+// A mesh as files describe it: lists of what corners have, and triangles that name corners by number.
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace raysteps {
+
+struct MeshData {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  ///< one for each position, or none at all
+    std::vector<glm::vec2> uvs;      ///< likewise; u to the right, v up
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// The most that any reader takes: 64 million corners of triangles.
+inline constexpr std::size_t k_max_mesh_items = std::size_t{1} << 26U;
+
+}  // namespace raysteps

@@ -1,0 +1,484 @@
+#include "io/pbrt_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/image.hpp"
+#include "core/mesh_triangle.hpp"
+#include "core/sphere.hpp"
+#include "io/files.hpp"
+#include "io/mesh_data.hpp"
+#include "io/obj_reader.hpp"
+#include "io/pbrt_mesh.hpp"
+#include "io/pbrt_scanner.hpp"
+#include "io/ply_reader.hpp"
+#include "io/texture_reader.hpp"
+
+namespace raysteps {
+namespace {
+
+using Matrix = glm::dmat4;
+
+constexpr int k_deepest_include = 8;
+constexpr float k_sun_distance = 1e5F;
+
+/// What a texture is, and how often it goes into the unit square.
+struct NamedTexture {
+    std::shared_ptr<const MeshTexture> texture;
+    glm::vec2 scale{1.0F};
+    glm::vec2 shift{0.0F};
+};
+
+struct Material {
+    Fill fill{.color = Color(0.5F)};
+    std::optional<NamedTexture> texture;
+};
+
+/// What AttributeBegin keeps and AttributeEnd brings back.
+struct State {
+    Matrix transform{1.0};
+    Material material;
+};
+
+/// Squares of two colours; a texture of two by two of them is enough.
+Texture checkerboard(const Color& first, const Color& second) {
+    constexpr int k_square = 32;
+    Texture texture{.width = 2 * k_square, .height = 2 * k_square, .texels = {}};
+    for (int y = 0; y < texture.height; ++y) {
+        for (int x = 0; x < texture.width; ++x) {
+            texture.texels.push_back((x < k_square) == (y >= k_square) ? first : second);
+        }
+    }
+    return texture;
+}
+
+glm::vec3 flat_normal(const MeshData& mesh, const std::array<std::uint32_t, 3>& triangle) {
+    const glm::vec3& a = mesh.positions[triangle[0]];
+    return glm::cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a);
+}
+
+class PbrtReader {
+public:
+    explicit PbrtReader(const std::filesystem::path* folder) : folder_(folder) {}
+
+    void read(std::string_view text, const std::string& name, int depth) {
+        PbrtScanner scanner(text, name);
+        for (Token token = scanner.next(); !token.is_end(); token = scanner.next()) {
+            read_directive(scanner, token, depth);
+        }
+        if (depth == 0 && !in_world_) {
+            scanner.fail(scanner.next(), "`WorldBegin`");
+        }
+        if (depth == 0 && !stack_.empty()) {
+            scanner.fail(scanner.next(), "`AttributeEnd` for each `AttributeBegin`");
+        }
+    }
+
+    Scene finish() { return std::move(scene_); }
+
+private:
+    void read_directive(PbrtScanner& scanner, const Token& token, int depth) {
+        const std::string_view word = token.text;
+        if (read_transform(scanner, token) ||
+            (in_world_ ? read_of_world(scanner, token) : read_of_view(scanner, token))) {
+            return;
+        }
+        if (word == "AttributeBegin" || word == "TransformBegin") {
+            stack_.push_back(state_);
+        } else if (word == "AttributeEnd" || word == "TransformEnd") {
+            end_attribute(scanner, token);
+        } else if (word == "Include") {
+            const std::string file = scanner.string("the name of a file");
+            if (depth == k_deepest_include) {
+                scanner.fail(token, "at most 8 files that include each other", "one more");
+            }
+            const std::filesystem::path path = path_to(scanner, token, file);
+            const std::string text = read_file(path);
+            read(text, display_name(path), depth + 1);
+        } else if (word == "Texture" || word == "MakeNamedMaterial") {
+            read_named(scanner, token);
+        } else if (word == "AreaLightSource") {
+            scanner.fail(token, "lights without an area, such as LightSource \"point\", before step 12");
+        } else {
+            scanner.fail(token, in_world_ ? "a directive of the world that this kit reads, such as `Shape`"
+                                          : "a directive of the view, such as `Camera`, or `WorldBegin`");
+        }
+    }
+
+    void end_attribute(PbrtScanner& scanner, const Token& token) {
+        if (stack_.empty()) {
+            scanner.fail(token, "`AttributeBegin` before", "none");
+        }
+        state_ = std::move(stack_.back());
+        stack_.pop_back();
+    }
+
+    // Transformations.
+
+    bool read_transform(PbrtScanner& scanner, const Token& token) {
+        const std::string_view word = token.text;
+        Matrix& now = state_.transform;
+        if (word == "Identity") {
+            now = Matrix(1.0);
+        } else if (word == "Translate") {
+            now = glm::translate(now, vector(scanner.numbers("a distance", 3)));
+        } else if (word == "Scale") {
+            now = glm::scale(now, vector(scanner.numbers("a factor", 3)));
+        } else if (word == "Rotate") {
+            read_rotate(scanner, token);
+        } else if (word == "LookAt") {
+            read_look_at(scanner, token);
+        } else if (word == "Transform" || word == "ConcatTransform") {
+            const std::vector<float> values = scanner.numbers("a number of the matrix", 16);
+            Matrix given;
+            for (int i = 0; i < 16; ++i) {
+                given[i / 4][i % 4] = static_cast<double>(values[static_cast<std::size_t>(i)]);
+            }
+            now = word == "Transform" ? given : now * given;
+        } else {
+            return false;
+        }
+        const double size = glm::determinant(glm::dmat3(now));
+        if (!std::isfinite(size) || size == 0.0) {
+            scanner.fail(token, "a transformation that can be undone", "one that flattens everything");
+        }
+        return true;
+    }
+
+    static glm::dvec3 vector(const std::vector<float>& values, std::size_t first = 0) {
+        return {values[first], values[first + 1], values[first + 2]};
+    }
+
+    void read_rotate(PbrtScanner& scanner, const Token& token) {
+        const std::vector<float> values = scanner.numbers("an angle or a part of an axis", 4);
+        const glm::dvec3 axis = vector(values, 1);
+        if (glm::length(axis) == 0.0) {
+            scanner.fail(token, "an axis with a length above 0", "a zero vector");
+        }
+        state_.transform = glm::rotate(state_.transform, glm::radians(static_cast<double>(values[0])), axis);
+    }
+
+    // The matrix takes the world to the camera, which looks along z, with x to the right.
+    void read_look_at(PbrtScanner& scanner, const Token& token) {
+        const std::vector<float> values = scanner.numbers("a coordinate of the eye, of what it looks at, or of up", 9);
+        const glm::dvec3 eye = vector(values);
+        const glm::dvec3 view = vector(values, 3) - eye;
+        const glm::dvec3 side = glm::cross(vector(values, 6), view);
+        if (!(glm::length(side) > 1e-5 * glm::length(view) * glm::length(vector(values, 6)))) {
+            scanner.fail(token, "an up that is not along the view, and a view that leads somewhere", "none");
+        }
+        const glm::dvec3 forward = glm::normalize(view);
+        const glm::dvec3 right = glm::normalize(side);
+        const glm::dvec3 up = glm::cross(forward, right);
+        const Matrix to_world(glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(forward, 0.0),
+                              glm::dvec4(eye, 1.0));
+        state_.transform = state_.transform * glm::inverse(to_world);
+    }
+
+    // The view.
+
+    bool read_of_view(PbrtScanner& scanner, const Token& token) {
+        const std::string_view word = token.text;
+        if (word == "Film") {
+            static_cast<void>(scanner.string("a kind of film"));
+            const PbrtParameters parameters(scanner, token, scanner.parameters());
+            scene_.camera.width = parameters.whole("xresolution", 1280, 1, k_largest_side);
+            scene_.camera.height = parameters.whole("yresolution", 720, 1, k_largest_side);
+        } else if (word == "Camera") {
+            if (scanner.string("a kind of camera") != "perspective") {
+                scanner.fail(token, "Camera \"perspective\"", "another one");
+            }
+            const PbrtParameters parameters(scanner, token, scanner.parameters());
+            fov_ = parameters.number("fov", 90.0F);
+            if (!(fov_ > 0.0F && fov_ < 180.0F)) {
+                scanner.fail(token, "`fov` above 0 and below 180 degrees", "another one");
+            }
+            to_camera_ = state_.transform;
+        } else if (word == "WorldBegin") {
+            begin_world();
+        } else if (word == "Sampler" || word == "Integrator" || word == "PixelFilter" || word == "Accelerator") {
+            static_cast<void>(scanner.string("a kind"));
+            static_cast<void>(scanner.parameters());
+        } else if (word == "ColorSpace") {
+            static_cast<void>(scanner.string("a kind"));
+        } else if (word == "Option") {
+            static_cast<void>(scanner.parameters());
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    // pbrt's world is left-handed and the kit's is right-handed: so it is looked at in a mirror, unless the scene has a
+    // mirror of its own.
+    void begin_world() {
+        in_world_ = true;
+        state_ = State{};
+        const Matrix to_world = glm::inverse(to_camera_);
+        if (glm::determinant(glm::dmat3(to_world)) > 0.0) {
+            mirror_ = glm::scale(Matrix(1.0), glm::dvec3(-1.0, 1.0, 1.0));
+        }
+        const auto at = [&](const glm::dvec4& place) { return glm::vec3(glm::dvec3(mirror_ * to_world * place)); };
+        Camera& camera = scene_.camera;
+        camera.from = at({0.0, 0.0, 0.0, 1.0});
+        camera.at = camera.from + glm::normalize(at({0.0, 0.0, 1.0, 0.0}));
+        camera.up = glm::normalize(at({0.0, 1.0, 0.0, 0.0}));
+        // `fov` is that of the shorter side; the kit's angle is the upright one.
+        const float half = glm::tan(glm::radians(fov_) / 2.0F);
+        const glm::vec2 sides(camera.width, camera.height);
+        camera.angle = glm::degrees(2.0F * std::atan(sides.x < sides.y ? half * sides.y / sides.x : half));
+    }
+
+    // The world.
+
+    bool read_of_world(PbrtScanner& scanner, const Token& token) {
+        const std::string_view word = token.text;
+        if (word == "Shape") {
+            read_shape(scanner, token);
+        } else if (word == "Material") {
+            const std::string kind = scanner.string("a kind of material");
+            state_.material = read_material(scanner, token, kind);
+        } else if (word == "NamedMaterial") {
+            const auto found = materials_.find(scanner.string("the name of a material"));
+            if (found == materials_.end()) {
+                scanner.fail(token, "a material that was named before", "another one");
+            }
+            state_.material = found->second;
+        } else if (word == "LightSource") {
+            read_light(scanner, token);
+        } else if (word == "ReverseOrientation") {
+            return true;  // surfaces have two sides
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    void read_named(PbrtScanner& scanner, const Token& token) {
+        const std::string name = scanner.string("a name");
+        if (token.text == "Texture") {
+            static_cast<void>(scanner.string("`spectrum` or `float`"));
+            textures_[name] = read_texture_of(scanner, token);
+            return;
+        }
+        const PbrtParameters parameters(scanner, token, scanner.parameters());
+        materials_[name] = material(scanner, parameters, parameters.string("type"));
+    }
+
+    NamedTexture read_texture_of(PbrtScanner& scanner, const Token& token) {
+        const std::string kind = scanner.string("a kind of texture");
+        const PbrtParameters parameters(scanner, token, scanner.parameters());
+        NamedTexture found;
+        found.scale = {parameters.number("uscale", 1.0F), parameters.number("vscale", 1.0F)};
+        found.shift = {parameters.number("udelta", 0.0F), parameters.number("vdelta", 0.0F)};
+        if (kind == "checkerboard") {
+            const Color first = parameters.color("tex1").value_or(k_white);
+            const Color second = parameters.color("tex2").value_or(k_black);
+            found.texture = std::make_shared<MeshTexture>(MeshTexture{checkerboard(first, second), Wrap::repeat});
+            found.scale *= 0.5F;
+            found.shift *= 0.5F;
+        } else if (kind == "imagemap") {
+            const bool linear = parameters.string("encoding") == "linear";
+            const bool clamp = parameters.string("wrap") == "clamp";
+            found.texture = std::make_shared<MeshTexture>(
+                MeshTexture{read_texture(path_to(scanner, token, parameters.string("filename")), linear),
+                            clamp ? Wrap::clamp : Wrap::repeat});
+        } else {
+            scanner.fail(token, "a texture of the kind \"imagemap\" or \"checkerboard\"", raysteps::quoted(kind));
+        }
+        return found;
+    }
+
+    Material read_material(PbrtScanner& scanner, const Token& token, const std::string& kind) {
+        const PbrtParameters parameters(scanner, token, scanner.parameters());
+        return material(scanner, parameters, kind);
+    }
+
+    // "phong" is the kit's own: part one's fill.
+    Material material(const PbrtScanner& scanner, const PbrtParameters& parameters, const std::string& kind) {
+        Material found;
+        if (kind == "phong" || kind == "coateddiffuse") {
+            const bool coated = kind == "coateddiffuse";
+            found.fill.ks = coated ? 0.1F : share(scanner, parameters, "ks", 0.3F);
+            found.fill.shine = coated ? 60.0F : parameters.number("shine", 30.0F);
+        } else if (kind != "diffuse") {
+            scanner.fail(parameters.directive(), "a material of the kind \"diffuse\", \"coateddiffuse\" or \"phong\"",
+                         raysteps::quoted(kind));
+        }
+        const PbrtParameter* reflectance = parameters.find("reflectance");
+        if (reflectance != nullptr && reflectance->type == "texture") {
+            const auto texture = textures_.find(parameters.string("reflectance"));
+            if (texture == textures_.end()) {
+                scanner.fail(reflectance->at, "a texture that was named before", "another one");
+            }
+            found.texture = texture->second;
+            found.fill.color = k_white;
+        } else {
+            found.fill.color = parameters.color("reflectance").value_or(found.fill.color);
+        }
+        return found;
+    }
+
+    static float share(const PbrtScanner& scanner, const PbrtParameters& parameters, std::string_view name,
+                       float otherwise) {
+        const float found = parameters.number(name, otherwise);
+        if (!(found >= 0.0F && found <= 1.0F)) {
+            scanner.fail(parameters.directive(), '`' + std::string(name) + "` from 0 to 1", "another one");
+        }
+        return found;
+    }
+
+    // Lights do not fall off with the distance, as in part one.
+    void read_light(PbrtScanner& scanner, const Token& token) {
+        const std::string kind = scanner.string("a kind of light");
+        const PbrtParameters parameters(scanner, token, scanner.parameters());
+        const float scale = parameters.number("scale", 1.0F);
+        const glm::vec3 from = parameters.point("from", glm::vec3(0.0F));
+        if (kind == "point") {
+            scene_.lights.push_back({placed(scanner, token, from), scale * parameters.color("I").value_or(k_white)});
+        } else if (kind == "distant") {
+            const glm::vec3 back = from - parameters.point("to", {0.0F, 0.0F, 1.0F});
+            const glm::dvec3 away = glm::dmat3(mirror_ * state_.transform) * glm::dvec3(back);
+            if (!(glm::length(away) > 0.0)) {
+                scanner.fail(token, "`from` apart from `to`", "the same point");
+            }
+            scene_.lights.push_back(
+                {k_sun_distance * glm::vec3(glm::normalize(away)), scale * parameters.color("L").value_or(k_white)});
+        } else if (kind == "infinite" && parameters.find("filename") == nullptr) {
+            scene_.background = scale * parameters.color("L").value_or(k_white);
+        } else {
+            scanner.fail(token, "a light of the kind \"point\" or \"distant\", or \"infinite\" of one colour",
+                         raysteps::quoted(kind));
+        }
+    }
+
+    // Shapes.
+
+    void read_shape(PbrtScanner& scanner, const Token& token) {
+        const std::string kind = scanner.string("a kind of shape");
+        const PbrtParameters parameters(scanner, token, scanner.parameters());
+        if (kind == "sphere") {
+            add_sphere(scanner, parameters);
+        } else if (kind == "trianglemesh") {
+            add_mesh(scanner, token, pbrt_mesh(scanner, parameters));
+        } else if (kind == "plymesh") {
+            add_mesh(scanner, token, read_ply(path_to(scanner, token, parameters.string("filename"))));
+        } else if (kind == "objmesh") {
+            add_mesh(scanner, token, read_obj(path_to(scanner, token, parameters.string("filename"))));
+        } else {
+            scanner.fail(token, "a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\" or \"sphere\"",
+                         raysteps::quoted(kind));
+        }
+    }
+
+    void add_sphere(const PbrtScanner& scanner, const PbrtParameters& parameters) {
+        const Token& token = parameters.directive();
+        if (state_.material.texture) {
+            scanner.fail(token, "a material without a texture for a sphere", "one with a texture");
+        }
+        const glm::dmat3 transform(state_.transform);
+        const double size = glm::length(transform[0]);
+        for (int axis = 1; axis < 3; ++axis) {
+            if (std::abs(glm::length(transform[axis]) - size) > 1e-4 * size) {
+                scanner.fail(token, "a sphere that is scaled alike in all directions", "another scale");
+            }
+        }
+        const float radius = static_cast<float>(size) * parameters.number("radius", 1.0F);
+        if (!(radius > 0.0F && radius <= k_farthest)) {
+            scanner.fail(token, "a radius above 0", "another one");
+        }
+        scene_.add(std::make_unique<Sphere>(placed(scanner, token, glm::vec3(0.0F)), radius, state_.material.fill));
+    }
+
+    void add_mesh(const PbrtScanner& scanner, const Token& token, const MeshData& mesh) {
+        if (mesh.triangles.empty()) {
+            scanner.fail(token, "a mesh with triangles", "none");
+        }
+        const glm::dmat3 for_normals = glm::transpose(glm::inverse(glm::dmat3(mirror_ * state_.transform)));
+        std::vector<glm::vec3> positions;
+        for (const glm::vec3& position : mesh.positions) {
+            positions.push_back(placed(scanner, token, position));
+        }
+        for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+            const glm::vec3 flat = flat_normal(mesh, triangle);
+            MeshFace face;
+            for (std::size_t i = 0; i < face.size(); ++i) {
+                const std::uint32_t corner = triangle.at(i);
+                const bool has_normal = !mesh.normals.empty() && mesh.normals[corner] != glm::vec3(0.0F);
+                const glm::dvec3 normal = for_normals * glm::dvec3(has_normal ? mesh.normals[corner] : flat);
+                face.at(i).position = positions[corner];
+                face.at(i).normal = glm::length(normal) > 0.0 ? glm::vec3(glm::normalize(normal)) : glm::vec3(0.0F);
+                face.at(i).uv = place_in_texture(mesh.uvs.empty() ? glm::vec2(i == 1, i == 2) : mesh.uvs[corner]);
+            }
+            scene_.add(std::make_unique<MeshTriangle>(face, state_.material.fill,
+                                                      state_.material.texture ? state_.material.texture->texture
+                                                                              : std::shared_ptr<const MeshTexture>()));
+        }
+    }
+
+    // In files v goes up, and in the kit it goes down.
+    [[nodiscard]] glm::vec2 place_in_texture(const glm::vec2& uv) const {
+        if (!state_.material.texture) {
+            return uv;
+        }
+        const glm::vec2 place = uv * state_.material.texture->scale + state_.material.texture->shift;
+        return {place.x, 1.0F - place.y};
+    }
+
+    [[nodiscard]] glm::vec3 placed(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) const {
+        const glm::vec3 found(mirror_ * state_.transform * glm::dvec4(point, 1.0));
+        if (!glm::all(glm::lessThanEqual(glm::abs(found), glm::vec3(k_farthest)))) {  // NaN is not, either
+            scanner.fail(token, "points within a thousand million of 0", "one that is farther away");
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::filesystem::path path_to(const PbrtScanner& scanner, const Token& token,
+                                                const std::string& file) const {
+        if (folder_ == nullptr || file.empty()) {
+            scanner.fail(token, folder_ == nullptr ? "a scene without other files" : "\"string filename\"",
+                         file.empty() ? "none" : raysteps::quoted(file));
+        }
+        return *folder_ / path_of(file);
+    }
+
+    const std::filesystem::path* folder_;
+    State state_;
+    std::vector<State> stack_;
+    std::map<std::string, NamedTexture> textures_;
+    std::map<std::string, Material> materials_;
+    Matrix to_camera_{1.0};
+    Matrix mirror_{1.0};
+    float fov_ = 90.0F;
+    bool in_world_ = false;
+    Scene scene_;
+};
+
+}  // namespace
+
+Scene read_pbrt(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.parent_path();
+    PbrtReader reader(&folder);
+    reader.read(read_file(path), display_name(path), 0);
+    return reader.finish();
+}
+
+Scene read_pbrt(std::string_view text, const std::string& name) {
+    PbrtReader reader(nullptr);
+    reader.read(text, name, 0);
+    return reader.finish();
+}
+
+}  // namespace raysteps

@@ -1,0 +1,219 @@
+// Scenes of part two: what is read, and what is said about bad files.
+#include "io/pbrt_reader.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "core/mesh_triangle.hpp"
+#include "core/sphere.hpp"
+#include "io/files.hpp"
+#include "testing/catch.hpp"
+#include "testing/matchers.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+Scene read(const std::string& text) { return read_pbrt(text, "bad.pbrt"); }
+
+std::string error_of(const std::string& text) {
+    try {
+        static_cast<void>(read(text));
+    } catch (const ReadError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+template <typename T>
+const T& only(const Scene& scene) {
+    REQUIRE(scene.surfaces().size() == 1);
+    const auto* found = dynamic_cast<const T*>(scene.surfaces().front());
+    REQUIRE(found != nullptr);
+    return *found;
+}
+
+const std::string k_triangle = R"(Shape "trianglemesh" "point3 P" [0 0 0  1 0 0  0 1 0] "integer indices" [0 1 2])";
+const std::string k_view =
+    "Scale -1 1 1 LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" ";  // as in the kit: right-handed
+
+}  // namespace
+
+TEST_CASE("a view as pbrt names it", "[pbrt]") {
+    const Scene scene = read(R"(LookAt 1 2 3  1 2 0  0 1 0  # a comment
+        Camera "perspective" "float fov" [ 30 ]
+        Film "rgb" "integer xresolution" 200 "integer yresolution" [100] "string filename" "out.exr"
+        Sampler "halton" "integer pixelsamples" 16
+        Integrator "path"
+        WorldBegin)");
+    CHECK(scene.camera.width == 200);
+    CHECK(scene.camera.height == 100);
+    CHECK(scene.camera.angle == about(30));
+    INFO("pbrt's world is left-handed: the kit looks at it in a mirror");
+    CHECK_THAT(scene.camera.from, IsNear({-1.0F, 2.0F, 3.0F}));
+    CHECK_THAT(scene.camera.at - scene.camera.from, IsParallelTo({0.0F, 0.0F, -1.0F}));
+    CHECK_THAT(scene.camera.up, IsParallelTo({0.0F, 1.0F, 0.0F}));
+}
+
+TEST_CASE("a scene with a mirror of its own stays as it is", "[pbrt]") {
+    const Scene scene = read(k_view + "WorldBegin " + k_triangle);
+    CHECK_THAT(scene.camera.from, IsNear({0.0F, 0.0F, 5.0F}));
+    CHECK_THAT(only<MeshTriangle>(scene).b(), IsNear({1.0F, 0.0F, 0.0F}));
+}
+
+TEST_CASE("the field of view is that of the shorter side", "[pbrt]") {
+    const std::string film = R"(Camera "perspective" "float fov" 90 Film "rgb" "integer xresolution" 100)";
+    CHECK(read(film + R"( "integer yresolution" 200 WorldBegin)").camera.angle == about(126.8699));
+}
+
+TEST_CASE("transformations come one after the other, and attributes end them", "[pbrt]") {
+    const Scene scene = read(k_view + R"(WorldBegin
+        AttributeBegin
+            Translate 1 0 0
+            Rotate 90 0 0 1
+            Scale 2 2 2
+            Shape "sphere" "float radius" 0.5
+            AttributeBegin Translate 1 0 0 Shape "sphere" AttributeEnd
+        AttributeEnd
+        Shape "sphere")");
+    REQUIRE(scene.surfaces().size() == 3);
+    const auto sphere = [&](std::size_t i) { return dynamic_cast<const Sphere*>(scene.surfaces()[i]); };
+    CHECK_THAT(sphere(0)->center(), IsNear({1.0F, 0.0F, 0.0F}));
+    CHECK(sphere(0)->radius() == about(1));
+    CHECK_THAT(sphere(1)->center(), IsNear({1.0F, 2.0F, 0.0F}));
+    CHECK_THAT(sphere(2)->center(), IsNear({0.0F, 0.0F, 0.0F}));
+}
+
+TEST_CASE("meshes: normals turn with the mesh, and v goes down in the kit", "[pbrt]") {
+    const Scene scene = read(k_view + R"(
+        Texture "checks" "spectrum" "checkerboard" "float uscale" 2
+        WorldBegin
+        Material "diffuse" "texture reflectance" "checks"
+        Rotate 90 1 0 0
+        Shape "trianglemesh" "point3 P" [0 0 0  1 0 0  0 1 0] "normal N" [0 0 2  0 0 2  0 0 2]
+            "point2 uv" [0 0  1 0  0 1])");
+    const MeshFace& face = only<MeshTriangle>(scene).face();
+    CHECK_THAT(face[0].normal, IsNear({0.0F, -1.0F, 0.0F}));
+    CHECK_THAT(face[2].position, IsNear({0.0F, 0.0F, 1.0F}));
+    INFO("a texture of two by two squares: one repetition is 2 wide");
+    CHECK(face[1].uv.x == about(1.0));
+    CHECK(face[2].uv.y == about(0.5));
+    CHECK(only<MeshTriangle>(scene).texture()->image.width == 64);
+}
+
+TEST_CASE("meshes without normals get flat ones", "[pbrt]") {
+    const Scene scene = read(k_view + "WorldBegin " + k_triangle);
+    for (const MeshCorner& corner : only<MeshTriangle>(scene).face()) {
+        CHECK_THAT(corner.normal, IsNear({0.0F, 0.0F, 1.0F}));
+    }
+}
+
+TEST_CASE("lights and materials", "[pbrt]") {
+    const Scene scene = read(k_view + R"(WorldBegin
+        MakeNamedMaterial "red" "string type" "phong" "rgb reflectance" [1 0 0] "float ks" 0.5 "float shine" 9
+        LightSource "point" "point3 from" [1 2 3] "rgb I" [1 2 3] "float scale" 0.5
+        LightSource "distant" "point3 from" [0 4 0] "point3 to" [0 0 0]
+        LightSource "infinite" "rgb L" [0.1 0.2 0.3]
+        NamedMaterial "red"
+        Shape "sphere")");
+    REQUIRE(scene.lights.size() == 2);
+    CHECK_THAT(scene.lights[0].position, IsNear({1.0F, 2.0F, 3.0F}));
+    CHECK_THAT(scene.lights[0].color, IsNear({0.5F, 1.0F, 1.5F}));
+    CHECK_THAT(scene.lights[1].position, IsParallelTo({0.0F, 1.0F, 0.0F}));
+    CHECK_THAT(scene.background, IsNear({0.1F, 0.2F, 0.3F}));
+    const Fill& fill = only<Sphere>(scene).fill();
+    CHECK_THAT(fill.color, IsNear({1.0F, 0.0F, 0.0F}));
+    CHECK(fill.ks == about(0.5));
+    CHECK(fill.shine == about(9));
+}
+
+TEST_CASE("a pbrt scene that ends too early", "[pbrt][errors]") {
+    CHECK(error_of("") == "bad.pbrt:1:1: expected `WorldBegin`, found the end of the file");
+    CHECK(error_of("WorldBegin\nAttributeBegin\n") ==
+          "bad.pbrt:3:1: expected `AttributeEnd` for each `AttributeBegin`, found the end of the file");
+    CHECK(error_of("WorldBegin\nAttributeEnd") == "bad.pbrt:2:1: expected `AttributeBegin` before, found none");
+    CHECK(error_of("LookAt 1 2 3") ==
+          "bad.pbrt:1:13: expected a coordinate of the eye, of what it looks at, or of up, a number within a thousand "
+          "million of 0, found the end of the file");
+    CHECK(error_of("Film \"rgb") == "bad.pbrt:1:6: expected a closing quote in the same line, found `\"rgb`");
+    CHECK(error_of("WorldBegin Shape \"sphere\" \"float radius\" [1") ==
+          "bad.pbrt:1:44: expected `]` after the values of `radius`, found the end of the file");
+}
+
+TEST_CASE("directives that this kit does not read", "[pbrt][errors]") {
+    CHECK(error_of("WorldBegin\n  ObjectBegin \"a\"") ==
+          "bad.pbrt:2:3: expected a directive of the world that this kit reads, such as `Shape`, found `ObjectBegin`");
+    CHECK(error_of("Shape \"sphere\"") ==
+          "bad.pbrt:1:1: expected a directive of the view, such as `Camera`, or `WorldBegin`, found `Shape`");
+    CHECK(error_of("WorldBegin AreaLightSource \"diffuse\"") ==
+          "bad.pbrt:1:12: expected lights without an area, such as LightSource \"point\", before step 12, found "
+          "`AreaLightSource`");
+    CHECK(error_of("WorldBegin Shape \"disk\"") ==
+          "bad.pbrt:1:12: expected a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\" or \"sphere\", found "
+          "`disk`");
+    CHECK(error_of("WorldBegin Material \"metal\"") ==
+          "bad.pbrt:1:12: expected a material of the kind \"diffuse\", \"coateddiffuse\" or \"phong\", found `metal`");
+    CHECK(error_of("WorldBegin LightSource \"spot\"") ==
+          "bad.pbrt:1:12: expected a light of the kind \"point\" or \"distant\", or \"infinite\" of one colour, found "
+          "`spot`");
+}
+
+TEST_CASE("parameters that do not fit", "[pbrt][errors]") {
+    CHECK(error_of("WorldBegin Shape \"sphere\" \"radius\" 1") ==
+          "bad.pbrt:1:27: expected a type and a name in quotes, like \"float fov\", found `\"radius\"`");
+    CHECK(error_of("WorldBegin Shape \"sphere\" \"float radius\" [1 2]") ==
+          "bad.pbrt:1:27: expected 1 numbers for `radius`, found 2");
+    CHECK(error_of("WorldBegin Shape \"sphere\" \"float radius\" nan") ==
+          "bad.pbrt:1:42: expected a value of `radius`, found `nan`");
+    CHECK(error_of("WorldBegin Material \"diffuse\" \"spectrum reflectance\" \"metal-Cu-eta\"") ==
+          "bad.pbrt:1:31: expected \"rgb reflectance\" and three numbers, found `\"spectrum reflectanc...`");
+    CHECK(error_of("WorldBegin Material \"diffuse\" \"texture reflectance\" \"t\"") ==
+          "bad.pbrt:1:31: expected a texture that was named before, found another one");
+    CHECK(error_of("WorldBegin " + k_triangle.substr(0, k_triangle.size() - 2) + "3]") ==
+          "bad.pbrt:1:66: expected numbers of corners from 0 to 2, found another number");
+    CHECK(error_of("Film \"rgb\" \"integer xresolution\" 0") ==
+          "bad.pbrt:1:12: expected `xresolution` from 1 to 16384, found 0");
+}
+
+TEST_CASE("transformations that leave nothing", "[pbrt][errors]") {
+    CHECK(error_of("Scale 1 0 1") ==
+          "bad.pbrt:1:1: expected a transformation that can be undone, found one that flattens everything");
+    CHECK(error_of("Rotate 1 0 0 0") == "bad.pbrt:1:1: expected an axis with a length above 0, found a zero vector");
+    CHECK(error_of("LookAt 0 0 1 0 0 0 0 0 1") ==
+          "bad.pbrt:1:1: expected an up that is not along the view, and a view that leads somewhere, found none");
+}
+
+TEST_CASE("a scene that came as text names no files", "[pbrt][errors]") {
+    CHECK(error_of("WorldBegin Shape \"plymesh\" \"string filename\" \"/etc/passwd\"") ==
+          "bad.pbrt:1:12: expected a scene without other files, found `/etc/passwd`");
+    CHECK(error_of("Include \"more.pbrt\"") == "bad.pbrt:1:1: expected a scene without other files, found `more.pbrt`");
+}
+
+TEST_CASE("meshes and other files beside a scene", "[pbrt]") {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "raysteps-pbrt-test";
+    std::filesystem::create_directories(folder);
+    write_file(folder / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_file(folder / "empty.obj", "v 0 0 0\n");
+    write_file(folder / "more.pbrt", "Shape \"objmesh\" \"string filename\" \"mesh.obj\"\n");
+    write_file(folder / "endless.pbrt", "Include \"endless.pbrt\"\n");
+    const auto read_text = [&](const std::string& text) {
+        write_file(folder / "scene.pbrt", k_view + "WorldBegin\n" + text);
+        return read_pbrt(folder / "scene.pbrt");
+    };
+    CHECK(read_text("Include \"more.pbrt\"").surfaces().size() == 1);
+    const auto complaint = [&](const std::string& text) {
+        try {
+            static_cast<void>(read_text(text));
+        } catch (const ReadError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    CHECK(complaint("Shape \"objmesh\" \"string filename\" \"empty.obj\"")
+              .ends_with("scene.pbrt:2:1: expected a mesh with triangles, found none"));
+    CHECK(complaint("Shape \"plymesh\" \"string filename\" \"none.ply\"")
+              .ends_with("none.ply: expected a file, found nothing of that name"));
+    CHECK(complaint("Include \"endless.pbrt\"")
+              .ends_with("endless.pbrt:1:1: expected at most 8 files that include each other, found one more"));
+    std::filesystem::remove_all(folder);
+}

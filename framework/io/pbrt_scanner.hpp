@@ -1,0 +1,80 @@
+#pragma once
+// Splits a scene in pbrt's format into directives and parameters.
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/color.hpp"
+#include "io/token_scanner.hpp"
+
+namespace raysteps {
+
+/// `"type name"` and its values.
+struct PbrtParameter {
+    Token at;
+    std::string type;
+    std::string name;
+    std::vector<float> numbers;
+    std::vector<std::string> strings;
+};
+
+/// Tokens are words, numbers, texts in double quotes (with them), `[` and `]`. `#` starts a comment that ends with the
+/// line.
+class PbrtScanner {
+public:
+    /// The text must outlive the scanner and its tokens.
+    PbrtScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+
+    Token next();
+    [[nodiscard]] Token peek() const;
+
+    /// What stands between quotes. All three throw ReadError for anything else.
+    std::string string(std::string_view what);
+    float number(std::string_view what);
+    /// So many, in brackets or not.
+    std::vector<float> numbers(std::string_view what, std::size_t count);
+
+    /// All that follow, in any order.
+    std::vector<PbrtParameter> parameters();
+
+    [[noreturn]] void fail(const Token& token, std::string_view expected) const;
+    [[noreturn]] void fail(const Token& token, std::string_view expected, std::string_view found) const;
+
+private:
+    PbrtParameter parameter();
+    void add_value(PbrtParameter& parameter, const Token& token) const;
+    void skip_blanks();
+
+    std::string_view text_;
+    std::string name_;
+    std::size_t offset_ = 0;
+    std::size_t line_ = 1;
+    std::size_t line_start_ = 0;
+};
+
+/// The parameters of one directive.
+class PbrtParameters {
+public:
+    PbrtParameters(const PbrtScanner& scanner, const Token& directive, std::vector<PbrtParameter> all)
+        : scanner_(scanner), directive_(directive), all_(std::move(all)) {}
+
+    [[nodiscard]] const PbrtParameter* find(std::string_view name) const;
+    [[nodiscard]] const Token& directive() const { return directive_; }
+
+    [[nodiscard]] float number(std::string_view name, float otherwise) const;
+    [[nodiscard]] int whole(std::string_view name, int otherwise, int lowest, int highest) const;
+    [[nodiscard]] std::optional<Color> color(std::string_view name) const;  ///< 0 or more
+    [[nodiscard]] glm::vec3 point(std::string_view name, const glm::vec3& otherwise) const;
+    [[nodiscard]] std::string string(std::string_view name) const;  ///< empty where there is none
+
+private:
+    [[nodiscard]] std::span<const float> numbers(const PbrtParameter& parameter, std::size_t count) const;
+
+    const PbrtScanner& scanner_;
+    Token directive_;
+    std::vector<PbrtParameter> all_;
+};
+
+}  // namespace raysteps

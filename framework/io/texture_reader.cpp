@@ -1,0 +1,104 @@
+#include "io/texture_reader.hpp"
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "io/files.hpp"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO  // files are read by read_file
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
+#include <stb_image.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace raysteps {
+namespace {
+
+constexpr int k_largest_texture = 8192;
+
+/// Whether every Huffman table of a JPEG has as few codes as it may have. stb_image 2.27 and older write beyond their
+/// own tables where a damaged file has more. Segments are found as stb_image finds them.
+bool has_sound_tables(std::string_view bytes) {
+    constexpr int k_table = 17;  // a byte of its class, and how many codes there are of each length
+    constexpr int k_most_codes = 256;
+    const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0; };
+    for (std::size_t at = 0; at + 1 < bytes.size(); ++at) {
+        const int marker = byte(at + 1);
+        const bool is_segment = byte(at) == 0xFF && marker >= 0xC0 && marker < 0xFF && (marker < 0xD0 || marker > 0xD9);
+        if (!is_segment) {
+            continue;
+        }
+        const auto length = static_cast<std::size_t>(256 * byte(at + 2) + byte(at + 3));
+        const std::size_t end = at + 2 + length;
+        for (std::size_t table = at + 4; marker == 0xC4 && table < end;) {
+            int codes = 0;
+            for (int i = 1; i < k_table; ++i) {
+                codes += byte(table + static_cast<std::size_t>(i));
+            }
+            if (codes > k_most_codes) {
+                return false;
+            }
+            table += static_cast<std::size_t>(k_table + codes);
+        }
+        at = end > at + 2 ? end - 1 : at + 1;
+    }
+    return true;
+}
+
+/// The light of each byte (IEC 61966-2-1).
+std::array<float, 256> light_of_bytes(bool linear) {
+    std::array<float, 256> lights{};
+    for (std::size_t byte = 0; byte < lights.size(); ++byte) {
+        const float c = static_cast<float>(byte) / 255.0F;
+        lights.at(byte) = linear ? c : c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+    }
+    return lights;
+}
+
+}  // namespace
+
+Texture read_texture(const std::filesystem::path& path, bool linear) {
+    return read_texture(read_file(path), display_name(path), linear);
+}
+
+Texture read_texture(std::string_view bytes, const std::string& name, bool linear) {
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int size = static_cast<int>(bytes.size());
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (bytes.starts_with("\xFF\xD8") && !has_sound_tables(bytes)) {
+        throw ReadError(name, "a whole picture", "one that is damaged");
+    }
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
+        throw ReadError(name, "a picture as PNG or JPEG", "something else");
+    }
+    if (width > k_largest_texture || height > k_largest_texture) {
+        throw ReadError(name, "a picture of 8192 x 8192 at most",
+                        std::to_string(width) + " x " + std::to_string(height));
+    }
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (pixels == nullptr) {
+        throw ReadError(name, "a whole picture", "one that is damaged");
+    }
+    const std::array<float, 256> lights = light_of_bytes(linear);
+    Texture texture{.width = width, .height = height, .texels = {}};
+    const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    for (std::size_t i = 0; i < texels; ++i) {
+        const stbi_uc* pixel = pixels.get() + 3 * i;
+        texture.texels.emplace_back(lights.at(pixel[0]), lights.at(pixel[1]), lights.at(pixel[2]));
+    }
+    return texture;
+}
+
+}  // namespace raysteps
