@@ -15,7 +15,7 @@ from rich.console import Console
 from raysteps.cli import release
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
 from raysteps.play.packages import CLANG, fetch, registry_of
 from raysteps.play.play_page import PlayPage, packed, publish
@@ -105,12 +105,12 @@ def test_a_page_of_stubs_may_go_out_as_a_folder_and_as_a_zip(
     assert capsys.readouterr().out == "No solution was found in it.\n"
 
 
-def test_a_page_of_the_whole_kit_is_refused(site: Path, steps: list[Step], secrets: Secrets) -> None:
+def test_a_page_of_the_whole_kit_is_refused(site: Path, project: Project, secrets: Secrets) -> None:
     found = _problems("index.html", (site / "index.html").read_bytes(), secrets.functions)
     assert found == ["the page of a whole kit, with the reference's steps; " + _HOW]
     told = _problems("kit.tar.gz", (site / "kit.tar.gz").read_bytes(), secrets.functions)
     assert sorted(told) == sorted(
-        f"holds more than the stub of {join_and(sorted(step.functions))}; {_HOW}" for step in steps
+        f"holds more than the stub of {join_and(sorted(step.functions))}; {_HOW}" for step in kit_steps(project)
     )
 
 
