@@ -172,4 +172,5 @@ TEST_CASE("bad textures", "[texture][errors]") {
     INFO("a JPEG table with more codes than there can be");
     const std::string table = "\xFF\xD8\xFF\xC4" + std::string("\0\x13\0", 3) + std::string(16, '\xFF');
     CHECK(error(table) == "bad.png: expected a whole picture, found one that is damaged");
+    CHECK(error("\xFF\xFF" + table) == "bad.png: expected a whole picture, found one that is damaged");
 }

@@ -76,7 +76,7 @@ Texture read_texture(std::string_view bytes, const std::string& name, bool linea
     int width = 0;
     int height = 0;
     int channels = 0;
-    if (bytes.starts_with("\xFF\xD8") && !has_sound_tables(bytes)) {
+    if (!bytes.starts_with("\x89PNG") && !has_sound_tables(bytes)) {
         throw ReadError(name, "a whole picture", "one that is damaged");
     }
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {

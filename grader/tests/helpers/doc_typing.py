@@ -13,6 +13,7 @@ from typed_commands import Typed
 
 from raysteps.cli.view import check_glfw
 from raysteps.common.errors import UsageError
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -56,10 +57,13 @@ class Typist:
     workshop: Workshop
     built: BuiltKit
     said: dict[tuple[str, ...], str] = field(default_factory=dict)
+    _course: tuple[str, ...] = ()
 
     def block(self, block: list[Typed]) -> dict[Typed, str]:
-        """What the commands of a block printed, each in the folder where those before it lead."""
+        """What the commands of a block printed, each in the folder where those before it lead. A handout of part two is
+        read where a course has both parts."""
         here = self.workshop.kit.root
+        self._course = self._both_parts() if block[0].document.parent.name in self._later_parts() else ()
         found = {}
         for one in block:
             if one.words[0] == "cd":
@@ -71,6 +75,14 @@ class Typist:
                 except AssertionError as wrong:
                     raise AssertionError(f"{one}: {wrong}") from wrong
         return found
+
+    def _later_parts(self) -> set[str]:
+        return {step.id for step in kit_steps(self.workshop.original) if step.part > 1}
+
+    def _both_parts(self) -> tuple[str, ...]:
+        course = self.workshop.folder / "both-parts.toml"
+        course.write_text("parts = [1, 2]\n", encoding="utf-8")
+        return (f"RAYSTEPS_COURSE={course}",)
 
     def _is_there(self, program: str) -> bool:
         return "/" in program or program == "python" or shutil.which(program) is not None
@@ -147,5 +159,5 @@ class Typist:
             "HOME": str(self.workshop.home),
             "PYTHONPATH": str(package / "grader" / "src"),
         }
-        start = ["env", "-u", "RAYSTEPS_COURSE", *(f"{name}={value}" for name, value in settings.items())]
+        start = ["env", "-u", "RAYSTEPS_COURSE", *(f"{name}={value}" for name, value in settings.items()), *self._course]
         return typed_at([*start, *words], here, ending or Ending())
