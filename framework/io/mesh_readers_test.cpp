@@ -161,6 +161,27 @@ TEST_CASE("textures: a screen's bytes become light", "[texture]") {
     CHECK_THAT(read_texture(png_bytes(image), "a.png", true).texel(1, 0), IsNear({10.0F / 255, 128.0F / 255, 1.0F}));
 }
 
+TEST_CASE("a JPEG is read with the tables that it brings", "[texture]") {
+    const auto bytes = [](std::initializer_list<int> values) {
+        std::string text;
+        for (const int value : values) {
+            text += static_cast<char>(value);
+        }
+        return text;
+    };
+    const std::string steps = bytes({0xFF, 0xDB, 0, 67, 0}) + std::string(64, 16);  // all values are in steps of 16
+    const std::string frame = bytes({0xFF, 0xC0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0});  // grey, 8 x 8
+    const std::string codes(15, '\0');
+    const std::string of_mean = bytes({0xFF, 0xC4, 0, 20, 0x00, 1}) + codes + bytes({3});  // "0": three bits follow
+    const std::string of_rest = bytes({0xFF, 0xC4, 0, 20, 0x10, 1}) + codes + bytes({0});  // "0": no more waves
+    const std::string scan = bytes({0xFF, 0xDA, 0, 8, 1, 1, 0, 0, 63, 0, 0b01110111});     // 0 111 0, and filling
+    const std::string whole = "\xFF\xD8" + steps + frame + of_mean + of_rest + scan + "\xFF\xD9";
+    const Texture texture = read_texture(whole, "grey.jpg", true);
+    REQUIRE((texture.width == 8 && texture.height == 8));
+    INFO("128, and 7 steps of 16 over the 8 that a mean of 1 is written as");
+    CHECK_THAT(texture.texel(3, 5), IsNear(glm::vec3((128.0F + 7.0F * 16.0F / 8.0F) / 255.0F)));
+}
+
 TEST_CASE("bad textures", "[texture][errors]") {
     const auto error = [](const std::string& bytes) {
         return error_of([&] { return read_texture(bytes, "bad.png", false); });
@@ -172,5 +193,5 @@ TEST_CASE("bad textures", "[texture][errors]") {
     INFO("a JPEG table with more codes than there can be");
     const std::string table = "\xFF\xD8\xFF\xC4" + std::string("\0\x13\0", 3) + std::string(16, '\xFF');
     CHECK(error(table) == "bad.png: expected a whole picture, found one that is damaged");
-    CHECK(error("\xFF\xFF" + table) == "bad.png: expected a whole picture, found one that is damaged");
+    CHECK(error("\xFF\xFF" + table) == "bad.png: expected a picture as PNG or JPEG, found something else");
 }

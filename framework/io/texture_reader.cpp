@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "io/files.hpp"
 
@@ -54,6 +56,19 @@ bool has_sound_tables(std::string_view bytes) {
     return true;
 }
 
+/// The JPEG with all eight Huffman tables defined at its start, by one code each; its own take their places. stb_image
+/// reads beyond its tables where a damaged file uses one that it never defined.
+std::string with_all_tables(std::string_view jpeg) {
+    constexpr std::size_t k_marker = 2;
+    std::string tables("\xFF\xC4\x00\x92", 4);  // a segment of 146 bytes: its length, and 8 tables of 18 bytes
+    for (const char table : std::string_view("\0\1\2\3\x10\x11\x12\x13", 8)) {
+        tables += table;
+        tables += '\x01';  // one code of length 1, none of the other lengths
+        tables.append(16, '\0');
+    }
+    return std::string(jpeg.substr(0, k_marker)) + tables + std::string(jpeg.substr(k_marker));
+}
+
 /// The light of each byte (IEC 61966-2-1).
 std::array<float, 256> light_of_bytes(bool linear) {
     std::array<float, 256> lights{};
@@ -71,16 +86,21 @@ Texture read_texture(const std::filesystem::path& path, bool linear) {
 }
 
 Texture read_texture(std::string_view bytes, const std::string& name, bool linear) {
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const int size = static_cast<int>(bytes.size());
+    const bool is_jpeg = bytes.starts_with("\xFF\xD8");
+    if (!is_jpeg && !bytes.starts_with("\x89PNG")) {
+        throw ReadError(name, "a picture as PNG or JPEG", "something else");
+    }
+    if (is_jpeg && !has_sound_tables(bytes)) {
+        throw ReadError(name, "a whole picture", "one that is damaged");
+    }
+    const std::string whole = is_jpeg ? with_all_tables(bytes) : std::string(bytes);
+    const auto* data = reinterpret_cast<const stbi_uc*>(whole.data());
+    const int size = static_cast<int>(whole.size());
     int width = 0;
     int height = 0;
     int channels = 0;
-    if (!bytes.starts_with("\x89PNG") && !has_sound_tables(bytes)) {
-        throw ReadError(name, "a whole picture", "one that is damaged");
-    }
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
-        throw ReadError(name, "a picture as PNG or JPEG", "something else");
+        throw ReadError(name, "a whole picture", "one that is damaged");
     }
     if (width > k_largest_texture || height > k_largest_texture) {
         throw ReadError(name, "a picture of 8192 x 8192 at most",
