@@ -57,7 +57,7 @@ struct Travel<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
 template <>
 struct Travel<Ray> : Packed<Ray, 6 * sizeof(float)> {};
 template <>
-struct Travel<Fill> : Packed<Fill, 8 * sizeof(float)> {};
+struct Travel<Fill> : Packed<Fill, 11 * sizeof(float)> {};
 template <>
 struct Travel<Box> : Packed<Box, 6 * sizeof(float)> {};
 template <>
@@ -67,7 +67,8 @@ struct Travel<RandomStream> : Packed<RandomStream, 8 * sizeof(std::uint32_t)> {}
 constexpr auto fields(auto& record) {
     using Record = std::remove_const_t<std::remove_reference_t<decltype(record)>>;
     if constexpr (std::is_same_v<Record, Camera>) {
-        return std::tie(record.from, record.at, record.up, record.angle, record.hither, record.width, record.height);
+        return std::tie(record.from, record.at, record.up, record.angle, record.hither, record.width, record.height,
+                        record.lens_radius, record.focal_distance);
     } else if constexpr (std::is_same_v<Record, ViewFrame>) {
         return std::tie(record.right, record.up, record.forward, record.half_width, record.half_height);
     } else if constexpr (std::is_same_v<Record, Light>) {
