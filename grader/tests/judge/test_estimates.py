@@ -23,9 +23,9 @@ from raysteps.judge.statistics import Numbers
 _SEED = 13
 _Sums = Callable[
     [np.random.Generator, int, int], NDArray[np.floating]
-]  # of so many rows of batches, each of so many estimates
+]
 
-# Sums of `size` independent numbers, drawn at once: each with mean `size`.
+# Sums of `size` independent numbers, drawn at once, for so many rows of batches: each number has mean 1.
 _KINDS: dict[str, tuple[float, _Sums]] = {  # the second moment about the mean of one number
     "nearly even": (0.01, lambda draw, rows, size: draw.normal(size, 0.1 * size**0.5, (rows, BATCHES))),
     "exponential": (1.0, lambda draw, rows, size: draw.gamma(size, 1.0, (rows, BATCHES))),
