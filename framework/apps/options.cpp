@@ -15,10 +15,11 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
   --view color|normals    what step 2 shows (color)
   --size WxH              pixels; the scene's own resolution otherwise
   --depth D               longest chain of rays, the primary ray included (5)
-  --samples N             rays for each pixel, whose light is averaged before the tone curve: 1, 4, 9, 16, 25,
-                          36, 49 or 64; edges become smooth, at N times the work (1, from step 10 on 16)
+  --samples N             rays for each pixel, whose light is averaged before the tone curve: a square number up
+                          to 4096, like 4, 9 or 16; edges become smooth, at N times the work (1, from step 10 on 16)
   --sampler halton|stratified
                           where the rays of a pixel go, from step 10 on (halton)
+  --seed N                of the random numbers, from step 10 on (10)
   --filter box|tent|mitchell
                           how much each of them counts, from step 10 on (tent)
   --threads N             the picture is the same for any number (one per core)
@@ -32,6 +33,8 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
                           wide-octree  as octree, eight at a time
   --list-accel            print these names
   --stats FILE.json       write counters: rays by kind, tests, seconds
+  --estimates FILE        from step 10 on write of each pixel the mean light of its samples, and the variance of that
+                          mean: a line `raysteps-estimates WIDTH HEIGHT`, then six little-endian 32-bit floats a pixel
   --map tests|boxes|depth|time
                           instead of the picture what each pixel cost, as a colour over a legend:
                           surface tests, box tests, how deep its rays went, or nanoseconds
@@ -69,7 +72,7 @@ int parse_samples(const std::string& text) {
             return side;
         }
     }
-    refuse("--samples", "1, 4, 9, 16, 25, 36, 49 or 64 rays for each pixel", text);
+    refuse("--samples", "a square number of rays for each pixel, 1, 4, 9 and so on up to 4096", text);
 }
 
 std::vector<std::string> accelerators_here() {
@@ -97,6 +100,9 @@ void check(const RaytraceOptions& options) {
     }
     if (options.sample_side.value_or(1) > 1 && options.map) {
         throw UsageError("--samples: expected no --map beside it, which shows what one ray for each pixel costs");
+    }
+    if (!options.estimates.empty() && (!is_of_part_two(options.step) || options.map)) {
+        throw UsageError("--estimates: expected a --step of 10 or more, and no --map, beside it");
     }
     if (options.map_scale && !options.map) {
         throw UsageError("--map-scale: expected --map beside it, which says what is drawn");
@@ -182,7 +188,10 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
                          {{"halton", Sampler::halton}, {"stratified", Sampler::stratified}});
     line.choice<Filter>("--filter", options.sampling.filter,
                         {{"box", Filter::box}, {"tent", Filter::tent}, {"mitchell", Filter::mitchell}});
-    line.option("-o", options.output).option("--stats", options.stats);
+    line.option("-o", options.output).option("--stats", options.stats).option("--estimates", options.estimates);
+    line.option("--seed", [&options](const std::string& text) {
+        options.sampling.seed = static_cast<std::uint32_t>(number_between("--seed", text, 0, 2'147'483'647));
+    });
     line.option("--crop", [&options](const std::string& text) { options.crop = parse_crop(text); });
     line.choice<CostKind>(
         "--map", options.map,

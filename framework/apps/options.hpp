@@ -18,7 +18,8 @@ namespace raysteps {
 struct RaytraceOptions {
     std::string scene;
     std::string output;
-    std::string stats;  ///< empty: none wanted
+    std::string stats;      ///< empty: none wanted
+    std::string estimates;  ///< empty: none wanted
     int step = 8;
     View view = View::color;
     std::optional<PictureSize> size;  ///< nothing: the scene's resolution

@@ -57,19 +57,30 @@ TEST_CASE("Several rays for each pixel are a square number of them", "[apps]") {
     CHECK_FALSE(parse_options({"a.nff", "-o", "b"}).sample_side);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "1"}).sample_side == 1);
     CHECK(parse_options({"a.nff", "-o", "b", "--samples", "9"}).sample_side == 3);
-    CHECK(parse_options({"a.nff", "-o", "b", "--samples", "64"}).sample_side == 8);
+    CHECK(parse_options({"a.nff", "-o", "b", "--samples", "4096"}).sample_side == 64);
     const auto options =
         parse_options({"a.nff", "-o", "b", "--step", "10", "--sampler", "stratified", "--filter", "box"});
     CHECK(options.sampling.sampler == Sampler::stratified);
     CHECK(options.sampling.filter == Filter::box);
     CHECK_THROWS_AS(parse_options({"a.nff", "-o", "b", "--filter", "gauss"}), UsageError);
-    for (const char* samples : {"0", "2", "81", "-4", "4x", "04", ""}) {
+    for (const char* samples : {"0", "2", "4225", "-4", "4x", "04", ""}) {
         CHECK(complaint_about({"a.nff", "-o", "b", "--samples", samples}) ==
-              "--samples: expected 1, 4, 9, 16, 25, 36, 49 or 64 rays for each pixel, found '" + std::string(samples) +
-                  "'");
+              "--samples: expected a square number of rays for each pixel, 1, 4, 9 and so on up to 4096, found '" +
+                  std::string(samples) + "'");
     }
     CHECK(complaint_about({"a.nff", "-o", "b", "--samples", "4", "--map", "tests"}) ==
           "--samples: expected no --map beside it, which shows what one ray for each pixel costs");
+}
+
+TEST_CASE("Seed and estimates are part two's", "[apps]") {
+    const auto options =
+        parse_options({"a.nff", "-o", "b", "--step", "10", "--seed", "2147483647", "--estimates", "c"});
+    CHECK(options.sampling.seed == 2147483647);
+    CHECK(options.estimates == "c");
+    CHECK_THROWS_AS(parse_options({"a.nff", "-o", "b", "--seed", "-1"}), UsageError);
+    const std::string without = "--estimates: expected a --step of 10 or more, and no --map, beside it";
+    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "9", "--estimates", "c"}) == without);
+    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "10", "--map", "tests", "--estimates", "c"}) == without);
 }
 
 TEST_CASE("The usage offers what the program has", "[apps]") {

@@ -1,5 +1,6 @@
 // raytrace: from an NFF scene to a picture, with the steps that it was linked with. `./raysteps render` runs it.
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 
 #include "apps/options.hpp"
@@ -44,6 +45,22 @@ void print_spd_counts(const Scene&, const RaytraceOptions&) {
 }
 #endif
 
+std::string estimate_bytes(const EstimateGrid& estimates) {
+    std::string bytes = "raysteps-estimates " + std::to_string(estimates.width()) + " " +
+                        std::to_string(estimates.height()) + "\n";
+    for (const PixelEstimate& pixel : estimates.pixels()) {
+        for (const Color& color : {pixel.mean, pixel.variance}) {
+            for (int channel = 0; channel < 3; ++channel) {
+                const auto bits = std::bit_cast<std::uint32_t>(color[channel]);
+                for (unsigned shift = 0; shift < 32; shift += 8) {
+                    bytes += static_cast<char>(bits >> shift & 0xFFU);
+                }
+            }
+        }
+    }
+    return bytes;
+}
+
 void render_picture(const Scene& scene, const RaytraceOptions& options) {
     const int usual = is_of_part_two(options.step) && !options.map ? 4 : 1;
     const Rendering rendering = render(scene, {.step = {options.step, options.view, options.depth},
@@ -56,6 +73,9 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
                                                .sampling = options.sampling});
     if (!options.stats.empty()) {
         write_file(path_of(options.stats), stats_json(rendering, scene.surfaces().size()));
+    }
+    if (!options.estimates.empty()) {
+        write_file(path_of(options.estimates), estimate_bytes(rendering.estimates));
     }
     write_picture(options.map ? cost_heatmap(rendering.costs, *options.map, options.map_scale) : rendering.image,
                   path_of(options.output));

@@ -15,7 +15,6 @@ namespace raysteps {
 namespace {
 
 constexpr int k_fine = 256;  // places along each side of a pixel
-constexpr std::uint32_t k_seed = 10;
 
 float reach_of(Filter filter) {
     switch (filter) {
@@ -53,6 +52,8 @@ Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
     return {.x = left, .y = top, .width = right - left, .height = bottom - top};
 }
 
+std::uint32_t number_of(int x, int y) { return (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x); }
+
 }  // namespace
 
 FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& options)
@@ -63,7 +64,7 @@ FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& 
 }
 
 std::vector<glm::vec2> FilmSampler::points_of(int x, int y) const {
-    RandomStream random(k_seed, (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x));
+    RandomStream random(options_.seed, number_of(x, y));
     if (options_.sampler == Sampler::stratified) {
         return stratified_samples(side_, random);
     }
@@ -81,12 +82,16 @@ struct FilmSampler::Film {
     Rect area;
     std::vector<std::vector<FilmSample>> pixels;
 
+    [[nodiscard]] const std::vector<FilmSample>& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>((y - area.y) * area.width + x - area.x)];
+    }
+
     /// From the middle of the pixel, no farther than the filter reaches.
     [[nodiscard]] std::vector<PixelSample> near(int x, int y, const Rect& around, float reach) const {
         std::vector<PixelSample> found;
-        for (int row = around.y - area.y; row < around.y - area.y + around.height; ++row) {
-            for (int column = around.x - area.x; column < around.x - area.x + around.width; ++column) {
-                for (const FilmSample& sample : pixels[static_cast<std::size_t>(row * area.width + column)]) {
+        for (int row = around.y; row < around.y + around.height; ++row) {
+            for (int column = around.x; column < around.x + around.width; ++column) {
+                for (const FilmSample& sample : at(column, row)) {
                     const glm::vec2 offset(offset_of(sample.x, x), offset_of(sample.y, y));
                     if (std::max(std::abs(offset.x), std::abs(offset.y)) <= reach) {
                         found.push_back({.offset = offset, .light = sample.light});
@@ -100,16 +105,31 @@ struct FilmSampler::Film {
 
 std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
     std::vector<FilmSample> samples;
+    SampleId sample{.pixel = RandomStream::philox({number_of(x, y), options_.seed, 0, 0}, {0, 0})[0]};
     for (const glm::vec2& point : points_of(x, y)) {
         const int fine_x = fine_place(x, point.x, fine_camera_.width);
         const int fine_y = fine_place(y, point.y, fine_camera_.height);
         const Ray ray = primary_ray(fine_camera_, frame_, fine_x, fine_y);
-        samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray)});
+        samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray, sample)});
+        ++sample.index;
     }
     return samples;
 }
 
-std::vector<Color> FilmSampler::colors_of(const Rect& tile, Integrator& integrator) const {
+PixelEstimate FilmSampler::estimate_of(const std::vector<FilmSample>& samples) {
+    const auto count = static_cast<float>(samples.size());
+    PixelEstimate estimate;
+    for (const FilmSample& sample : samples) {
+        estimate.mean += sample.light / count;
+    }
+    for (const FilmSample& sample : samples) {
+        const Color off = sample.light - estimate.mean;
+        estimate.variance += off * off / (count * std::max(count - 1.0F, 1.0F));
+    }
+    return estimate;
+}
+
+std::vector<FilmSampler::Pixel> FilmSampler::pixels_of(const Rect& tile, Integrator& integrator) const {
     const int margin = margin_of(options_.filter);
     Film film{.area = grown(tile, margin, fine_camera_), .pixels = {}};
     for (int y = film.area.y; y < film.area.y + film.area.height; ++y) {
@@ -117,14 +137,15 @@ std::vector<Color> FilmSampler::colors_of(const Rect& tile, Integrator& integrat
             film.pixels.push_back(samples_of(x, y, integrator));
         }
     }
-    std::vector<Color> colors;
+    std::vector<Pixel> pixels;
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
             const Rect around = grown({.x = x, .y = y, .width = 1, .height = 1}, margin, fine_camera_);
-            colors.push_back(reconstruct(film.near(x, y, around, reach_of(options_.filter)), options_.filter));
+            const Color color = reconstruct(film.near(x, y, around, reach_of(options_.filter)), options_.filter);
+            pixels.push_back({.color = color, .estimate = estimate_of(film.at(x, y))});
         }
     }
-    return colors;
+    return pixels;
 }
 
 }  // namespace raysteps

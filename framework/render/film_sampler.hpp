@@ -1,9 +1,11 @@
 #pragma once
 // Part two: the samples of all pixels, drawn, followed and put together by step 10.
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
 
 #include "core/camera.hpp"
+#include "core/image.hpp"
 #include "core/pixel_sample.hpp"
 #include "render/integrator.hpp"
 #include "render/rect.hpp"
@@ -17,7 +19,17 @@ enum class Sampler { halton, stratified };
 struct SamplingOptions {
     Sampler sampler = Sampler::halton;
     Filter filter = Filter::tent;
+    std::uint32_t seed = 10;  ///< of all random numbers
 };
+
+/// What a pixel's own samples say of its light, before filter and curve. The variance is that of the mean, as if the
+/// samples were independent.
+struct PixelEstimate {
+    Color mean{0.0F};
+    Color variance{0.0F};
+};
+
+using EstimateGrid = Grid<PixelEstimate>;
 
 /// Shared by all threads. The samples of a pixel depend on nothing but its place: so the picture is the same however it
 /// is cut into tiles, though those around a tile are followed again for its neighbour.
@@ -26,8 +38,13 @@ public:
     /// side * side samples in each pixel.
     FilmSampler(const Camera& camera, int side, const SamplingOptions& options);
 
-    /// Of each pixel of the tile, row by row, from all samples within the filter's reach.
-    [[nodiscard]] std::vector<Color> colors_of(const Rect& tile, Integrator& integrator) const;
+    struct Pixel {
+        Color color;  ///< from all samples within the filter's reach
+        PixelEstimate estimate;
+    };
+
+    /// The tile's, row by row.
+    [[nodiscard]] std::vector<Pixel> pixels_of(const Rect& tile, Integrator& integrator) const;
 
 private:
     struct FilmSample {
@@ -38,6 +55,7 @@ private:
     struct Film;
 
     [[nodiscard]] std::vector<FilmSample> samples_of(int x, int y, Integrator& integrator) const;
+    [[nodiscard]] static PixelEstimate estimate_of(const std::vector<FilmSample>& samples);
     [[nodiscard]] std::vector<glm::vec2> points_of(int x, int y) const;
 
     int side_;

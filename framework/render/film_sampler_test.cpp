@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <set>
 
 #include "render/renderer.hpp"
 #include "testing/balls_on_floor.hpp"
@@ -121,5 +122,34 @@ TEST_CASE("Part two: a wall of one colour stays so, whatever the filter", "[rend
                 }
             }
         }
+    }
+}
+
+TEST_CASE("Part two: a pixel's own samples tell its mean light, and how sure that is", "[render]") {
+    const Scene scene = half_dark(3, 1.5F);
+    const RenderOptions options = of_part_two({.sampler = Sampler::stratified, .filter = Filter::mitchell}, 8);
+    const EstimateGrid estimates = render(scene, options).estimates;
+    const PixelEstimate& light = estimates.at(0, 1);
+    CHECK_THAT(light.mean, IsNear(Color(1.0F)));
+    CHECK(light.variance == Color(0.0F));
+    const PixelEstimate& divided = estimates.at(1, 1);
+    INFO("32 of 64 samples are light: squares that the edge divides there are none");
+    CHECK_THAT(divided.mean, IsNear(Color(0.5F)));
+    CHECK_THAT(divided.variance, IsNear(Color(0.25F / 63.0F)));
+}
+
+TEST_CASE("Part two: the seed chooses the samples, and nothing else does", "[render]") {
+    const Scene scene = half_dark(3, 1.6F);
+    const auto mean = [&scene](Sampler sampler, std::uint32_t seed) {
+        const auto options = of_part_two({.sampler = sampler, .filter = Filter::box, .seed = seed}, 3);
+        return render(scene, options).estimates.at(1, 0).mean.x;
+    };
+    for (const Sampler sampler : k_samplers) {
+        CHECK(mean(sampler, 1) == mean(sampler, 1));
+        std::set<float> means;
+        for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+            means.insert(mean(sampler, seed));
+        }
+        CHECK(means.size() > 1);
     }
 }

@@ -1,7 +1,9 @@
 #pragma once
 // One small integrator per stage of the course: from a primary ray to a colour, with what there is so far.
+#include <cstdint>
 #include <memory>
 
+#include "core/random_stream.hpp"
 #include "core/scene.hpp"
 #include "render/accelerator.hpp"
 #include "render/ray_counter.hpp"
@@ -21,6 +23,12 @@ struct StepOptions {
 /// instructor's own steps, from 20 on, go on from step 09.
 [[nodiscard]] constexpr bool is_of_part_two(int step) { return step >= 10 && step < 20; }
 
+/// Which sample of a picture a primary ray is: its random numbers hang on nothing else.
+struct SampleId {
+    std::uint32_t pixel = 0;  ///< another number for each pixel of each picture
+    std::uint32_t index = 0;  ///< among the samples of the pixel, below 65536
+};
+
 /// Calls the step functions. Each thread has its own.
 class Integrator {
 public:
@@ -31,8 +39,10 @@ public:
     Integrator& operator=(const Integrator&) = delete;
 
     /// The colour of a primary ray, before tone mapping.
-    [[nodiscard]] Color primary_color(const Ray& ray) {
+    [[nodiscard]] Color primary_color(const Ray& ray, const SampleId& sample = {}) {
         rays_.begin_pixel();
+        sample_ = sample;
+        streams_ = 0;
         return color_of(ray);
     }
 
@@ -45,9 +55,15 @@ protected:
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] RayCounter& rays() { return rays_; }
 
+    /// Random numbers for one call of a step's function: a fresh stream each time, so that what the call takes of it
+    /// changes no other.
+    [[nodiscard]] RandomStream next_stream() { return RandomStream(sample_.pixel, (sample_.index << 16U) + streams_++); }
+
 private:
     const Scene& scene_;
     RayCounter& rays_;
+    SampleId sample_;
+    std::uint32_t streams_ = 0;
 };
 
 /// The one that shows what the step gives.

@@ -7,7 +7,7 @@
 
 namespace raysteps {
 
-inline constexpr int k_max_sample_side = 8;
+inline constexpr int k_max_sample_side = 64;
 
 /// A pixel of the finer picture, from the top left corner of the pixel that it lies in.
 struct SubPixel {

@@ -43,6 +43,7 @@ struct Job {
     Progress progress;
     Image image;
     CostGrid costs;
+    EstimateGrid estimates;
 };
 
 /// The mean light of the pixel's rays, which is what a sensor of its size would catch. The tone curve comes after it:
@@ -70,9 +71,20 @@ Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     return mean_color(x, y, integrator, job);
 }
 
+std::vector<Color> sampled_colors(const Rect& tile, Integrator& integrator, Job& job) {
+    std::vector<Color> colors;
+    for (const FilmSampler::Pixel& pixel : job.sampler->pixels_of(tile, integrator)) {
+        const auto place = static_cast<int>(colors.size());
+        job.estimates.at(tile.x - job.crop.x + place % tile.width, tile.y - job.crop.y + place / tile.width) =
+            pixel.estimate;
+        colors.push_back(pixel.color);
+    }
+    return colors;
+}
+
 std::vector<Color> colors_of(const Rect& tile, Integrator& integrator, Job& job) {
     if (job.sampler) {
-        return job.sampler->colors_of(tile, integrator);
+        return sampled_colors(tile, integrator, job);
     }
     std::vector<Color> colors;
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
@@ -142,7 +154,11 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
             .stats = {},
             .progress = Progress(count, options.show_progress),
             .image = Image(crop.width, crop.height),
-            .costs = options.measure_cost ? CostGrid(crop.width, crop.height) : CostGrid()};
+            .costs = options.measure_cost ? CostGrid(crop.width, crop.height) : CostGrid(),
+            .estimates = {}};
+    if (job.sampler) {
+        job.estimates = EstimateGrid(crop.width, crop.height);
+    }
     run_on_threads(options.threads, [&job] { work(job); });
     job.progress.finish();
     return {.image = std::move(job.image),
@@ -150,7 +166,8 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
             .structure = accelerator->size(),
             .build_seconds = build_seconds,
             .render_seconds = seconds_since(render_start),
-            .costs = std::move(job.costs)};
+            .costs = std::move(job.costs),
+            .estimates = std::move(job.estimates)};
 }
 
 }  // namespace raysteps

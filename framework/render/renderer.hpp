@@ -28,7 +28,8 @@ struct Rendering {
     AcceleratorStats structure;
     double build_seconds = 0.0;
     double render_seconds = 0.0;
-    CostGrid costs;  ///< as large as the image, or empty
+    CostGrid costs;          ///< as large as the image, or empty
+    EstimateGrid estimates;  ///< of part two only, else empty
 };
 
 /// The same bytes for any number of threads.
