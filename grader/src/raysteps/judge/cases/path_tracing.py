@@ -88,8 +88,10 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     heights, turns = shares[:, 0], shares[:, 1]
     if not (is_uniform(turns, 4 * bins) and has_mean(turns, 0.5, math.sqrt(1 / 12))):
         return "directions do not come evenly from all sides around the normal"
-    if not (is_uniform(heights, 4 * bins) and has_mean(heights, 0.5, math.sqrt(1 / 12))):
-        return "steep and level directions do not come as often as the cosine asks for"
+    if not has_mean(heights, 0.5, math.sqrt(1 / 12)):
+        return f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often"
+    if not is_uniform(heights, 4 * bins):
+        return "some heights come more often than others"
     return "" if is_uniform(shares, bins) else "height and side of a direction have to do with each other"
 
 
@@ -332,7 +334,7 @@ _SURVIVAL = Function(
 
 _SURE = 3  # bounces before roulette, as in the contract
 _BLACK: Vector = (0.0, 0.0, 0.0)
-_AT_THE_HIT = 0.02
+_ON_THE_HIT, _AT_THE_HIT = 5e-5, 0.02  # from the surface, in world units
 _DEGREES = 0.5
 _SMALLEST = 1e-12  # of a weight: what comes after it adds nothing
 
@@ -401,7 +403,7 @@ def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -
         return True
     for before, after, hit in zip(actual, actual[1:], _script(inputs).hits, strict=False):
         position = add(before.origin, before.direction, hit.distance)
-        if not length(minus(after.origin, position)) <= _AT_THE_HIT:
+        if not _ON_THE_HIT <= length(minus(after.origin, position)) <= _AT_THE_HIT:
             return True
     return False
 
@@ -424,7 +426,7 @@ def _light_problem(inputs: Inputs, expected: _Light, actual: _Light) -> str:
     return first(
         counts,
         "a ray that was cast is wrong" if astray else "",
-        channels("the light", mean_light(_script(inputs)), actual.color, Tolerance(1e-4, 5e-4)),
+        channels("the light", expected.color, actual.color, Tolerance(1e-4, 5e-4)),
     )
 
 
