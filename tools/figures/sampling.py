@@ -172,7 +172,7 @@ def path() -> Drawing:
         640,
         310,
         "What a path finds",
-        "A room with a lamp in the ceiling. A path runs from the eye to the floor, to the left wall, to the right wall, "
+        "A room with a lamp in the ceiling. A path runs from the eye to the floor, to the left and the right wall, "
         "and then meets the lamp by chance. From each of the three hits a dashed line runs to a point of the lamp: the "
         "light samples. The last piece of the path, into the lamp, is crossed out: that light has come already.",
     )
