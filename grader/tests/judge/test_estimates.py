@@ -21,9 +21,7 @@ from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers
 
 _SEED = 13
-_Sums = Callable[
-    [np.random.Generator, int, int], NDArray[np.floating]
-]
+_Sums = Callable[[np.random.Generator, int, int], NDArray[np.floating]]
 
 # Sums of `size` independent numbers, drawn at once, for so many rows of batches: each number has mean 1.
 _KINDS: dict[str, tuple[float, _Sums]] = {  # the second moment about the mean of one number
