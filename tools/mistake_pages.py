@@ -11,12 +11,13 @@ from PIL import Image
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_if_changed
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.mutants import Mutant, read_mutants
 from raysteps.course.project import Project
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, mutant_fingerprints
 from raysteps.images.compare import Pixels, compare
-from raysteps.images.render import reference_picture
+from raysteps.images.noise import visibly_wrong_share
+from raysteps.images.render import shown_reference
 from raysteps.judge.plan import read_plan
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
@@ -37,16 +38,24 @@ class Exhibit:
 
 def references(kit: BuiltKit, step: Step) -> dict[str, Pixels]:
     """The right pictures of the step, by name."""
-    return {case.name: reference_picture(kit, kit.project.root / case.scene, case.args) for case in step.images}
+    return {case.name: shown_reference(kit, kit.project.root / case.scene, case) for case in step.images}
+
+
+def _wrong_share(case: ImageCase, mine: Pixels, right: Pixels) -> float:
+    """0 where the picture passes."""
+    if case.max_noise is not None:
+        return visibly_wrong_share(mine, right)
+    seen = compare(mine, right, case.max_wrong)
+    return 0.0 if seen.passed else seen.wrong_share
 
 
 def _exhibit(step: Step, mutant: Mutant, known: MutantFingerprint, right: Mapping[str, Pixels]) -> Exhibit:
     wrong = {
-        case.name: compare(known.pictures[case.name], right[case.name], case.max_wrong)
+        case.name: _wrong_share(case, known.pictures[case.name], right[case.name])
         for case in step.images
         if case.name in known.pictures
     }
-    shown = {name: seen.wrong_share * right[name].size for name, seen in wrong.items() if not seen.passed}
+    shown = {name: share * right[name].size for name, share in wrong.items() if share}
     best = max(shown, key=lambda name: shown[name], default=None)
     functions = [name for name in step.functions if known.answers.get(name)]
     return Exhibit(mutant, best, known.pictures[best] if best else None, list(shown), functions)

@@ -56,6 +56,23 @@ bool has_sound_tables(std::string_view bytes) {
     return true;
 }
 
+/// Whether each chunk of a PNG lies within the file. stb_image takes as much memory as a damaged one says that it has.
+bool has_whole_chunks(std::string_view png) {
+    constexpr std::size_t k_signature = 8;
+    constexpr std::size_t k_around = 12;  // bytes of a chunk beside its data: length, kind and check sum
+    for (std::size_t at = k_signature; at + k_around <= png.size();) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            length = 256 * length + static_cast<unsigned char>(png[at + i]);
+        }
+        if (length > png.size() - at - k_around) {
+            return false;
+        }
+        at += k_around + length;
+    }
+    return true;
+}
+
 /// The JPEG with all eight Huffman tables defined at its start, by one code each; its own take their places. stb_image
 /// reads beyond its tables where a damaged file uses one that it never defined.
 std::string with_all_tables(std::string_view jpeg) {
@@ -90,7 +107,7 @@ Texture read_texture(std::string_view bytes, const std::string& name, bool linea
     if (!is_jpeg && !bytes.starts_with("\x89PNG")) {
         throw ReadError(name, "a picture as PNG or JPEG", "something else");
     }
-    if (is_jpeg && !has_sound_tables(bytes)) {
+    if (is_jpeg ? !has_sound_tables(bytes) : !has_whole_chunks(bytes)) {
         throw ReadError(name, "a whole picture", "one that is damaged");
     }
     const std::string whole = is_jpeg ? with_all_tables(bytes) : std::string(bytes);

@@ -57,13 +57,13 @@ class Typist:
     workshop: Workshop
     built: BuiltKit
     said: dict[tuple[str, ...], str] = field(default_factory=dict)
-    _course: tuple[str, ...] = ()
+    _course: dict[str, str] = field(default_factory=dict)
 
     def block(self, block: list[Typed]) -> dict[Typed, str]:
         """What the commands of a block printed, each in the folder where those before it lead. A handout of part two is
         read where a course has both parts."""
         here = self.workshop.kit.root
-        self._course = self._both_parts() if block[0].document.parent.name in self._later_parts() else ()
+        self._course = self._both_parts() if block[0].document.parent.name in self._later_parts() else {}
         found = {}
         for one in block:
             if one.words[0] == "cd":
@@ -79,10 +79,10 @@ class Typist:
     def _later_parts(self) -> set[str]:
         return {step.id for step in kit_steps(self.workshop.original) if step.part > 1}
 
-    def _both_parts(self) -> tuple[str, ...]:
+    def _both_parts(self) -> dict[str, str]:
         course = self.workshop.folder / "both-parts.toml"
         course.write_text("parts = [1, 2]\n", encoding="utf-8")
-        return (f"RAYSTEPS_COURSE={course}",)
+        return {"RAYSTEPS_COURSE": str(course)}
 
     def _is_there(self, program: str) -> bool:
         return "/" in program or program == "python" or shutil.which(program) is not None
@@ -158,6 +158,7 @@ class Typist:
             "GITHUB_OUTPUT": str(self.workshop.folder / "output.txt"),
             "HOME": str(self.workshop.home),
             "PYTHONPATH": str(package / "grader" / "src"),
+            **self._course,
         }
-        start = ["env", "-u", "RAYSTEPS_COURSE", *(f"{name}={value}" for name, value in settings.items()), *self._course]
+        start = ["env", "-u", "RAYSTEPS_COURSE", *(f"{name}={value}" for name, value in settings.items())]
         return typed_at([*start, *words], here, ending or Ending())

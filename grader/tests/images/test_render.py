@@ -2,12 +2,17 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from raysteps.common.process import Outcome
-from raysteps.images.render import render
+from raysteps.common.process import Outcome, run
+from raysteps.course.manifest import Step
+from raysteps.images.compare import read_ppm
+from raysteps.images.noise import Estimates, bytes_of, read_estimates
+from raysteps.images.render import Gate, Rendered, judge_picture, part_of_its_pixels, render, shown_reference
 from raysteps.sandbox.task import Isolation, Limits, Task, TaskResult
 from raysteps.toolchain.compile import Program
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _PICTURE = b"P6\n1 1\n255\n\1\2\3"
 
@@ -17,11 +22,12 @@ class _Says:
 
     isolation = Isolation()
 
-    def __init__(self, stats: bytes) -> None:
+    def __init__(self, stats: bytes, estimates: bytes = b"") -> None:
         self._stats = stats
+        self._estimates = estimates
 
     def run(self, task: Task) -> TaskResult:
-        outputs = {"picture": _PICTURE, "stats": self._stats}
+        outputs = {"picture": _PICTURE, "stats": self._stats, "estimates": self._estimates}
         return TaskResult(Outcome(0, False, "", "", 0.1), outputs, 0.1, "")
 
 
@@ -53,3 +59,45 @@ def test_statistics_that_cannot_be_read_are_none(stats: bytes, tmp_path: Path) -
 def test_statistics_are_read(tmp_path: Path) -> None:
     made = render(_Says(b'{"share_tested": 0.25}'), Program(("program",)), tmp_path / "a.nff", (), Limits())
     assert made.share_tested == 0.25
+
+
+def test_estimates_are_read_where_they_are_asked_for(tmp_path: Path) -> None:
+    light = np.full((1, 1, 3), 0.5)
+    program, scene = Program(("program",)), tmp_path / "a.nff"
+    made = render(_Says(b"", bytes_of(Estimates(light, light))), program, scene, (), Limits(), estimates=True)
+    assert made.estimates is not None
+    assert made.estimates.mean.tolist() == [[[0.5, 0.5, 0.5]]]
+    lost = render(_Says(b"", b"P6"), program, scene, (), Limits(), estimates=True)
+    assert (lost.pixels, lost.problem) == (None, "no estimates were written")
+    assert render(_Says(b""), program, scene, (), Limits()).estimates is None
+
+
+def test_a_noisy_picture_is_judged_by_its_light(kit: BuiltKit, tmp_path: Path) -> None:
+    """The reference's own, drawn from other seeds, and what becomes of it when light is lost."""
+    args = ("--step", "11", "--size", "40x30", "--samples", "16", "--sampler", "stratified", "--filter", "box")
+    gate = Gate(args, max_wrong=0.0, max_noise=2.0, more_samples=4)
+    step = next(step for step in kit.of_all_parts().steps if step.index == 11)
+    scene = kit.project.root / step.images[0].scene
+
+    def drawn(seed: int) -> Rendered:
+        picture, estimates = tmp_path / "picture.ppm", tmp_path / "estimates"
+        words = (scene, *args, "--seed", str(seed), "-o", picture, "--estimates", estimates, "--quiet")
+        assert run([kit.reference("raytrace"), *words], seconds=60, cwd=tmp_path).code == 0
+        ran = TaskResult(Outcome(0, False, "", "", 0.1), {}, 0.1, "")
+        return Rendered(ran, read_ppm(picture), estimates=read_estimates(estimates.read_bytes()))
+
+    for seed in (1, 2, 3):
+        verdict = judge_picture(kit, scene, gate, drawn(seed))
+        assert verdict.passed, verdict.message
+    dark = drawn(4)
+    assert dark.estimates is not None
+    dark.estimates.mean[:, :20] *= 0.6
+    verdict = judge_picture(kit, scene, gate, dark)
+    assert "too dark" in verdict.message
+    assert 0.3 < verdict.wrong_share <= 0.6
+    assert 0.0 < _part(kit, step, scene, gate, dark) < _part(kit, step, scene, gate, drawn(4)) <= 0.6
+    assert shown_reference(kit, scene, gate).shape == (30, 40, 3)
+
+
+def _part(kit: BuiltKit, step: Step, scene: Path, gate: Gate, made: Rendered) -> float:
+    return part_of_its_pixels(kit.of_all_parts(), step, scene, gate, made)

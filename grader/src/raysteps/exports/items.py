@@ -88,7 +88,9 @@ def _test(test: TestResult, weight: float) -> Item:
 
 def _picture(image: ImageResult, weight: float) -> Item:
     wrong = image.wrong_share
-    seen = "" if wrong is None else f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be."
+    seen = ""
+    if wrong is not None and not image.noisy:
+        seen = f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be."
     text = _lines(("", image.message or seen), ("scene: ", image.scene))
     pictures = (("mine", image.mine), ("reference", image.reference), ("difference", image.difference))
     shown = tuple((kind, path) for kind, path in pictures if path)

@@ -14,17 +14,19 @@ from raysteps.images.compare import (
     compare,
     difference,
     is_flat,
-    part_right,
     shown,
     write_png,
 )
+from raysteps.images.noise import NoisyComparison, bias_map
 from raysteps.images.render import (
+    Gate,
     Rendered,
     describe_exit,
-    error_for_nothing,
-    reference_picture,
+    judge_picture,
+    part_of_its_pixels,
     reference_work,
     render,
+    shown_reference,
 )
 from raysteps.results.model import ImageResult, Integration, Termination, TestResult
 from raysteps.sandbox.task import Sandbox
@@ -59,8 +61,8 @@ class ImageGrader:
         """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""
         return case.args if self.kit.has_reference or case.has_tree else (*case.args, _TREE, _NO_TREE)
 
-    def render(self, program: Program, scene: Path, args: tuple[str, ...]) -> Rendered:
-        rendered = render(self.sandbox, program, scene, args, self.limits.of_program())
+    def render(self, program: Program, scene: Path, args: tuple[str, ...], *, noisy: bool = False) -> Rendered:
+        rendered = render(self.sandbox, program, scene, args, self.limits.of_program(), estimates=noisy)
         if rendered.ran.was_stopped:
             self.stopped()
         return rendered
@@ -92,9 +94,8 @@ def part_of_a_picture(
     kit: BuiltKit,
     step: Step,
     scene: Path,
-    args: tuple[str, ...],
+    gate: ImageCase | Gate,
     max_share: float | None,
-    reference: Pixels,
     rendered: Rendered,
     *,
     pixels_pass: bool,
@@ -102,7 +103,7 @@ def part_of_a_picture(
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
     pixels = MOST_OF_A_PICTURE
     if not pixels_pass and rendered.pixels is not None:
-        pixels = part_right(rendered.pixels, reference, error_for_nothing(kit, step, scene, args))
+        pixels = part_of_its_pixels(kit, step, scene, gate, rendered)
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
 
 
@@ -116,9 +117,10 @@ def _part_spared(share: float | None, most: float | None) -> float:
 def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
-    reference = reference_picture(gallery.kit, scene, case.args)
-    rendered = gallery.render(program, scene, gallery.args_of(case))
-    result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share)
+    noisy = case.max_noise is not None
+    reference = shown_reference(gallery.kit, scene, case)
+    rendered = gallery.render(program, scene, gallery.args_of(case), noisy=noisy)
+    result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share, noisy=noisy)
     result.seconds = round(rendered.ran.outcome.seconds, 2)
     folder = Path("pictures") / step.id
     result.reference = (folder / f"{case.name}-reference.png").as_posix()
@@ -127,7 +129,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
         result.outcome, result.message = trouble(rendered)
         return result
     gallery.made[case.name] = rendered.pixels
-    verdict = compare(rendered.pixels, reference, case.max_wrong)
+    verdict = judge_picture(gallery.kit, scene, case, rendered)
     if not (verdict.passed or gallery.kit.has_reference) and case.has_tree:
         verdict = _beside_no_tree(gallery, program, scene, case, rendered.pixels) or verdict
     result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
@@ -141,16 +143,31 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
     result.share = 1.0
     if not result.passed:
         result.share = part_of_a_picture(
-            gallery.kit, step, scene, case.args, case.max_share, reference, rendered, pixels_pass=verdict.passed
+            gallery.kit,
+            step,
+            scene,
+            case,
+            case.max_share,
+            rendered,
+            pixels_pass=verdict.passed or not verdict.wrong_share,
         )
     if rendered.pixels.shape == reference.shape:
         # In a students' kit there is nothing that a picture could carry out.
-        mine = shown(rendered.pixels, reference, result.wrong_share) if gallery.kit.has_reference else rendered.pixels
+        open_to_all = noisy or not gallery.kit.has_reference
+        mine = rendered.pixels if open_to_all else shown(rendered.pixels, reference, result.wrong_share)
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(mine, gallery.out / result.mine)
         result.difference = (folder / f"{case.name}-difference.png").as_posix()
-        write_png(difference(mine, reference), gallery.out / result.difference)
+        write_png(_difference(verdict, mine, reference), gallery.out / result.difference)
     return result
+
+
+def _difference(verdict: Comparison, mine: Pixels, reference: Pixels) -> Pixels:
+    """Of a noisy picture, where its light is off by more than chance explains."""
+    if isinstance(verdict, NoisyComparison) and verdict.deviations is not None:
+        height, width, _ = mine.shape
+        return bias_map(verdict.deviations, (width, height))
+    return difference(mine, reference)
 
 
 def _beside_no_tree(
@@ -174,11 +191,11 @@ def grade_integration(
     them. Each step may differ by as much as its own pictures may, and in one picture the differences add up."""
     case = step.images[0]
     scene = gallery.kit.project.root / case.scene
-    rendered = gallery.render(program, scene, case.args)
+    rendered = gallery.render(program, scene, case.args, noisy=case.max_noise is not None)
     if rendered.pixels is None:
         return Integration(False, f"{case.name}: {trouble(rendered)[1]}")
     most_wrong = sum(max(image.max_wrong for image in other.images) for other in own)
-    verdict = compare(rendered.pixels, reference_picture(gallery.kit, scene, case.args), most_wrong)
+    verdict = judge_picture(gallery.kit, scene, replace(case, max_wrong=most_wrong), rendered)
     if not verdict.passed:
         return Integration(False, f"{case.name}: {verdict.message}")
     why = (

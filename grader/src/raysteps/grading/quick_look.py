@@ -14,7 +14,7 @@ from raysteps.grading.self_check import own_libraries, own_steps
 from raysteps.grading.step import GradingContext, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.images.compare import write_png
-from raysteps.images.render import reference_picture
+from raysteps.images.render import shown_reference
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import load_submission
@@ -55,7 +55,7 @@ class QuickLook:
         for case in self.step.images:
             image = ImageResult(case.name, case.scene, False, case.max_wrong)
             image.reference = (Path("pictures") / self.step.id / f"{case.name}-reference.png").as_posix()
-            pixels = reference_picture(self.kit, self.kit.project.root / case.scene, case.args)
+            pixels = shown_reference(self.kit, self.kit.project.root / case.scene, case)
             write_png(pixels, self.out / image.reference)
             result.images.append(image)
         return result

@@ -1,6 +1,5 @@
 """Pictures: the reference's, which are kept, and a student's, made in the sandbox."""
 
-import contextlib
 import hashlib
 import json
 import tempfile
@@ -15,14 +14,26 @@ from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import ImageCase, Step, earlier
 from raysteps.course.project import Project
 from raysteps.images.compare import (
+    Comparison,
     PictureError,
     Pixels,
+    compare,
     error_without_work,
     mean_error,
     parse_ppm,
+    part_right,
     read_png,
     read_ppm,
     write_png,
+)
+from raysteps.images.noise import (
+    Estimates,
+    EstimatesError,
+    as_picture,
+    bytes_of,
+    compare_estimates,
+    read_estimates,
+    with_samples,
 )
 from raysteps.results.model import Termination, Work
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, TaskResult, Word
@@ -39,19 +50,21 @@ def reference_image_path(project: Project, step: Step, case: ImageCase) -> Path:
     return project.given / step.id / f"{case.name}.png"
 
 
-def write_reference_image(
-    project: Project, step: Step, case: ImageCase, scene: Path, pixels: Pixels, work: Work | None, for_nothing: float
-) -> None:
-    """A picture without a word in it, and beside it what it was made of, what it cost, and how wrong a picture is that
-    took no work."""
+def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: ImageCase) -> None:
+    """A picture without a word in it, and beside it what it was made of, what it cost, how wrong a picture is that took
+    no work, and, where it is noisy, the means of its parts."""
     path = reference_image_path(project, step, case)
-    write_png(pixels, path)
+    scene = kit.project.root / case.scene
+    write_png(shown_reference(kit, scene, case), path)
+    if case.max_noise is not None:
+        write_bytes(path.with_suffix(_ESTIMATES), bytes_of(reference_parts(kit, scene, case)))
+    work = reference_work(kit, scene, case.args) if case.max_share is not None else None
     write_json(
         path.with_suffix(".json"),
         {
             "scene": content_hash(scene.read_bytes()),
             "work": None if work is None else asdict(work),
-            "for_nothing": for_nothing,
+            "for_nothing": error_for_nothing(kit, step, scene, case),
         },
     )
 
@@ -106,6 +119,15 @@ def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> fl
         raise UsageError(f"{given.path.with_suffix('.json')}: holds no `for_nothing`; {_AGAIN}") from error
 
 
+def _stored_parts(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Estimates:
+    path = _find(kit, scene, args).path.with_suffix(_ESTIMATES)
+    try:
+        return read_estimates(path.read_bytes())
+    except (OSError, EstimatesError) as error:
+        raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
+
+
+_ESTIMATES = ".estimates"
 _REFERENCE_SECONDS = 600
 _MAX_STATS = 1 << 16  # bytes; raytrace writes some hundred
 _MAX_SHARE = 1e6  # of the scene that a ray is tested against; more than 1 where a surface stands in many boxes
@@ -120,6 +142,7 @@ class Rendered:
     problem: str = ""
     share_tested: float | None = None
     work: Work | None = None
+    estimates: Estimates | None = None  # where they were asked for
 
 
 def _share_tested(stats: bytes) -> float | None:
@@ -131,19 +154,29 @@ def _share_tested(stats: bytes) -> float | None:
     return share if 0 <= share <= _MAX_SHARE else None
 
 
-def render(sandbox: Sandbox, program: Program, scene: Path, args: tuple[str, ...], limits: Limits) -> Rendered:
+def render(
+    sandbox: Sandbox,
+    program: Program,
+    scene: Path,
+    args: tuple[str, ...],
+    limits: Limits,
+    *,
+    estimates: bool = False,
+) -> Rendered:
     """One picture by a student's program, which learns neither where it is nor what for."""
     words: tuple[Word, ...] = (Input(scene, "scene.nff"), *args, "--quiet")
     words += ("-o", Output("picture"), "--stats", Output("stats"))
+    words += ("--estimates", Output("estimates")) if estimates else ()
     ran = sandbox.run(program.task(words, limits))
     if ran.outcome.timed_out or ran.stopped or ran.outcome.code != 0:
         return Rendered(ran, None)
     try:
         pixels = parse_ppm(ran.outputs.get("picture", b""))
-    except PictureError as error:
+        means = read_estimates(ran.outputs.get("estimates", b"")) if estimates else None
+    except (PictureError, EstimatesError) as error:
         return Rendered(ran, None, str(error))
     stats = ran.outputs.get("stats", b"")[:_MAX_STATS]
-    return Rendered(ran, pixels, share_tested=_share_tested(stats), work=read_work(stats))
+    return Rendered(ran, pixels, share_tested=_share_tested(stats), work=read_work(stats), estimates=means)
 
 
 def _kept(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Path:
@@ -158,27 +191,83 @@ def _stats_beside(picture: Path) -> Path:
     return picture.with_suffix(".json")
 
 
-def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
-    """Rendered at the first call; a reference that cannot is the kit's fault. A students' kit has it ready."""
-    if not kit.has_reference:
-        return stored_reference_image(kit, scene, args)
+def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool = False) -> Path:
+    """The reference's picture, rendered at the first call; a reference that cannot is the kit's fault."""
     path = _kept(kit, scene, args)
-    if _stats_beside(path).is_file():
-        with contextlib.suppress(PictureError):
-            return read_ppm(path)
+    beside = [_stats_beside(path), *([path.with_suffix(_ESTIMATES)] if estimates else [])]
+    if path.is_file() and all(file.is_file() for file in beside):
+        return path
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        picture, stats = Path(folder) / "picture.ppm", Path(folder) / "stats.json"
+        picture, stats, means = (Path(folder) / name for name in ("picture.ppm", "stats.json", "estimates"))
         command: list[str | Path] = [kit.reference("raytrace"), scene, *args, "-o", picture, "--quiet"]
         command += ["--stats", stats]
+        command += ["--estimates", means] if estimates else []
         outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder))
         try:
-            pixels, told = read_ppm(picture), stats.read_bytes()
+            read_ppm(picture)
+            told = [stats.read_bytes(), *([means.read_bytes()] if estimates else [])]
         except (PictureError, OSError) as error:
             said = outcome.stderr.strip() or str(error)
             raise GraderFault(f"the reference cannot render {scene.name}: {said}") from error
-        write_bytes(_stats_beside(path), told)
+        for file, data in zip(beside, told, strict=True):
+            write_bytes(file, data)
         write_bytes(path, picture.read_bytes())
-    return pixels
+    return path
+
+
+def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+    """A students' kit has it ready."""
+    if not kit.has_reference:
+        return stored_reference_image(kit, scene, args)
+    try:
+        return read_ppm(_drawn(kit, scene, args))
+    except PictureError:  # half a file, as after a full disk
+        _kept(kit, scene, args).unlink()
+        return read_ppm(_drawn(kit, scene, args))
+
+
+@dataclass(frozen=True)
+class Gate:
+    """What is asked of a picture: how many pixels may be wrong, and of a noisy one how much noisier than the
+    reference's it may be. `more_samples`: how many times as many samples the reference's noisy picture has."""
+
+    args: tuple[str, ...]
+    max_wrong: float
+    max_noise: float | None = None
+    more_samples: int = 16
+
+
+def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Pixels:
+    """The reference's picture: of a noisy one, that with more samples."""
+    noisy = gate.max_noise is not None and kit.has_reference
+    return reference_picture(kit, scene, with_samples(gate.args, gate.more_samples) if noisy else gate.args)
+
+
+def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estimates:
+    """The means of the parts of a noisy picture."""
+    if not kit.has_reference:
+        return _stored_parts(kit, scene, gate.args)
+    path = _drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
+    return read_estimates(path.with_suffix(_ESTIMATES).read_bytes()).in_parts()
+
+
+def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> Comparison:
+    """What was made, beside the reference's."""
+    assert rendered.pixels is not None
+    if gate.max_noise is None or rendered.estimates is None:
+        return compare(rendered.pixels, reference_picture(kit, scene, gate.args), gate.max_wrong)
+    parts = reference_parts(kit, scene, gate)
+    return compare_estimates(rendered.estimates, parts, gate.more_samples, gate.max_noise)
+
+
+def part_of_its_pixels(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> float:
+    """What a picture that does not pass still earns; of a noisy one, by the light of its parts."""
+    assert rendered.pixels is not None
+    for_nothing = error_for_nothing(kit, step, scene, gate)
+    if gate.max_noise is None or rendered.estimates is None:
+        return part_right(rendered.pixels, reference_picture(kit, scene, gate.args), for_nothing)
+    right = as_picture(reference_parts(kit, scene, gate).mean)
+    return part_right(as_picture(rendered.estimates.in_parts().mean), right, for_nothing)
 
 
 def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
@@ -190,17 +279,24 @@ def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
 _FIRST_WITH_LIGHT = 3  # the pictures of the steps before show something else
 
 
-def error_for_nothing(kit: BuiltKit, step: Step, scene: Path, args: tuple[str, ...]) -> float:
+def error_for_nothing(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | Gate) -> float:
     """How wrong the best picture is that took no work in this step: one of a single colour, outlines, or what the steps
     before it draw. A tree changes no picture."""
+    args = gate.args
     if not kit.has_reference:
         return _stored_for_nothing(kit, scene, args)
-    reference = reference_picture(kit, scene, args)
+
+    def drawn(at: ImageCase | Gate) -> Pixels:
+        if at.max_noise is None:
+            return reference_picture(kit, scene, at.args)
+        return as_picture(reference_parts(kit, scene, at).mean)
+
+    reference = drawn(gate)
     simple = error_without_work(reference)
     if step.index <= _FIRST_WITH_LIGHT or "--accel" in args or "--step" not in args:
         return simple
-    before = reference_picture(kit, scene, at_step(args, earlier(step, kit.steps)[-1].index))
-    return min(simple, mean_error(before, reference))
+    before = Gate(at_step(args, earlier(step, kit.steps)[-1].index), gate.max_wrong, gate.max_noise, gate.more_samples)
+    return min(simple, mean_error(drawn(before), reference))
 
 
 def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:

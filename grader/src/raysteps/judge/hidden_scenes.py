@@ -158,6 +158,7 @@ class HiddenScene:
     max_wrong: float
     max_share: float | None
     weight: float
+    max_noise: float | None = None
 
 
 def _with_size(args: tuple[str, ...], size: str) -> tuple[str, ...]:
@@ -173,7 +174,7 @@ def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: 
     nff = perturbed_scene(text, draw, spheres=twin.moves == "camera and spheres")
     args = _with_size(image.args, twin.size)
     share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)
-    return HiddenScene(f"{image.name}-twin", image.name, nff, args, twin.max_wrong, share, twin.weight)
+    return HiddenScene(f"{image.name}-twin", image.name, nff, args, twin.max_wrong, share, twin.weight, image.max_noise)
 
 
 def _random(step: Step, scene: RandomPlan, seed: int) -> HiddenScene:

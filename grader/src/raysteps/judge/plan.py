@@ -87,8 +87,8 @@ class _TwinTable:
     of: Text
     moves: Moves
     size: Annotated[str, Meta(pattern="^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$")]
-    max_wrong: _Wrong
     weight: _Weight
+    max_wrong: _Wrong = 0.0  # of a noisy picture none is needed
 
 
 @dataclass(frozen=True)

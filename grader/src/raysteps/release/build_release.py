@@ -22,7 +22,7 @@ from raysteps.course.manifest import (
 )
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
-from raysteps.images.render import error_for_nothing, reference_picture, reference_work, write_reference_image
+from raysteps.images.render import write_reference_image
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
 from raysteps.toolchain.build_kit import write_given_tests
@@ -111,11 +111,7 @@ def write_reference_artifacts(kit: BuiltKit, steps: list[Step], folder: Path, sa
     for step in steps:
         say(f"drawing the reference's pictures of step {step.number}")
         for case in step.images:
-            scene = kit.project.root / case.scene
-            pixels = reference_picture(kit, scene, case.args)
-            work = reference_work(kit, scene, case.args) if case.max_share is not None else None
-            for_nothing = error_for_nothing(kit, step, scene, case.args)
-            write_reference_image(target, step, case, scene, pixels, work, for_nothing)
+            write_reference_image(kit, target, step, case)
     write_given_tests(target, {step.id: kit.tests[step.id] for step in steps})
 
 

@@ -310,7 +310,7 @@ def _image(
 ) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
-    if wrong is not None:
+    if wrong is not None and not image.noisy:
         facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be")
     if share is not None and image.max_share is not None:
         facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")

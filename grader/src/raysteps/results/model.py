@@ -83,6 +83,7 @@ class ImageResult:
     outcome: Termination = "ok"
     share: Share = field(default=0.0, metadata=OPTIONAL)  # of its points; 0 where it passed in older kits
     waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
+    noisy: bool = field(default=False, metadata=OPTIONAL)  # judged by mean light: a share that is wrong is of its parts
 
     @property
     def earned(self) -> float:

@@ -1,0 +1,187 @@
+"""Noisy pictures: of light that is drawn by chance no two right programs get the same pixels. What they agree in are
+means. `raytrace --estimates` tells of each pixel the mean light of its samples and the variance of that mean; the judge
+takes the means of parts of the picture, where chance weighs less, and asks whether a difference can be chance at all.
+
+The errors are fixed in advance. A right picture is called wrong where one of some hundred means is more than 7.5
+standard deviations off, which a normal variable is with a probability of 6e-14; and where its noise is far above the
+reference's.
+"""
+
+import math
+import re
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from raysteps.images.compare import Comparison, Pixels
+
+Light = npt.NDArray[np.float64]
+
+PART = 8  # pixels along a side of a part
+_DEVIATIONS = 7.5
+_RELATIVE, _ABSOLUTE = 2e-3, 5e-4  # of light: what thresholds and the order of sums may change
+_HEADER = re.compile(rb"raysteps-estimates ([1-9][0-9]{0,4}) ([1-9][0-9]{0,4})\n")
+_FLOATS = 6  # of a pixel
+
+
+class EstimatesError(ValueError):
+    """Bytes that are no estimates."""
+
+
+@dataclass(frozen=True)
+class Estimates:
+    """Rows, columns and channels: mean light, and the variance of that mean."""
+
+    mean: Light
+    variance: Light
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows."""
+        return self.mean.shape[1], self.mean.shape[0]
+
+    def in_parts(self, side: int = PART) -> "Estimates":
+        """Of parts of side x side pixels, smaller at the right and below. Samples of different pixels have nothing to
+        do with each other, so that variances add up."""
+        rows, columns = (np.arange(0, length, side) for length in self.mean.shape[:2])
+
+        def sums(values: Light) -> Light:
+            return np.asarray(np.add.reduceat(np.add.reduceat(values, rows, axis=0), columns, axis=1))
+
+        pixels = sums(np.ones((*self.mean.shape[:2], 1)))
+        return Estimates(sums(self.mean) / pixels, sums(self.variance) / pixels**2)
+
+
+def read_estimates(data: bytes) -> Estimates:
+    """The bytes of `raytrace --estimates`; the size is checked before it is believed."""
+    header = _HEADER.match(data)
+    if header is None:
+        raise EstimatesError("no estimates were written")
+    width, height = int(header[1]), int(header[2])
+    if len(data) - header.end() != 4 * _FLOATS * width * height:
+        raise EstimatesError("the estimates' size does not fit their header")
+    values = np.frombuffer(data, dtype="<f4", offset=header.end()).reshape(height, width, 2, 3).astype(np.float64)
+    return Estimates(values[:, :, 0], values[:, :, 1])
+
+
+def bytes_of(estimates: Estimates) -> bytes:
+    """The same format."""
+    width, height = estimates.size
+    values = np.stack([estimates.mean, estimates.variance], axis=2).astype("<f4")
+    return b"raysteps-estimates %d %d\n" % (width, height) + values.tobytes()
+
+
+def samples_of(args: tuple[str, ...]) -> int:
+    """How many each pixel gets, by the arguments of `raytrace`."""
+    return int(args[args.index("--samples") + 1]) if "--samples" in args else 16
+
+
+def with_samples(args: tuple[str, ...], factor: int) -> tuple[str, ...]:
+    """The arguments of the same picture with `factor`, a square, times as many samples, drawn from another seed."""
+    at = args.index("--samples") if "--samples" in args else len(args)
+    return (*args[:at], *args[at + 2 :], "--samples", str(factor * samples_of(args)), "--seed", "11")
+
+
+def as_picture(light: Light) -> Pixels:
+    """By sRGB's curve (IEC 61966-2-1)."""
+    channel = np.clip(np.nan_to_num(light), 0.0, 1.0)
+    encoded = np.where(channel <= 0.0031308, 12.92 * channel, 1.055 * np.power(channel, 1 / 2.4) - 0.055)
+    return np.asarray(np.round(255 * encoded), dtype=np.uint8)
+
+
+@dataclass(frozen=True)
+class NoisyComparison(Comparison):
+    """`deviations`: how far each part is off, in standard deviations, negative where it is too dark."""
+
+    deviations: Light | None = None
+
+
+def _off(mine: Estimates, right: Estimates, factor: float) -> tuple[Light, Light]:
+    """How far each channel of each part is off, and how far it may be. The noise is the larger one of the two: who
+    never meets a rare bright path must not pass for sure."""
+    noise = np.sqrt(np.maximum(mine.variance, factor * right.variance) + right.variance)
+    return mine.mean - right.mean, _DEVIATIONS * noise + _RELATIVE * np.abs(right.mean) + _ABSOLUTE
+
+
+def _numbers(light: Light) -> str:
+    return "(" + ", ".join(f"{channel:.3g}" for channel in light) + ")"
+
+
+def _whole(parts: Estimates, size: tuple[int, int]) -> Estimates:
+    """Of the whole picture, from its parts."""
+    width, height = size
+    rows = np.minimum(PART, height - PART * np.arange(parts.size[1]))
+    columns = np.minimum(PART, width - PART * np.arange(parts.size[0]))
+    weights = np.outer(rows, columns)[:, :, None] / (width * height)
+    mean = (weights * parts.mean).sum(axis=(0, 1), keepdims=True)
+    return Estimates(mean, (weights**2 * parts.variance).sum(axis=(0, 1), keepdims=True))
+
+
+def compare_estimates(mine: Estimates, parts: Estimates, factor: float, max_noise: float) -> NoisyComparison:
+    """Passes when all means are right but for chance, and the noise is at most `max_noise` times the reference's.
+    `parts`: the reference's, of the same scene in parts, with `factor` times as many samples for each pixel. The wrong
+    share is that of the parts."""
+    width, height = mine.size
+    if tuple(-(-side // PART) for side in mine.size) != parts.size:
+        return NoisyComparison(False, 1.0, f"The picture has another size: {width}x{height} pixels.")
+    lost = ~np.isfinite(np.concatenate([mine.mean, mine.variance], axis=2)).all(axis=2)
+    if lost.any():
+        y, x = (int(index) for index in np.argwhere(lost)[0])
+        message = f"{lost.mean():.2%} of the pixels have light that is no finite number; the first is x={x}, y={y}."
+        return NoisyComparison(False, float(lost.mean()), message)
+    own = mine.in_parts()
+    off, most = _off(own, parts, factor)
+    wrong = (np.abs(off) > most).any(axis=2)
+    deviations = (off / most * _DEVIATIONS).mean(axis=2)
+    all_mine, all_right = _whole(own, mine.size), _whole(parts, mine.size)
+    all_off, all_most = _off(all_mine, all_right, factor)
+    share = float(wrong.mean())
+    if (np.abs(all_off) > all_most).any():
+        how = "dark" if all_off.sum() < 0 else "bright"
+        message = (
+            f"The picture is too {how}: its mean light is {_numbers(all_mine.mean[0, 0])}, "
+            f"expected {_numbers(all_right.mean[0, 0])}; chance explains at most {float(all_most.max()):.2g} of that."
+        )
+        return NoisyComparison(False, max(share, 1 / wrong.size), message, deviations)
+    if wrong.any():
+        row, column = (int(index) for index in np.unravel_index(int(np.abs(deviations).argmax()), wrong.shape))
+        message = (
+            f"The light of {share:.2%} of the picture is wrong by more than chance explains; farthest off is the part "
+            f"around x={PART * column + PART // 2}, y={PART * row + PART // 2}: its mean light is "
+            f"{_numbers(own.mean[row, column])}, expected {_numbers(parts.mean[row, column])}."
+        )
+        return NoisyComparison(False, share, message, deviations)
+    noise = noise_ratio(mine, parts, factor)
+    if noise > max_noise:
+        message = (
+            f"The picture is right but too noisy: its variance is {noise:.3g} times the reference's with as many "
+            f"samples; at most {max_noise:.3g} times is expected."
+        )
+        return NoisyComparison(False, 0.0, message, deviations)
+    return NoisyComparison(True, 0.0, "", deviations)
+
+
+def noise_ratio(mine: Estimates, parts: Estimates, factor: float) -> float:
+    """The variance of the whole picture beside the reference's, for as many samples."""
+    own, right = (float(_whole(found, mine.size).variance.sum()) for found in (mine.in_parts(), parts))
+    return own / (factor * right) if right > 0 else math.inf if own > 0 else 1.0
+
+
+_VISIBLE = 10  # of 255
+
+
+def visibly_wrong_share(mine: Pixels, right: Pixels) -> float:
+    """The share of the parts whose mean colour is off by more than the eye overlooks; for pages that show pictures."""
+    off = [Estimates(light, light).in_parts().mean for light in (np.asarray(mine, float), np.asarray(right, float))]
+    return float((np.abs(off[0] - off[1]).max(axis=2) > _VISIBLE).mean())
+
+
+def bias_map(deviations: Light, size: tuple[int, int]) -> Pixels:
+    """A picture of that size: grey where a part is right but for chance, red where it is too bright, blue where it is
+    too dark."""
+    width, height = size
+    strength = np.clip(np.abs(deviations) / _DEVIATIONS, 0.0, 2.0)[..., None] / 2
+    color = np.where((deviations > 0)[..., None], np.array([220.0, 40.0, 30.0]), np.array([40.0, 80.0, 230.0]))
+    parts = np.round((1 - strength) * 128.0 + strength * color).astype(np.uint8)
+    return np.asarray(parts.repeat(PART, axis=0).repeat(PART, axis=1)[:height, :width])
