@@ -6,10 +6,12 @@
 #include <tuple>
 #include <vector>
 
+#include "core/area_light.hpp"
 #include "core/box.hpp"
 #include "core/camera.hpp"
 #include "core/hit_record.hpp"
 #include "core/light.hpp"
+#include "core/light_sample.hpp"
 #include "core/mesh_face.hpp"
 #include "core/pixel_sample.hpp"
 #include "core/random_stream.hpp"
@@ -74,6 +76,14 @@ constexpr auto fields(auto& record) {
         return std::tie(record.right, record.up, record.forward, record.half_width, record.half_height);
     } else if constexpr (std::is_same_v<Record, Light>) {
         return std::tie(record.position, record.color);
+    } else if constexpr (std::is_same_v<Record, TriangleLight>) {
+        return std::tie(record.a, record.b, record.c);
+    } else if constexpr (std::is_same_v<Record, SphereLight>) {
+        return std::tie(record.center, record.radius);
+    } else if constexpr (std::is_same_v<Record, DiskLight>) {
+        return std::tie(record.center, record.normal, record.radius);
+    } else if constexpr (std::is_same_v<Record, LightSample>) {
+        return std::tie(record.position, record.normal, record.pdf);
     } else if constexpr (std::is_same_v<Record, PixelSample>) {
         return std::tie(record.offset, record.light);
     } else if constexpr (std::is_same_v<Record, ScatterSample>) {

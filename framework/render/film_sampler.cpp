@@ -10,6 +10,7 @@
 #include "render/pixel_samples.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/10-sampling/sampling.hpp"
+#include "steps/12-soft-light/soft_light.hpp"
 
 namespace raysteps {
 namespace {
@@ -109,11 +110,18 @@ std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integ
     for (const glm::vec2& point : points_of(x, y)) {
         const int fine_x = fine_place(x, point.x, fine_camera_.width);
         const int fine_y = fine_place(y, point.y, fine_camera_.height);
-        const Ray ray = primary_ray(fine_camera_, frame_, fine_x, fine_y);
+        const Ray ray = through_lens(primary_ray(fine_camera_, frame_, fine_x, fine_y), sample);
         samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray, sample)});
         ++sample.index;
     }
     return samples;
+}
+
+/// The integrator's streams count up from 0; the lens has the last one.
+Ray FilmSampler::through_lens(const Ray& ray, const SampleId& sample) const {
+    constexpr std::uint32_t k_last_stream = 65535;
+    return fine_camera_.lens_radius > 0.0F ? lens_ray(fine_camera_, frame_, ray, sample.stream(k_last_stream).next_2d())
+                                           : ray;
 }
 
 PixelEstimate FilmSampler::estimate_of(const std::vector<FilmSample>& samples) {

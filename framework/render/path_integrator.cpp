@@ -22,7 +22,13 @@ public:
         return hit;
     }
 
-    [[nodiscard]] Color light_sample(const HitRecord& hit) override { return integrator_.direct_.at(hit, next_.from); }
+    [[nodiscard]] Color light_sample(const HitRecord& hit) override {
+        Color color = integrator_.direct_.at(hit, next_.from);
+        for (std::size_t light = 0; light < integrator_.scene().area_lights.size(); ++light) {
+            color += integrator_.direct_.of_area_light(light, hit, next_.from, integrator_.next_stream().next_2d());
+        }
+        return color;
+    }
 
     [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
         RandomStream random = integrator_.next_stream();

@@ -57,7 +57,8 @@ Color mean_color(int x, int y, Integrator& integrator, const Job& job) {
     return sum / static_cast<float>(count);
 }
 
-std::optional<FilmSampler> sampler_of(const Camera& camera, const RenderOptions& options) {
+std::optional<FilmSampler> sampler_of(Camera camera, const RenderOptions& options) {
+    camera.lens_radius = has_area_lights(options.step.step) ? camera.lens_radius : 0.0F;
     return is_of_part_two(options.step.step) && !options.measure_cost
                ? std::optional<FilmSampler>(std::in_place, camera, options.sample_side, options.sampling)
                : std::nullopt;
@@ -96,7 +97,7 @@ std::vector<Color> colors_of(const Rect& tile, Integrator& integrator, Job& job)
 }
 
 void render_tile(const Rect& tile, Job& job) {
-    TileRays rays(job.accelerator, job.scene.lights.size());
+    TileRays rays(job.accelerator, job.scene);
     const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
     std::size_t next = 0;
     const std::vector<Color> colors = colors_of(tile, *integrator, job);
