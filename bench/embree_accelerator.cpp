@@ -81,7 +81,7 @@ Kind kind_of(const Surface& surface) {
     return std::visit(ByShape{[](const Triangle*) { return k_flat; }, [](const SmoothTriangle*) { return k_smooth; },
                               [](const Sphere*) { return k_sphere; }, [](const InwardSphere*) { return k_other; },
                               [](const MeshTriangle*) { return k_other; }, [](const Cone*) { return k_other; },
-                              [](std::monostate) { return k_other; }},
+                              [](const Disk*) { return k_other; }, [](std::monostate) { return k_other; }},
                       surface.shape());
 }
 

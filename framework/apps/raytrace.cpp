@@ -46,8 +46,8 @@ void print_spd_counts(const Scene&, const RaytraceOptions&) {
 #endif
 
 std::string estimate_bytes(const EstimateGrid& estimates) {
-    std::string bytes = "raysteps-estimates " + std::to_string(estimates.width()) + " " +
-                        std::to_string(estimates.height()) + "\n";
+    std::string bytes =
+        "raysteps-estimates " + std::to_string(estimates.width()) + " " + std::to_string(estimates.height()) + "\n";
     for (const PixelEstimate& pixel : estimates.pixels()) {
         for (const Color& color : {pixel.mean, pixel.variance}) {
             for (int channel = 0; channel < 3; ++channel) {

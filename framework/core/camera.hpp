@@ -12,6 +12,8 @@ struct Camera {
     float hither = 0.0F;             ///< read and kept; the tracer has no near plane
     int width = 512;                 ///< pixels
     int height = 512;                ///< pixels
+    float lens_radius = 0.0F;        ///< of part two; 0: all is sharp
+    float focal_distance = 1.0F;     ///< of the plane that is sharp, along the view, > 0
 };
 
 /// What primary rays are made from. The three vectors are unit length and at right angles.

@@ -11,6 +11,7 @@ struct Fill {
     float shine = 1.0F;                ///< specular exponent (Phong)
     float transmittance = 0.0F;        ///< NFF's T: share of light that passes through
     float index_of_refraction = 1.0F;  ///< relative to the vacuum outside
+    Color emission{0.0F};              ///< light that its front side sends out: radiance
 };
 
 }  // namespace raysteps

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/area_light.hpp"
 #include "core/camera.hpp"
 #include "core/light.hpp"
 #include "core/surface.hpp"
@@ -15,6 +16,7 @@ public:
     Camera camera;
     Color background = k_black;
     std::vector<Light> lights;
+    std::vector<AreaLight> area_lights;  ///< of part two; their surfaces are among the others, and shine
 
     void add(std::unique_ptr<Surface> surface) { add(std::move(surface), surfaces_.size()); }
 

@@ -17,11 +17,12 @@ class Triangle;
 class SmoothTriangle;
 class MeshTriangle;
 class Cone;
+class Disk;
 
 /// The shapes that a scene can hold, for whoever treats each in its own way: std::visit with ByShape. Stand-ins that
 /// tests put into scenes are none of them.
 using Shape = std::variant<std::monostate, const Sphere*, const InwardSphere*, const Triangle*, const SmoothTriangle*,
-                           const MeshTriangle*, const Cone*>;
+                           const MeshTriangle*, const Cone*, const Disk*>;
 
 /// One function for each shape; the compiler says which one is missing.
 template <typename... Functions>

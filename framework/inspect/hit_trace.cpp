@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "core/cone.hpp"
+#include "core/disk.hpp"
 #include "core/inward_sphere.hpp"
 #include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
@@ -41,6 +42,11 @@ SurfaceInfo describe(const Surface& surface) {
                            info.kind = "cone";
                            info.points = {cone->base().center, cone->apex().center};
                            info.radii = {cone->base().radius, cone->apex().radius};
+                       },
+                       [&](const Disk* disk) {
+                           info.kind = "disk";
+                           info.points = {disk->center()};
+                           info.radii = {disk->radius()};
                        },
                        [](std::monostate) {}},
                surface.shape());

@@ -13,7 +13,7 @@ namespace raysteps {
 /// A surface as somebody else may draw it.
 struct SurfaceInfo {
     std::size_t order = 0;
-    std::string kind;               ///< sphere, hollow-sphere, triangle, smooth-triangle, cone or other
+    std::string kind;               ///< sphere, hollow-sphere, triangle, smooth-triangle, cone, disk or other
     std::vector<glm::vec3> points;  ///< a sphere's centre, a triangle's corners, the ends of a cone
     std::vector<float> radii;       ///< of a sphere, or of the ends of a cone
     Color color = k_black;

@@ -37,6 +37,10 @@ bool RayRecorder::occluded(const RayOrigin& origin, const Ray& ray, float distan
 }
 
 const SceneQuery& RayRecorder::shadow_query(RayNumber ray, std::size_t light) {
+    asks_point_light_ = light < scene_.lights.size();
+    if (!asks_point_light_) {
+        return RayCounter::shadow_query(ray, light);
+    }
     if (RayNode* const node = tree_.node(ray)) {
         node->lights.emplace_back().light = light;
     }
@@ -45,7 +49,7 @@ const SceneQuery& RayRecorder::shadow_query(RayNumber ray, std::size_t light) {
 }
 
 void RayRecorder::light_answered(RayNumber ray, bool lit) {
-    if (RayNode* const node = tree_.node(ray)) {
+    if (RayNode* const node = asks_point_light_ ? tree_.node(ray) : nullptr) {
         node->lights.back().lit = lit;
     }
 }

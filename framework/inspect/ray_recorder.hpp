@@ -57,6 +57,7 @@ private:
     RayTree tree_;
     ShadowQuery shadow_query_;
     std::uint64_t checks_left_;
+    bool asks_point_light_ = true;
 };
 
 }  // namespace raysteps

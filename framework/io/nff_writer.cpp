@@ -92,6 +92,7 @@ private:
                                }
                            },
                            [this](const Cone* cone) { write_cone(*cone); },
+                           [this](const Disk*) { text_ += "# a disk, which NFF has no entity for\n"; },
                            [this](std::monostate) { text_ += "# a surface that NFF has no entity for\n"; }},
                    surface.shape());
     }

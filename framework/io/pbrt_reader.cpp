@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/disk.hpp"
 #include "core/image.hpp"
 #include "core/mesh_triangle.hpp"
 #include "core/sphere.hpp"
@@ -50,6 +51,8 @@ struct Material {
 struct State {
     Matrix transform{1.0};
     Material material;
+    Color emission{0.0F};   ///< of an area light
+    bool reversed = false;  ///< ReverseOrientation: of lights only, as all else has two sides
 };
 
 /// Squares of two colours; a texture of two by two of them is enough.
@@ -109,8 +112,6 @@ private:
             read(text, display_name(path), depth + 1);
         } else if (word == "Texture" || word == "MakeNamedMaterial") {
             read_named(scanner, token);
-        } else if (word == "AreaLightSource") {
-            scanner.fail(token, "lights without an area, such as LightSource \"point\", before step 12");
         } else {
             scanner.fail(token, in_world_ ? "a directive of the world that this kit reads, such as `Shape`"
                                           : "a directive of the view, such as `Camera`, or `WorldBegin`");
@@ -206,6 +207,7 @@ private:
                 scanner.fail(token, "`fov` above 0 and below 180 degrees", "another one");
             }
             to_camera_ = state_.transform;
+            read_lens(scanner, parameters);
         } else if (word == "WorldBegin") {
             begin_world();
         } else if (word == "Sampler" || word == "Integrator" || word == "PixelFilter" || word == "Accelerator") {
@@ -219,6 +221,20 @@ private:
             return false;
         }
         return true;
+    }
+
+    // In the camera's own units, which may be others than the world's.
+    void read_lens(const PbrtScanner& scanner, const PbrtParameters& parameters) {
+        const auto unit = static_cast<float>(glm::length(glm::dvec3(glm::inverse(to_camera_)[2])));
+        Camera& camera = scene_.camera;
+        camera.lens_radius = unit * parameters.number("lensradius", 0.0F);
+        camera.focal_distance = unit * parameters.number("focaldistance", 1e6F);
+        if (!(camera.lens_radius >= 0.0F && camera.lens_radius <= k_farthest)) {
+            scanner.fail(parameters.directive(), "`lensradius` of 0 or more", "another one");
+        }
+        if (!(camera.focal_distance > 0.0F && camera.focal_distance <= k_farthest)) {
+            scanner.fail(parameters.directive(), "`focaldistance` above 0", "another one");
+        }
     }
 
     // pbrt's world is left-handed and the kit's is right-handed: so it is looked at in a mirror, unless the scene has a
@@ -258,8 +274,10 @@ private:
             state_.material = found->second;
         } else if (word == "LightSource") {
             read_light(scanner, token);
+        } else if (word == "AreaLightSource") {
+            read_area_light(scanner, token);
         } else if (word == "ReverseOrientation") {
-            return true;  // surfaces have two sides
+            state_.reversed = !state_.reversed;
         } else {
             return false;
         }
@@ -364,13 +382,77 @@ private:
         }
     }
 
+    // What pbrt would make brighter or darker by other parameters must not be taken for another light.
+    void read_area_light(PbrtScanner& scanner, const Token& token) {
+        if (scanner.string("a kind of area light") != "diffuse") {
+            scanner.fail(token, "AreaLightSource \"diffuse\"", "another one");
+        }
+        const PbrtParameters parameters(scanner, token, scanner.parameters());
+        for (const std::string_view other : {"filename", "power"}) {
+            if (const PbrtParameter* found = parameters.find(other)) {
+                scanner.fail(found->at, "a light of one colour, \"rgb L\" times `scale`", raysteps::quoted(other));
+            }
+        }
+        if (parameters.string("twosided") == "true") {
+            scanner.fail(token, "a light that shines to one side; two lights back to back shine to both",
+                         "`twosided` that is true");
+        }
+        const float scale = parameters.number("scale", 1.0F);
+        if (!(scale >= 0.0F)) {
+            scanner.fail(token, "`scale` of 0 or more", "another one");
+        }
+        state_.emission = scale * parameters.color("L").value_or(k_white);
+    }
+
     // Shapes.
+
+    [[nodiscard]] bool shines() const { return state_.emission != k_black; }
+
+    [[nodiscard]] Fill fill() const {
+        Fill found = state_.material.fill;
+        found.emission = state_.emission;
+        return found;
+    }
+
+    // Takes normals of the shape to those of the world.
+    [[nodiscard]] glm::dmat3 for_normals() const {
+        return glm::transpose(glm::inverse(glm::dmat3(mirror_ * state_.transform)));
+    }
+
+    // How much larger the shape becomes, where it is by so much in all of the first axes.
+    [[nodiscard]] double size_of(const PbrtScanner& scanner, const Token& token, int axes,
+                                 std::string_view expected) const {
+        const glm::dmat3 transform(state_.transform);
+        const double size = glm::length(transform[0]);
+        for (int axis = 1; axis < axes; ++axis) {
+            if (std::abs(glm::length(transform[axis]) - size) > 1e-4 * size) {
+                scanner.fail(token, expected, "another scale");
+            }
+        }
+        return size;
+    }
+
+    static float radius_of(const PbrtScanner& scanner, const PbrtParameters& parameters, double size) {
+        const float radius = static_cast<float>(size) * parameters.number("radius", 1.0F);
+        if (!(radius > 0.0F && radius <= k_farthest)) {
+            scanner.fail(parameters.directive(), "a radius above 0", "another one");
+        }
+        return radius;
+    }
+
+    void check_untextured(const PbrtScanner& scanner, const Token& token, const std::string& kind) const {
+        if (state_.material.texture) {
+            scanner.fail(token, "a material without a texture for a " + kind, "one with a texture");
+        }
+    }
 
     void read_shape(PbrtScanner& scanner, const Token& token) {
         const std::string kind = scanner.string("a kind of shape");
         const PbrtParameters parameters(scanner, token, scanner.parameters());
         if (kind == "sphere") {
             add_sphere(scanner, parameters);
+        } else if (kind == "disk") {
+            add_disk(scanner, parameters);
         } else if (kind == "trianglemesh") {
             add_mesh(scanner, token, pbrt_mesh(scanner, parameters));
         } else if (kind == "plymesh") {
@@ -378,35 +460,55 @@ private:
         } else if (kind == "objmesh") {
             add_mesh(scanner, token, read_obj(path_to(scanner, token, parameters.string("filename"))));
         } else {
-            scanner.fail(token, "a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\" or \"sphere\"",
+            scanner.fail(token,
+                         "a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\", \"sphere\" or \"disk\"",
                          raysteps::quoted(kind));
         }
     }
 
     void add_sphere(const PbrtScanner& scanner, const PbrtParameters& parameters) {
         const Token& token = parameters.directive();
-        if (state_.material.texture) {
-            scanner.fail(token, "a material without a texture for a sphere", "one with a texture");
-        }
-        const glm::dmat3 transform(state_.transform);
-        const double size = glm::length(transform[0]);
-        for (int axis = 1; axis < 3; ++axis) {
-            if (std::abs(glm::length(transform[axis]) - size) > 1e-4 * size) {
-                scanner.fail(token, "a sphere that is scaled alike in all directions", "another scale");
+        check_untextured(scanner, token, "sphere");
+        const double size = size_of(scanner, token, 3, "a sphere that is scaled alike in all directions");
+        const float radius = radius_of(scanner, parameters, size);
+        const glm::vec3 center = placed(scanner, token, glm::vec3(0.0F));
+        if (shines()) {
+            if (state_.reversed) {
+                scanner.fail(token, "a sphere that shines outwards", "`ReverseOrientation`");
             }
+            scene_.area_lights.push_back({SphereLight{.center = center, .radius = radius}, state_.emission});
         }
-        const float radius = static_cast<float>(size) * parameters.number("radius", 1.0F);
-        if (!(radius > 0.0F && radius <= k_farthest)) {
-            scanner.fail(token, "a radius above 0", "another one");
+        scene_.add(std::make_unique<Sphere>(center, radius, fill()));
+    }
+
+    void add_disk(const PbrtScanner& scanner, const PbrtParameters& parameters) {
+        const Token& token = parameters.directive();
+        check_untextured(scanner, token, "disk");
+        if (parameters.number("innerradius", 0.0F) != 0.0F || parameters.number("phimax", 360.0F) != 360.0F) {
+            scanner.fail(token, "a whole disk", "`innerradius` or `phimax`");
         }
-        scene_.add(std::make_unique<Sphere>(placed(scanner, token, glm::vec3(0.0F)), radius, state_.material.fill));
+        const std::string_view round = "a disk that stays round";
+        const double size = size_of(scanner, token, 2, round);
+        const glm::dmat3 transform(state_.transform);
+        if (std::abs(glm::dot(transform[0], transform[1])) > 1e-4 * size * size) {
+            scanner.fail(token, round, "another transformation");
+        }
+        const float radius = radius_of(scanner, parameters, size);
+        const glm::vec3 center = placed(scanner, token, {0.0F, 0.0F, parameters.number("height", 0.0F)});
+        const glm::vec3 upright(glm::normalize(for_normals()[2]));
+        const glm::vec3 normal = state_.reversed ? -upright : upright;
+        if (shines()) {
+            scene_.area_lights.push_back(
+                {DiskLight{.center = center, .normal = normal, .radius = radius}, state_.emission});
+        }
+        scene_.add(std::make_unique<Disk>(center, normal, radius, fill()));
     }
 
     void add_mesh(const PbrtScanner& scanner, const Token& token, const MeshData& mesh) {
         if (mesh.triangles.empty()) {
             scanner.fail(token, "a mesh with triangles", "none");
         }
-        const glm::dmat3 for_normals = glm::transpose(glm::inverse(glm::dmat3(mirror_ * state_.transform)));
+        const glm::dmat3 turn = for_normals();
         std::vector<glm::vec3> positions;
         for (const glm::vec3& position : mesh.positions) {
             positions.push_back(placed(scanner, token, position));
@@ -417,14 +519,30 @@ private:
             for (std::size_t i = 0; i < face.size(); ++i) {
                 const std::uint32_t corner = triangle.at(i);
                 const bool has_normal = !mesh.normals.empty() && mesh.normals[corner] != glm::vec3(0.0F);
-                const glm::dvec3 normal = for_normals * glm::dvec3(has_normal ? mesh.normals[corner] : flat);
+                const glm::dvec3 normal = turn * glm::dvec3(has_normal ? mesh.normals[corner] : flat);
                 face.at(i).position = positions[corner];
                 face.at(i).normal = glm::length(normal) > 0.0 ? glm::vec3(glm::normalize(normal)) : glm::vec3(0.0F);
                 face.at(i).uv = place_in_texture(mesh.uvs.empty() ? glm::vec2(i == 1, i == 2) : mesh.uvs[corner]);
             }
-            scene_.add(std::make_unique<MeshTriangle>(face, state_.material.fill,
+            if (shines()) {
+                light_up(face, mesh.normals.empty() && state_.reversed);
+            }
+            scene_.add(std::make_unique<MeshTriangle>(face, fill(),
                                                       state_.material.texture ? state_.material.texture->texture
                                                                               : std::shared_ptr<const MeshTexture>()));
+        }
+    }
+
+    // The bright side is that of the corners' normals, as in pbrt, and becomes the front.
+    void light_up(MeshFace& face, bool reversed) {
+        const auto corner = [&](std::size_t i) { return face.at(i).position; };
+        const glm::vec3 front = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        const glm::vec3 bright = face[0].normal + face[1].normal + face[2].normal;
+        if ((glm::dot(front, bright) < 0.0F) != reversed) {
+            std::swap(face[1], face[2]);
+        }
+        if (glm::dot(front, front) > 0.0F) {
+            scene_.area_lights.push_back({TriangleLight{corner(0), corner(1), corner(2)}, state_.emission});
         }
     }
 

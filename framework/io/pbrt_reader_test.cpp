@@ -127,6 +127,94 @@ TEST_CASE("lights and materials", "[pbrt]") {
     CHECK(fill.shine == about(9));
 }
 
+TEST_CASE("area lights last as long as their attributes, and shine to the front", "[pbrt]") {
+    const Scene scene = read(k_view + R"(WorldBegin
+        AttributeBegin
+            AreaLightSource "diffuse" "rgb L" [1 2 3] "float scale" 2
+            Translate 0 4 0
+            Rotate 90 1 0 0
+            Shape "disk" "float radius" 0.5 "float height" 1
+            Shape "sphere" "float radius" 0.25
+        AttributeEnd
+        Shape "sphere")");
+    REQUIRE(scene.area_lights.size() == 2);
+    CHECK_THAT(scene.area_lights[0].radiance, IsNear({2.0F, 4.0F, 6.0F}));
+    const auto& disk = std::get<DiskLight>(scene.area_lights[0].shape);
+    CHECK_THAT(disk.center, IsNear({0.0F, 3.0F, 0.0F}));
+    CHECK_THAT(disk.normal, IsNear({0.0F, -1.0F, 0.0F}));
+    CHECK(disk.radius == about(0.5));
+    CHECK(std::get<SphereLight>(scene.area_lights[1].shape).radius == about(0.25));
+    REQUIRE(scene.surfaces().size() == 3);
+    CHECK_THAT(scene.surfaces()[0]->fill().emission, IsNear({2.0F, 4.0F, 6.0F}));
+    CHECK(scene.surfaces()[2]->fill().emission == k_black);
+    INFO("what is seen of the lamp is its front, too");
+    const auto hit = scene.surfaces()[0]->hit({{0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}});
+    REQUIRE(hit);
+    CHECK(hit->front_face);
+}
+
+TEST_CASE("triangles shine to where pbrt lets them, whatever mirrors and turns them", "[pbrt]") {
+    const std::string light = R"( AreaLightSource "diffuse" "rgb L" [1 1 1] )";
+    const auto bright_side = [&](const std::string& before, const std::string& normals) {
+        const Scene scene = read(k_view + "WorldBegin" + light + before + k_triangle + normals);
+        REQUIRE(scene.area_lights.size() == 1);
+        const auto& lit = std::get<TriangleLight>(scene.area_lights[0].shape);
+        const auto& face = only<MeshTriangle>(scene);
+        INFO("the light is the surface's front");
+        CHECK(lit.a == face.a());
+        CHECK(lit.b == face.b());
+        CHECK(lit.c == face.c());
+        return glm::normalize(glm::cross(lit.b - lit.a, lit.c - lit.a));
+    };
+    CHECK_THAT(bright_side("", ""), IsNear({0.0F, 0.0F, 1.0F}));
+    CHECK_THAT(bright_side("ReverseOrientation ", ""), IsNear({0.0F, 0.0F, -1.0F}));
+    CHECK_THAT(bright_side("Scale -1 1 1 ", ""), IsNear({0.0F, 0.0F, 1.0F}));
+    CHECK_THAT(bright_side("Rotate 180 0 1 0 ", ""), IsNear({0.0F, 0.0F, -1.0F}));
+    CHECK_THAT(bright_side("", R"( "normal N" [0 0 -1  0 0 -1  0 0 -1])"), IsNear({0.0F, 0.0F, -1.0F}));
+    CHECK_THAT(bright_side("ReverseOrientation ", R"( "normal N" [0 0 1  0 0 1  0 0 1])"), IsNear({0.0F, 0.0F, 1.0F}));
+}
+
+TEST_CASE("a camera with a lens", "[pbrt]") {
+    CHECK(read(k_view + "WorldBegin").camera.lens_radius == 0.0F);
+    const Camera camera = read(
+                              "Scale 2 2 2 LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" \"float lensradius\" 0.5 "
+                              "\"float focaldistance\" 8 WorldBegin")
+                              .camera;
+    INFO("a world of twice the size in the camera's units");
+    CHECK(camera.lens_radius == about(0.25));
+    CHECK(camera.focal_distance == about(4));
+    CHECK(error_of("Camera \"perspective\" \"float lensradius\" -1") ==
+          "bad.pbrt:1:1: expected `lensradius` of 0 or more, found another one");
+    CHECK(error_of("Camera \"perspective\" \"float focaldistance\" 0") ==
+          "bad.pbrt:1:1: expected `focaldistance` above 0, found another one");
+}
+
+TEST_CASE("area lights that this kit does not have", "[pbrt][errors]") {
+    const std::string light = "WorldBegin AreaLightSource \"diffuse\" ";
+    CHECK(error_of(light + "\"bool twosided\" true") ==
+          "bad.pbrt:1:12: expected a light that shines to one side; two lights back to back shine to both, found "
+          "`twosided` that is true");
+    CHECK(error_of(light + "\"bool twosided\" false") == "no error");
+    CHECK(error_of(light + "\"string filename\" \"a.png\"") ==
+          "bad.pbrt:1:38: expected a light of one colour, \"rgb L\" times `scale`, found `filename`");
+    CHECK(error_of(light + "\"float power\" 100") ==
+          "bad.pbrt:1:38: expected a light of one colour, \"rgb L\" times `scale`, found `power`");
+    CHECK(error_of(light + "\"float scale\" -1") == "bad.pbrt:1:12: expected `scale` of 0 or more, found another one");
+    CHECK(error_of(light + "ReverseOrientation Shape \"sphere\"") ==
+          "bad.pbrt:1:57: expected a sphere that shines outwards, found `ReverseOrientation`");
+}
+
+TEST_CASE("disks that are none", "[pbrt][errors]") {
+    CHECK(error_of("WorldBegin Shape \"disk\" \"float innerradius\" 0.5") ==
+          "bad.pbrt:1:12: expected a whole disk, found `innerradius` or `phimax`");
+    CHECK(error_of("WorldBegin Scale 1 2 1 Shape \"disk\"") ==
+          "bad.pbrt:1:24: expected a disk that stays round, found another scale");
+    CHECK(error_of("WorldBegin ConcatTransform [1 0 0 0 .6 .8 0 0 0 0 1 0 0 0 0 1] Shape \"disk\"") ==
+          "bad.pbrt:1:64: expected a disk that stays round, found another transformation");
+    CHECK(error_of("WorldBegin Shape \"disk\" \"float radius\" 0") ==
+          "bad.pbrt:1:12: expected a radius above 0, found another one");
+}
+
 TEST_CASE("a pbrt scene that ends too early", "[pbrt][errors]") {
     CHECK(error_of("") == "bad.pbrt:1:1: expected `WorldBegin`, found the end of the file");
     CHECK(error_of("WorldBegin\nAttributeBegin\n") ==
@@ -145,12 +233,11 @@ TEST_CASE("directives that this kit does not read", "[pbrt][errors]") {
           "bad.pbrt:2:3: expected a directive of the world that this kit reads, such as `Shape`, found `ObjectBegin`");
     CHECK(error_of("Shape \"sphere\"") ==
           "bad.pbrt:1:1: expected a directive of the view, such as `Camera`, or `WorldBegin`, found `Shape`");
-    CHECK(error_of("WorldBegin AreaLightSource \"diffuse\"") ==
-          "bad.pbrt:1:12: expected lights without an area, such as LightSource \"point\", before step 12, found "
-          "`AreaLightSource`");
-    CHECK(error_of("WorldBegin Shape \"disk\"") ==
-          "bad.pbrt:1:12: expected a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\" or \"sphere\", found "
-          "`disk`");
+    CHECK(error_of("WorldBegin AreaLightSource \"spot\"") ==
+          "bad.pbrt:1:12: expected AreaLightSource \"diffuse\", found another one");
+    CHECK(error_of("WorldBegin Shape \"cylinder\"") ==
+          "bad.pbrt:1:12: expected a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\", \"sphere\" or "
+          "\"disk\", found `cylinder`");
     CHECK(error_of("WorldBegin Material \"metal\"") ==
           "bad.pbrt:1:12: expected a material of the kind \"diffuse\", \"coateddiffuse\" or \"phong\", found `metal`");
     CHECK(error_of("WorldBegin LightSource \"spot\"") ==

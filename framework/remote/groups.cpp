@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/cone.hpp"
+#include "core/disk.hpp"
 #include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
 #include "remote/lent.hpp"
@@ -19,7 +20,7 @@ GroupId oldest_kept(GroupId newest) {
     return newest > k_kept ? newest - k_kept : 0;
 }
 
-enum class Look : std::uint8_t { sphere, triangle, smooth_triangle, mesh_triangle, cone, other };
+enum class Look : std::uint8_t { sphere, triangle, smooth_triangle, mesh_triangle, cone, disk, other };
 
 /// Looks like a box from outside. What a ray meets in it only the other end knows.
 class UnknownSurface final : public Surface {
@@ -78,6 +79,13 @@ void describe(Writer& out, const Surface& surface) {
                     out.put(cone->sidedness());
                     write(out, cone->fill());
                 },
+                [&](const Disk* disk) {
+                    out.put(Look::disk);
+                    write(out, disk->center());
+                    write(out, disk->normal());
+                    out.put(disk->radius());
+                    write(out, disk->fill());
+                },
                 [&](const InwardSphere* sphere) { other(sphere); }, [&](std::monostate nothing) { other(nothing); }},
         surface.shape());
     out.put(static_cast<std::uint64_t>(surface.order()));
@@ -122,6 +130,12 @@ std::unique_ptr<Surface> copy(Reader& in) {
             const Cone::End apex = read_end(in);
             const auto sidedness = in.get<Cone::Sidedness>();
             return std::make_unique<Cone>(base, apex, sidedness, read<Fill>(in));
+        }
+        case Look::disk: {
+            const auto center = read<glm::vec3>(in);
+            const auto normal = read<glm::vec3>(in);
+            const auto radius = in.get<float>();
+            return std::make_unique<Disk>(center, normal, radius, read<Fill>(in));
         }
         case Look::other: {
             const Box bounds = read<Box>(in);

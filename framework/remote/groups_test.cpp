@@ -2,6 +2,7 @@
 #include "remote/groups.hpp"
 
 #include "core/cone.hpp"
+#include "core/disk.hpp"
 #include "core/inward_sphere.hpp"
 #include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
@@ -139,4 +140,25 @@ TEST_CASE("Of a mesh the other end knows the triangle and its mark", "[remote]")
     const auto hit = std::get<const MeshTriangle*>(shape)->intersect({{0.2F, 0.2F, 3.0F}, {0.0F, 0.0F, -1.0F}});
     REQUIRE(hit.has_value());
     CHECK(hit->mesh_triangle == 2);
+}
+
+TEST_CASE("A disk and its light travel", "[remote]") {
+    Fill fill = k_fill;
+    fill.emission = {1.0F, 2.0F, 3.0F};
+    Scene scene;
+    scene.add(std::make_unique<Disk>(glm::vec3(1.0F), glm::vec3(0.0F, 0.0F, 1.0F), 2.0F, fill));
+    Groups here;
+    Groups there;
+    std::string bytes;
+    Writer out(bytes);
+    const auto own = here.write(out, scene.surfaces());
+    Reader in(bytes);
+    const auto copied = there.read(in);
+    const Shape shape = copied->scene.surfaces().at(0)->shape();
+    REQUIRE(std::holds_alternative<const Disk*>(shape));
+    const Disk* disk = std::get<const Disk*>(shape);
+    CHECK(disk->center() == glm::vec3(1.0F));
+    CHECK(disk->normal() == glm::vec3(0.0F, 0.0F, 1.0F));
+    CHECK(disk->radius() == 2.0F);
+    CHECK(disk->fill().emission == fill.emission);
 }

@@ -6,10 +6,12 @@
 #include <tuple>
 #include <vector>
 
+#include "core/area_light.hpp"
 #include "core/box.hpp"
 #include "core/camera.hpp"
 #include "core/hit_record.hpp"
 #include "core/light.hpp"
+#include "core/light_sample.hpp"
 #include "core/mesh_face.hpp"
 #include "core/pixel_sample.hpp"
 #include "core/random_stream.hpp"
@@ -57,7 +59,7 @@ struct Travel<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
 template <>
 struct Travel<Ray> : Packed<Ray, 6 * sizeof(float)> {};
 template <>
-struct Travel<Fill> : Packed<Fill, 8 * sizeof(float)> {};
+struct Travel<Fill> : Packed<Fill, 11 * sizeof(float)> {};
 template <>
 struct Travel<Box> : Packed<Box, 6 * sizeof(float)> {};
 template <>
@@ -67,11 +69,20 @@ struct Travel<RandomStream> : Packed<RandomStream, 8 * sizeof(std::uint32_t)> {}
 constexpr auto fields(auto& record) {
     using Record = std::remove_const_t<std::remove_reference_t<decltype(record)>>;
     if constexpr (std::is_same_v<Record, Camera>) {
-        return std::tie(record.from, record.at, record.up, record.angle, record.hither, record.width, record.height);
+        return std::tie(record.from, record.at, record.up, record.angle, record.hither, record.width, record.height,
+                        record.lens_radius, record.focal_distance);
     } else if constexpr (std::is_same_v<Record, ViewFrame>) {
         return std::tie(record.right, record.up, record.forward, record.half_width, record.half_height);
     } else if constexpr (std::is_same_v<Record, Light>) {
         return std::tie(record.position, record.color);
+    } else if constexpr (std::is_same_v<Record, TriangleLight>) {
+        return std::tie(record.a, record.b, record.c);
+    } else if constexpr (std::is_same_v<Record, SphereLight>) {
+        return std::tie(record.center, record.radius);
+    } else if constexpr (std::is_same_v<Record, DiskLight>) {
+        return std::tie(record.center, record.normal, record.radius);
+    } else if constexpr (std::is_same_v<Record, LightSample>) {
+        return std::tie(record.position, record.normal, record.pdf);
     } else if constexpr (std::is_same_v<Record, PixelSample>) {
         return std::tie(record.offset, record.light);
     } else if constexpr (std::is_same_v<Record, MeshCorner>) {

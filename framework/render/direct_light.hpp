@@ -1,5 +1,6 @@
 #pragma once
 // The light that comes straight from the lamps.
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "core/scene.hpp"
@@ -14,6 +15,9 @@ public:
 
     /// At the hit of that ray.
     [[nodiscard]] Color at(const HitRecord& hit, RayNumber ray);
+
+    /// What one sample of one of the scene's area lights brings there: step 12's, if step 04 lets it through.
+    [[nodiscard]] Color of_area_light(std::size_t light, const HitRecord& hit, RayNumber ray, const glm::vec2& u);
 
 private:
     const Scene& scene_;

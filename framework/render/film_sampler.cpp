@@ -10,6 +10,7 @@
 #include "render/pixel_samples.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/10-sampling/sampling.hpp"
+#include "steps/12-soft-light/soft_light.hpp"
 
 namespace raysteps {
 namespace {
@@ -52,8 +53,6 @@ Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
     return {.x = left, .y = top, .width = right - left, .height = bottom - top};
 }
 
-std::uint32_t number_of(int x, int y) { return (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x); }
-
 }  // namespace
 
 FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& options)
@@ -64,7 +63,7 @@ FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& 
 }
 
 std::vector<glm::vec2> FilmSampler::points_of(int x, int y) const {
-    RandomStream random(options_.seed, number_of(x, y));
+    RandomStream random(options_.seed, pixel_number(x, y));
     if (options_.sampler == Sampler::stratified) {
         return stratified_samples(side_, random);
     }
@@ -105,15 +104,22 @@ struct FilmSampler::Film {
 
 std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
     std::vector<FilmSample> samples;
-    SampleId sample{.pixel = RandomStream::philox({number_of(x, y), options_.seed, 0, 0}, {0, 0})[0]};
+    SampleId sample{.pixel = RandomStream::philox({pixel_number(x, y), options_.seed, 0, 0}, {0, 0})[0]};
     for (const glm::vec2& point : points_of(x, y)) {
         const int fine_x = fine_place(x, point.x, fine_camera_.width);
         const int fine_y = fine_place(y, point.y, fine_camera_.height);
-        const Ray ray = primary_ray(fine_camera_, frame_, fine_x, fine_y);
+        const Ray ray = through_lens(primary_ray(fine_camera_, frame_, fine_x, fine_y), sample);
         samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray, sample)});
         ++sample.index;
     }
     return samples;
+}
+
+/// The integrator's streams count up from 0; the lens has the last one.
+Ray FilmSampler::through_lens(const Ray& ray, const SampleId& sample) const {
+    constexpr std::uint32_t k_last_stream = 65535;
+    return fine_camera_.lens_radius > 0.0F ? lens_ray(fine_camera_, frame_, ray, sample.stream(k_last_stream).next_2d())
+                                           : ray;
 }
 
 PixelEstimate FilmSampler::estimate_of(const std::vector<FilmSample>& samples) {

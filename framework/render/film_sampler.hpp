@@ -35,7 +35,7 @@ using EstimateGrid = Grid<PixelEstimate>;
 /// is cut into tiles, though those around a tile are followed again for its neighbour.
 class FilmSampler {
 public:
-    /// side * side samples in each pixel.
+    /// side * side samples in each pixel, each through another point of the camera's lens.
     FilmSampler(const Camera& camera, int side, const SamplingOptions& options);
 
     struct Pixel {
@@ -55,6 +55,7 @@ private:
     struct Film;
 
     [[nodiscard]] std::vector<FilmSample> samples_of(int x, int y, Integrator& integrator) const;
+    [[nodiscard]] Ray through_lens(const Ray& ray, const SampleId& sample) const;
     [[nodiscard]] static PixelEstimate estimate_of(const std::vector<FilmSample>& samples);
     [[nodiscard]] std::vector<glm::vec2> points_of(int x, int y) const;
 

@@ -23,11 +23,23 @@ struct StepOptions {
 /// instructor's own steps, from 20 on, go on from step 09.
 [[nodiscard]] constexpr bool is_of_part_two(int step) { return step >= 10 && step < 20; }
 
+/// From step 12 on lamps may have a size, and so may the camera's lens.
+[[nodiscard]] constexpr bool has_area_lights(int step) { return is_of_part_two(step) && step >= 12; }
+
 /// Which sample of a picture a primary ray is: its random numbers hang on nothing else.
 struct SampleId {
     std::uint32_t pixel = 0;  ///< another number for each pixel of each picture
     std::uint32_t index = 0;  ///< among the samples of the pixel, below 65536
+
+    /// Of its streams, one that is independent of all others. number < 65536
+    [[nodiscard]] RandomStream stream(std::uint32_t number) const {
+        return RandomStream(pixel, (index << 16U) + number);
+    }
 };
+
+[[nodiscard]] constexpr std::uint32_t pixel_number(int x, int y) {
+    return (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x);
+}
 
 /// Calls the step functions. Each thread has its own.
 class Integrator {
@@ -57,7 +69,7 @@ protected:
 
     /// Random numbers for one call of a step's function: a fresh stream each time, so that what the call takes of it
     /// changes no other.
-    [[nodiscard]] RandomStream next_stream() { return RandomStream(sample_.pixel, (sample_.index << 16U) + streams_++); }
+    [[nodiscard]] RandomStream next_stream() { return sample_.stream(streams_++); }
 
 private:
     const Scene& scene_;

@@ -57,7 +57,8 @@ Color mean_color(int x, int y, Integrator& integrator, const Job& job) {
     return sum / static_cast<float>(count);
 }
 
-std::optional<FilmSampler> sampler_of(const Camera& camera, const RenderOptions& options) {
+std::optional<FilmSampler> sampler_of(Camera camera, const RenderOptions& options) {
+    camera.lens_radius = has_area_lights(options.step.step) ? camera.lens_radius : 0.0F;
     return is_of_part_two(options.step.step) && !options.measure_cost
                ? std::optional<FilmSampler>(std::in_place, camera, options.sample_side, options.sampling)
                : std::nullopt;
@@ -66,7 +67,8 @@ std::optional<FilmSampler> sampler_of(const Camera& camera, const RenderOptions&
 Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     if (job.options.measure_cost) {
         const Ray ray = primary_ray(job.camera, job.frame, x, y);
-        return measured_color(integrator, ray, job.costs.at(x - job.crop.x, y - job.crop.y));
+        return measured_color(integrator, ray, {.pixel = pixel_number(x, y)},
+                              job.costs.at(x - job.crop.x, y - job.crop.y));
     }
     return mean_color(x, y, integrator, job);
 }
@@ -96,7 +98,7 @@ std::vector<Color> colors_of(const Rect& tile, Integrator& integrator, Job& job)
 }
 
 void render_tile(const Rect& tile, Job& job) {
-    TileRays rays(job.accelerator, job.scene.lights.size());
+    TileRays rays(job.accelerator, job.scene);
     const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
     std::size_t next = 0;
     const std::vector<Color> colors = colors_of(tile, *integrator, job);

@@ -6,8 +6,10 @@ namespace raysteps {
 
 constexpr std::size_t k_rays = 8;  // of a pixel with hints of their own; the last of them is for all others, too
 
-TileRays::TileRays(const Accelerator& scene, std::size_t lights)
-    : RayCounter(scene), lights_(lights), places_(k_rays * lights, Place(scene)) {}
+TileRays::TileRays(const Accelerator& accelerator, const Scene& scene)
+    : RayCounter(accelerator),
+      lights_(scene.lights.size() + scene.area_lights.size()),
+      places_(k_rays * lights_, Place(accelerator)) {}
 
 const SceneQuery& TileRays::shadow_query(RayNumber ray, std::size_t light) {
     return places_[std::min(ray, k_rays - 1) * lights_ + light];

@@ -2,6 +2,7 @@
 // The rays of the pixels of one tile, sent one pixel after the other.
 #include <vector>
 
+#include "core/scene.hpp"
 #include "render/accelerator.hpp"
 #include "render/ray_counter.hpp"
 
@@ -12,7 +13,7 @@ namespace raysteps {
 /// the tile.
 class TileRays final : public RayCounter {
 public:
-    TileRays(const Accelerator& scene, std::size_t lights);
+    TileRays(const Accelerator& accelerator, const Scene& scene);
 
     [[nodiscard]] const SceneQuery& shadow_query(RayNumber ray, std::size_t light) override;
 

@@ -91,8 +91,20 @@ Color WhittedIntegrator::follow(const RayOrigin& origin, const Ray& ray) {
     return color;
 }
 
+// What the surface sends out itself, and one sample of each lamp.
+Color WhittedIntegrator::area_lighting(const HitRecord& hit, RayNumber ray) {
+    Color color = hit.front_face ? hit.fill.emission : k_black;
+    for (std::size_t light = 0; light < scene().area_lights.size(); ++light) {
+        color += direct_.of_area_light(light, hit, ray, next_stream().next_2d());
+    }
+    return color;
+}
+
 Color WhittedIntegrator::direct_lighting(const HitRecord& hit, int depth, RayNumber ray) {
     Color color = direct_.at(hit, ray);
+    if (has_area_lights(options_.step)) {
+        color += area_lighting(hit, ray);
+    }
     std::optional<Color> transmitted;
     if (options_.step >= 8) {
         Chain chain{.next = {.kind = RayKind::refracted, .depth = depth + 1, .from = ray}};

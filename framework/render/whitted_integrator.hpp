@@ -1,5 +1,6 @@
 #pragma once
-// From step 05 on: mirrors, from step 08 on glass, and what later steps make of the picture.
+// From step 05 on: mirrors, from step 08 on glass, from step 12 on area lights, and what later steps make of the
+// picture.
 #include "render/direct_light.hpp"
 #include "render/integrator.hpp"
 
@@ -17,6 +18,7 @@ private:
     [[nodiscard]] Color color_of(const Ray& ray) override;
     [[nodiscard]] Color follow(const RayOrigin& origin, const Ray& ray);
     [[nodiscard]] Color direct_lighting(const HitRecord& hit, int depth, RayNumber ray);
+    [[nodiscard]] Color area_lighting(const HitRecord& hit, RayNumber ray);
 
     DirectLight direct_;
     StepOptions options_;

@@ -149,7 +149,7 @@ void ProgressiveRenderer::trace_pass(const RenderRequest& request, const Acceler
 
 void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
     const Rect& area = pass.tiles[tile];
-    TileRays rays(pass.accelerator, scene_.lights.size());
+    TileRays rays(pass.accelerator, scene_);
     const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.request.step);
     std::vector<TracedPixel> traced;
     for (int y = area.y; y < area.y + area.height; ++y) {
@@ -161,7 +161,8 @@ void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
                 return;
             }
             TracedPixel pixel{x, y, k_black, {}};
-            pixel.color = measured_color(*integrator, primary_ray(pass.request.camera, pass.view, x, y), pixel.cost);
+            pixel.color = measured_color(*integrator, primary_ray(pass.request.camera, pass.view, x, y),
+                                         {.pixel = pixel_number(x, y)}, pixel.cost);
             traced.push_back(pixel);
         }
     }

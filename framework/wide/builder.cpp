@@ -95,12 +95,13 @@ int levels_below(std::span<const Item> items) {
 
 /// Which of Kind's, without nodes: from 0.
 std::size_t kind_of(const Surface& surface) {
-    const Kind kind = std::visit(
-        ByShape{[](const Sphere*) { return Kind::spheres; }, [](const Triangle*) { return Kind::triangles; },
-                [](const SmoothTriangle*) { return Kind::triangles; },
-                [](const MeshTriangle*) { return Kind::triangles; }, [](const Cone*) { return Kind::cones; },
-                [](const InwardSphere*) { return Kind::others; }, [](std::monostate) { return Kind::others; }},
-        surface.shape());
+    const Kind kind =
+        std::visit(ByShape{[](const Sphere*) { return Kind::spheres; }, [](const Triangle*) { return Kind::triangles; },
+                           [](const SmoothTriangle*) { return Kind::triangles; },
+                           [](const MeshTriangle*) { return Kind::triangles; }, [](const Cone*) { return Kind::cones; },
+                           [](const Disk*) { return Kind::others; }, [](const InwardSphere*) { return Kind::others; },
+                           [](std::monostate) { return Kind::others; }},
+                   surface.shape());
     return static_cast<std::size_t>(kind) - 1;
 }
 

@@ -15,6 +15,7 @@ FunctionTable all_functions() {
     add_trees(functions);
     add_sampling(functions);
     add_meshes(functions);
+    add_soft_light(functions);
     return functions;
 }
 

@@ -222,7 +222,7 @@ class NearSurface:
     """A surface near the rays, for pictures of them."""
 
     surface: Count
-    kind: Literal["sphere", "hollow-sphere", "triangle", "smooth-triangle", "cone", "other"]
+    kind: Literal["sphere", "hollow-sphere", "triangle", "smooth-triangle", "cone", "disk", "other"]
     points: list[Triple]
     radii: list[Number]
     color: Triple

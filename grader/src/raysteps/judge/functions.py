@@ -95,6 +95,7 @@ _MODULES = {
     "09": "bvh",
     "10": "sampling",
     "11": "meshes",
+    "12": "soft_light",
 }
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 Numbers = NDArray[np.float64]
 
 SIGNIFICANCE = 1e-13
-_DEVIATIONS = 7.5  # of a normal variable, which is farther off with a probability of 6e-14
+DEVIATIONS = 7.5  # of a normal variable, which is farther off with a probability of 6e-14
 _MIN_EXPECTED = 16  # in each bin: with fewer, chi-square is no longer the distribution
 
 
@@ -32,7 +32,7 @@ def chi_square_tail(value: float, degrees: int) -> float:
 
 def has_mean(numbers: Numbers, mean: float, deviation: float) -> bool:
     """Whether the mean of independent numbers with that standard deviation is right (z-test)."""
-    return abs(float(numbers.mean()) - mean) <= _DEVIATIONS * deviation / math.sqrt(len(numbers))
+    return abs(float(numbers.mean()) - mean) <= DEVIATIONS * deviation / math.sqrt(len(numbers))
 
 
 def is_uniform(shares: Numbers, bins: int) -> bool:

@@ -1,0 +1,642 @@
+"""Cases of step 12. Points that are chosen by chance are compared with nobody's: they lie where they may, all places
+are as likely as they ought to be, and their density is the one that goes with that."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
+from raysteps.judge.answers import (
+    Answer,
+    Tolerance,
+    channels,
+    first,
+    itself,
+    read_vector,
+    real,
+    share_right,
+    vector,
+    words_of_number,
+    words_of_vector,
+)
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.protocol import Fill, Frame, Hit, Inputs, Ray, Real, TokenReader, Vec, Whole, f32, rounded, text
+from raysteps.judge.random_source import RandomSource, next_axis
+from raysteps.judge.statistics import Numbers, has_mean, is_uniform
+
+# Many answers to one question: rows of numbers, and what the first u gave once more.
+
+_FEW, _MANY, _VERY_MANY = 8, 2048, 16_384
+_CORNERS = 16  # without a seed: the corners of the unit square and places between them
+_MAX_ROWS = 100_000
+
+
+@dataclass(frozen=True)
+class _Draws:
+    rows: Numbers
+    again: Numbers
+
+
+def _reader(width: int) -> Callable[[TokenReader], _Draws]:
+    def read(tokens: TokenReader) -> _Draws:
+        rows: list[list[float]] = []
+        while not tokens.at_end() and len(rows) <= _MAX_ROWS:
+            rows.append([tokens.real() for _ in range(width)])
+        found = np.array(rows, dtype=np.float64).reshape(-1, width)
+        return _Draws(found[:-1], found[-1:].ravel())
+
+    return read
+
+
+def _words_of_draws(draws: _Draws) -> str:
+    shown = ", ".join("(" + ", ".join(text(f32(number)) for number in row) + ")" for row in draws.rows[:4])
+    return f"{len(draws.rows)} answers, first {shown}"
+
+
+def _draws(draw: RandomSource, size: int) -> Inputs:
+    return {"seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(size)}
+
+
+def _corners() -> Inputs:
+    return {"seed": Whole(0), "times": Whole(_CORNERS)}
+
+
+def _whole(inputs: Inputs, name: str) -> int:
+    value = inputs[name]
+    assert isinstance(value, Whole)
+    return value.value
+
+
+def _vec(inputs: Inputs, name: str) -> Vector:
+    value = inputs[name]
+    assert isinstance(value, Vec)
+    return value.value
+
+
+def _real(inputs: Inputs, name: str) -> float:
+    value = inputs[name]
+    assert isinstance(value, Real)
+    return value.value
+
+
+def _broken(inputs: Inputs, actual: _Draws, what: str) -> str:
+    """What is wrong whatever was asked."""
+    if len(actual.rows) != _whole(inputs, "times"):
+        return "no proper answer came"
+    if not np.isfinite(actual.rows).all():
+        return f"{what} is infinite or NaN"
+    if not np.array_equal(actual.rows[0], actual.again):
+        return "the same u gave another answer"
+    return ""
+
+
+@dataclass(frozen=True)
+class _Places:
+    """How a shape is measured: of each point two numbers that are even from 0 to 1 where all of the shape is equally
+    likely, such as the square of the radius and the angle. What is said where they are not."""
+
+    low: str  # too many have a small first number
+    high: str
+    uneven: str
+    around: str  # the second number is uneven
+
+
+_DISK = _Places(
+    "too many points lie near the middle",
+    "too many points lie near the rim",
+    "some rings get more points than others of the same area",
+    "some sides get more points than others",
+)
+_CAP = _Places(
+    "too many points lie near the middle of what can be seen",
+    "too many points lie near the rim of what can be seen",
+    "some rings get more points than others of the same solid angle",
+    "some sides get more points than others",
+)
+_TRIANGLE = _Places(
+    "too many points lie near the first corner",
+    "too many points lie away from the first corner",
+    "points are not spread evenly from the first corner to the side opposite to it",
+    "points are not spread evenly between the second and the third corner",
+)
+
+
+def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
+    """The corners of the unit square are even nowhere, and a few points are not enough to tell."""
+    if _whole(inputs, "seed") == 0 or len(shares) < _MANY:
+        return ""
+    bins = 32 if len(shares) >= _VERY_MANY else 8
+    along, around = shares[:, 0], shares[:, 1]
+    deviation = math.sqrt(1 / 12)
+    if not has_mean(along, 0.5, deviation):
+        return places.low if float(along.mean()) < 0.5 else places.high
+    if not is_uniform(along, 2 * bins):
+        return places.uneven
+    if not (has_mean(around, 0.5, deviation) and is_uniform(around, 2 * bins)):
+        return places.around
+    return "" if is_uniform(shares, bins) else "the two random numbers have to do with each other"
+
+
+def _turns(x: Numbers, y: Numbers) -> Numbers:
+    """Angles as shares of a whole turn."""
+    return np.asarray(np.arctan2(y, x) / (2 * math.pi) + 0.5)
+
+
+def _shares(along: Numbers, around: Numbers) -> Numbers:
+    return np.clip(np.stack([along, around], axis=1), 0.0, 1.0)
+
+
+def _basis(normal: Vector) -> tuple[Numbers, Numbers, Numbers]:
+    """Two directions across, and the normal itself, of length 1."""
+    upright = unit(normal)
+    side = unit(cross(upright, (1.0, 0.0, 0.0) if abs(upright[0]) < 0.5 else (0.0, 1.0, 0.0)))
+    x, y, z = (np.array(v) for v in (side, cross(upright, side), upright))
+    return x, y, z
+
+
+# Turning z to a normal: what becomes of x, y and z has to be a frame, and the vector has to lie in it as before.
+
+_FRAME = Tolerance(5e-4, 5e-4)
+
+
+@dataclass(frozen=True)
+class _Turned:
+    vector: Vector
+    axes: tuple[Vector, Vector, Vector]
+
+
+def _read_turned(tokens: TokenReader) -> _Turned:
+    return _Turned(tokens.vector(), (tokens.vector(), tokens.vector(), tokens.vector()))
+
+
+def _turned_problem(inputs: Inputs, _expected: _Turned, actual: _Turned) -> str:
+    if not np.isfinite(np.array([actual.vector, *actual.axes])).all():
+        return "a number is infinite or NaN"
+    x, y, z = actual.axes
+    along = vector("what becomes of z", _vec(inputs, "normal"), z, _FRAME)
+    lengths = first(*(real("a length", 1.0, length(axis), _FRAME) for axis in (x, y)))
+    angles = first(*(real("an angle", 0.0, dot(*pair), _FRAME) for pair in ((x, y), (y, z), (z, x))))
+    given = _vec(inputs, "vector")
+    sum_ = add(add(times(given[0], x), y, given[1]), z, given[2])
+    return first(along, lengths, angles, vector("the vector", sum_, actual.vector, Tolerance(1e-3, 1e-3)))
+
+
+def _turn(normal: Vector, given: Vector) -> Inputs:
+    return {"normal": Vec(normal), "vector": Vec(given)}
+
+
+def _nearly_axis(draw: RandomSource) -> Vector:
+    axis = draw.axis()
+    return rounded(unit(add(axis, draw.direction(), draw.logarithmic(1e-6, 1e-2))))
+
+
+_TURNED_TO = Function(
+    "turned_to",
+    Answer(_read_turned, lambda turned: words_of_vector(turned.vector), _turned_problem),
+    (
+        Group("any normal", lambda d: _turn(d.direction(), d.point(3))),
+        Group("along an axis", lambda d: _turn(d.axis(), d.simple_point(3))),
+        Group("nearly along an axis", lambda d: _turn(_nearly_axis(d), d.point(3))),
+        Group("against z", lambda d: _turn((0.0, 0.0, -1.0), d.point(3))),
+        Group("along z", lambda d: _turn(d.direction(), (0.0, 0.0, d.real(-3, 3)))),
+    ),
+)
+
+# The unit disk, and caps of the unit sphere.
+
+_OUT = 1e-4
+
+
+def _disk_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
+    broken = _broken(inputs, actual, "a point")
+    if broken:
+        return broken
+    x, y = actual.rows.T
+    squares = x * x + y * y
+    if float(squares.max()) > 1 + _OUT:
+        return "a point lies outside of the disk"
+    return _evenness(inputs, _DISK, _shares(squares, _turns(x, y)))
+
+
+_UNIT_DISK = Function(
+    "unit_disk",
+    Answer(_reader(2), _words_of_draws, _disk_problem),
+    (
+        Group("many points", lambda d: _draws(d, _MANY)),
+        Group("very many points", lambda d: _draws(d, _VERY_MANY)),
+        Group("corners of the square", lambda _: _corners(), exact=True),
+    ),
+)
+
+
+def _heights(directions: Numbers) -> Numbers:
+    """1 - z of unit vectors, from what they are long across, where 1 - z has no digits left."""
+    x, y, z = directions.T
+    squares = x * x + y * y
+    return np.asarray(np.where(z > 0, squares / (1 + np.sqrt(np.maximum(0.0, 1 - squares))), 1 - z))
+
+
+def _cap_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
+    broken = _broken(inputs, actual, "a direction")
+    if broken:
+        return broken
+    if float(np.abs(np.linalg.norm(actual.rows, axis=1) - 1).max()) > 1e-3:
+        return "a direction does not have length 1"
+    height = _real(inputs, "height")
+    found = _heights(actual.rows)
+    if float(found.max()) > height * (1 + 1e-3) + 1e-12 + (1e-6 if height > 0.01 else 0.0):
+        return "a direction lies outside of the cap"
+    along = found / height if height else np.zeros(len(found))
+    return _evenness(inputs, _CAP, _shares(along, _turns(actual.rows[:, 0], actual.rows[:, 1])))
+
+
+def _cap(draw: RandomSource, height: float, size: int) -> Inputs:
+    return {"height": Real(height), **_draws(draw, size)}
+
+
+_CAP_DIRECTION = Function(
+    "cap_direction",
+    Answer(_reader(3), _words_of_draws, _cap_problem),
+    (
+        Group("any height", lambda d: _cap(d, d.real(0.1, 2.0), _MANY)),
+        Group("low caps", lambda d: _cap(d, d.logarithmic(1e-3, 0.1), _MANY)),
+        Group("very low caps", lambda d: _cap(d, d.logarithmic(1e-10, 1e-6), _MANY)),
+        Group("half of the sphere and all of it", lambda d: _cap(d, float(d.whole(1, 2)), _VERY_MANY)),
+        Group("corners of the square", lambda d: {"height": Real(d.real(0.1, 2.0)), **_corners()}, exact=True),
+    ),
+)
+
+# From area to solid angle.
+
+_PDF = Answer(
+    lambda tokens: tokens.real(),
+    words_of_number,
+    lambda _, expected, actual: real("the density", expected, actual, Tolerance(1e-6, 2e-3)),
+)
+
+
+def _seen(draw: RandomSource, distance: float, low: float, high: float) -> Inputs:
+    """With that cosine at the lamp."""
+    position, normal = draw.point(5), draw.direction()
+    back = draw.above(normal, low, high)
+    return {
+        "area_pdf": Real(draw.logarithmic(0.05, 20)),
+        "from": Vec(rounded(add(position, back, distance))),
+        "position": Vec(position),
+        "normal": Vec(normal),
+    }
+
+
+def _simple_seen(draw: RandomSource) -> Inputs:
+    """Straight away from the lamp."""
+    position, normal = draw.simple_point(3), draw.axis()
+    from_ = add(position, normal, float(draw.whole(1, 4)))
+    return {"area_pdf": Real(1.0), "from": Vec(from_), "position": Vec(position), "normal": Vec(normal)}
+
+
+def _along(draw: RandomSource) -> Inputs:
+    position, normal = draw.simple_point(3), draw.axis()
+    from_ = add(position, next_axis(normal), draw.eighths(0.5, 3))
+    return {"area_pdf": Real(1.0), "from": Vec(from_), "position": Vec(position), "normal": Vec(normal)}
+
+
+_SOLID_ANGLE_PDF = Function(
+    "solid_angle_pdf",
+    _PDF,
+    (
+        Group("any lamp", lambda d: _seen(d, d.real(0.5, 8), 0.1, 0.99)),
+        Group("simple numbers", _simple_seen),
+        Group("straight before it", lambda d: _seen(d, d.real(0.5, 8), 0.999, 1.0)),
+        Group("at a slant", lambda d: _seen(d, d.real(0.5, 8), 0.03, 0.2)),
+        Group("near and far", lambda d: _seen(d, d.logarithmic(1, 1000), 0.2, 0.99)),
+        Group("from behind", lambda d: _seen(d, d.real(0.5, 8), -0.99, -0.05)),
+        Group("along the lamp", _along, exact=True),
+    ),
+)
+
+# Samples of lamps: position, normal and pdf of each.
+
+_POSITION, _NORMAL, _DENSITY = slice(0, 3), slice(3, 6), 6
+
+
+def _normal_problem(expected: Numbers, actual: _Draws) -> str:
+    gaps = np.linalg.norm(actual.rows[:, _NORMAL] - expected, axis=1)
+    if float(gaps.max()) <= 5e-3:
+        return ""
+    opposite = np.linalg.norm(actual.rows[:, _NORMAL] + expected, axis=1)
+    return "a normal points to the dark side" if float(opposite.max()) <= 5e-3 else "a normal is wrong"
+
+
+def _density_problem(expected: Numbers, actual: _Draws) -> str:
+    """Who is wrong by one factor everywhere has forgotten something else than who is not."""
+    found = actual.rows[:, _DENSITY]
+    if float(np.abs(found[expected == 0]).sum()) > 0:
+        return "pdf is above 0 where no light is seen"
+    bright = expected > 0
+    ratios = found[bright] / expected[bright]
+    if not len(ratios) or float(np.abs(ratios - 1).max()) <= 4e-3:
+        return ""
+    if float(np.abs(ratios).max()) == 0:
+        return "pdf is 0 where light is seen"
+    side = "large" if float(ratios.mean()) > 1 else "small"
+    if float(ratios.std()) < 5e-3 * float(np.abs(ratios).mean()):
+        return f"pdf is too {side}, by the same factor for all points"
+    return f"pdf is too {side}, and not by the same factor for all points"
+
+
+def _area_density(inputs: Inputs, area: float, normal: Numbers, actual: _Draws) -> Numbers:
+    back = np.array(_vec(inputs, "from")) - actual.rows[:, _POSITION]
+    distances = np.linalg.norm(back, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cosines = back @ normal / distances
+        return np.where(cosines > 0, distances**2 / (area * cosines), 0.0)
+
+
+_Problems = Callable[[Inputs, _Draws], tuple[str, str, str]]
+
+
+def _sample_answer(problems: _Problems) -> Answer[_Draws]:
+    """`problems`: of positions, normals and densities. Without right positions nothing is right."""
+
+    def problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
+        return _broken(inputs, actual, "a sample") or first(*problems(inputs, actual))
+
+    def credit(inputs: Inputs, _expected: _Draws, actual: _Draws) -> float:
+        if _broken(inputs, actual, "a sample"):
+            return 0.0
+        position, *others = problems(inputs, actual)
+        return 0.0 if position else share_right(position, *others)
+
+    return Answer(_reader(7), _words_of_draws, problem, credit)
+
+
+def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
+    a, b, c = (np.array(_vec(inputs, name)) for name in "abc")
+    across = np.cross(b - a, c - a)
+    doubled = float(np.linalg.norm(across))
+    normal = across / doubled
+    spokes = actual.rows[:, _POSITION] - a
+    of_b = np.cross(spokes, c - a) @ normal / doubled
+    of_c = np.cross(b - a, spokes) @ normal / doubled
+    size = math.sqrt(doubled)
+    off = float(np.abs(spokes @ normal).max()) > 1e-3 * size
+    beyond = min(float(of_b.min()), float(of_c.min()), float((1 - of_b - of_c).min())) < -1e-3
+    away = np.maximum(of_b + of_c, 1e-12)
+    position = "a point lies off the triangle" if off or beyond else ""
+    position = position or _evenness(inputs, _TRIANGLE, _shares(away**2, of_c / away))
+    density = _density_problem(_area_density(inputs, doubled / 2, normal, actual), actual)
+    return position, _normal_problem(normal, actual), density
+
+
+def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
+    radius = _real(inputs, "radius")
+    x, y, z = _basis(_vec(inputs, "normal"))
+    spokes = (actual.rows[:, _POSITION] - np.array(_vec(inputs, "center"))) / radius
+    of_x, of_y = spokes @ x, spokes @ y
+    squares = of_x**2 + of_y**2
+    off = float(np.abs(spokes @ z).max()) > 1e-3 or float(squares.max()) > 1 + 2e-3
+    position = "a point lies off the disk" if off else ""
+    position = position or _evenness(inputs, _DISK, _shares(squares, _turns(of_x, of_y)))
+    density = _density_problem(_area_density(inputs, math.pi * radius * radius, z, actual), actual)
+    return position, _normal_problem(z, actual), density
+
+
+_FLOAT = 3e-7  # of coordinates, with what a few sums lose
+_ROOT_OF_FLOAT = 7e-4  # of a distance: what a root of the difference of squares loses
+
+
+def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
+    center, radius, from_ = _vec(inputs, "center"), _real(inputs, "radius"), _vec(inputs, "from")
+    distance = length(minus(center, from_))
+    if distance <= radius:
+        dark = np.zeros(len(actual.rows))
+        return "", "", _density_problem(dark, actual)
+    x, y, z = _basis(minus(center, from_))
+    positions = actual.rows[:, _POSITION]
+    rounding = _FLOAT * (distance + length(center) + length(from_))
+    spokes = (positions - np.array(center)) / radius
+    sizes = np.linalg.norm(spokes, axis=1)
+    ways = positions - np.array(from_)
+    directions = ways / np.maximum(np.linalg.norm(ways, axis=1), 1e-30)[:, None]
+    local = np.stack([directions @ x, directions @ y, directions @ z], axis=1)
+    sine = radius / distance
+    height = sine * sine / (1 + math.sqrt(1 - sine * sine))
+    heights = _heights(local) / height
+    slack = 2e-3 + _ROOT_OF_FLOAT * distance / radius
+    if float(np.abs(sizes - 1).max()) > slack:
+        position = "a point lies off the sphere"
+    elif float((spokes @ z).max()) > -sine + 0.05 + slack:
+        position = "a point lies on the side of the sphere that is not seen"
+    else:
+        position = _evenness(inputs, _CAP, _shares(heights, _turns(local[:, 0], local[:, 1])))
+    normals = spokes / np.maximum(sizes, 1e-30)[:, None]
+    normal = "" if rounding > 1e-4 * radius else _normal_problem(normals, actual)
+    density = np.full(len(positions), 1 / (2 * math.pi * height))
+    return position, normal, _density_problem(density, actual)
+
+
+def _triangle(draw: RandomSource, low: float, high: float, size: int) -> Inputs:
+    """Seen from a place with such a cosine at the middle; from before it, if the cosine is above 0."""
+    triangle = draw.triangle()
+    a, b, c = triangle.a, triangle.b, triangle.c
+    normal = unit(cross(minus(b, a), minus(c, a)))
+    middle = times(1 / 3, add(add(a, b), c))
+    from_ = rounded(add(middle, draw.above(normal, low, high), draw.real(3, 9)))
+    return {"a": Vec(a), "b": Vec(b), "c": Vec(c), "from": Vec(from_), **_draws(draw, size)}
+
+
+def _disk(draw: RandomSource, low: float, high: float, size: int, *, axis: bool = False) -> Inputs:
+    center, normal, radius = draw.point(4), draw.axis() if axis else draw.direction(), draw.real(0.2, 2)
+    from_ = rounded(add(center, draw.above(normal, low, high), draw.real(1.5, 4) * radius))
+    return {
+        "center": Vec(center),
+        "normal": Vec(normal),
+        "radius": Real(radius),
+        "from": Vec(from_),
+        **_draws(draw, size),
+    }
+
+
+def _sphere(draw: RandomSource, reach: float, size: int, *, radius: float | None = None) -> Inputs:
+    """`reach`: the distance from the centre, in radii."""
+    center, radius = draw.point(4), radius or draw.real(0.2, 2)
+    from_ = rounded(add(center, draw.direction(), reach * radius))
+    return {"center": Vec(center), "radius": Real(radius), "from": Vec(from_), **_draws(draw, size)}
+
+
+def _with_corners(inputs: Inputs) -> Inputs:
+    return {**inputs, **_corners()}
+
+
+_SAMPLE_TRIANGLE = Function(
+    "sample_triangle",
+    _sample_answer(_triangle_problems),
+    (
+        Group("a few samples", lambda d: _triangle(d, 0.35, 0.99, _FEW)),
+        Group("many samples", lambda d: _triangle(d, 0.35, 0.99, _MANY)),
+        Group("very many samples", lambda d: _triangle(d, 0.35, 0.99, _VERY_MANY)),
+        Group("corners of the square", lambda d: _with_corners(_triangle(d, 0.5, 0.99, _FEW)), exact=True),
+        Group("from behind", lambda d: _triangle(d, -0.99, -0.5, _FEW)),
+    ),
+)
+_SAMPLE_DISK = Function(
+    "sample_disk",
+    _sample_answer(_disk_light_problems),
+    (
+        Group("a few samples", lambda d: _disk(d, 0.3, 0.99, _FEW)),
+        Group("many samples", lambda d: _disk(d, 0.3, 0.99, _MANY)),
+        Group("along an axis", lambda d: _disk(d, 0.3, 0.99, _FEW, axis=True)),
+        Group("corners of the square", lambda d: _with_corners(_disk(d, 0.3, 0.99, _FEW)), exact=True),
+        Group("from behind", lambda d: _disk(d, -0.99, -0.2, _FEW)),
+    ),
+)
+_SAMPLE_SPHERE = Function(
+    "sample_sphere",
+    _sample_answer(_sphere_problems),
+    (
+        Group("a few samples", lambda d: _sphere(d, d.real(1.2, 6), _FEW)),
+        Group("many samples", lambda d: _sphere(d, d.real(1.2, 6), _MANY)),
+        Group("very near", lambda d: _sphere(d, d.real(1.02, 1.2), _MANY)),
+        Group("small and far", lambda d: _sphere(d, d.logarithmic(200, 600), _FEW)),
+        Group("corners of the square", lambda d: _with_corners(_sphere(d, d.real(1.2, 6), _FEW)), exact=True),
+        Group("from inside", lambda d: _sphere(d, d.real(0.05, 0.95), _FEW)),
+    ),
+)
+
+# What a sample brings.
+
+_COLOR = Answer(
+    read_vector,
+    words_of_vector,
+    lambda _, expected, actual: channels("the light", expected, actual, Tolerance(1e-5, 2e-3)),
+    near=itself,
+)
+
+
+def _brought(draw: RandomSource, low: float, high: float, *, pdf: float | None = None) -> Inputs:
+    """By a lamp with that cosine at the hit."""
+    position, normal = draw.point(4), draw.direction()
+    hit = Hit(position, normal, times(-1.0, draw.above(normal, 0.2, 0.95)), draw.real(1, 9), draw.fill())
+    place = rounded(add(position, draw.above(normal, low, high), draw.real(0.5, 8)))
+    return {
+        "hit": hit,
+        "radiance": Vec(draw.color(0.5, 12)),
+        "position": Vec(place),
+        "normal": Vec(draw.direction()),
+        "pdf": Real(draw.logarithmic(0.1, 10) if pdf is None else pdf),
+    }
+
+
+def _simple_brought(draw: RandomSource) -> Inputs:
+    """A white wall, and a lamp straight above it."""
+    position, normal = draw.simple_point(3), draw.axis()
+    hit = Hit(position, normal, times(-1.0, normal), 1.0, Fill())
+    place = add(position, normal, float(draw.whole(1, 4)))
+    return {
+        "hit": hit,
+        "radiance": Vec((1.0, 2.0, 4.0)),
+        "position": Vec(place),
+        "normal": Vec(times(-1.0, normal)),
+        "pdf": Real(1.0),
+    }
+
+
+def _dark_wall(draw: RandomSource) -> Inputs:
+    """Which is a mirror: light and mirror have nothing to do with each other."""
+    inputs = _brought(draw, 0.2, 0.99)
+    hit = inputs["hit"]
+    assert isinstance(hit, Hit)
+    return {**inputs, "hit": replace(hit, fill=replace(hit.fill, kd=draw.real(0.0, 0.1), ks=1.0, shine=3.0))}
+
+
+_SAMPLED_LIGHT = Function(
+    "sampled_light",
+    _COLOR,
+    (
+        Group("any sample", lambda d: _brought(d, 0.05, 0.99)),
+        Group("simple numbers", _simple_brought),
+        Group("at a slant", lambda d: _brought(d, 0.02, 0.15)),
+        Group("a dark mirror", _dark_wall),
+        Group("below the surface", lambda d: _brought(d, -0.99, -0.05)),
+        Group("no density", lambda d: _brought(d, 0.2, 0.99, pdf=0.0), exact=True),
+    ),
+)
+
+# The lens.
+
+
+def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
+    frame, ray = inputs["frame"], inputs["ray"]
+    assert isinstance(frame, Frame)
+    assert isinstance(ray, Ray)
+    radius, focus = _real(inputs, "lens_radius"), _real(inputs, "focal_distance")
+    origins, directions = actual.rows[:, :3], actual.rows[:, 3:]
+    spokes = origins - np.array(ray.origin)
+    of_x, of_y = spokes @ np.array(frame.right), spokes @ np.array(frame.up)
+    squares = of_x**2 + of_y**2
+    slack = 1e-5 + 2e-3 * radius
+    lifted = float(np.abs(spokes @ np.array(frame.forward)).max())
+    if lifted > slack or math.sqrt(float(squares.max())) > radius + slack:
+        origin = "a ray starts off the lens"
+    elif radius:
+        origin = _evenness(inputs, _DISK, _shares(squares / radius**2, _turns(of_x, of_y)))
+    else:
+        origin = ""
+    lengths = np.linalg.norm(directions, axis=1)
+    if float(np.abs(lengths - 1).max()) > 1e-3:
+        return origin, "a direction does not have length 1"
+    sharp = np.array(add(ray.origin, ray.direction, focus / dot(ray.direction, frame.forward)))
+    ways = sharp - origins
+    wanted = ways / np.linalg.norm(ways, axis=1)[:, None]
+    off = float(np.linalg.norm(directions - wanted, axis=1).max())
+    return origin, "" if off < 2e-3 else "rays do not meet in the plane of focus"
+
+
+def _lens_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
+    return _broken(inputs, actual, "a ray") or first(*_lens_problems(inputs, actual))
+
+
+def _lens_credit(inputs: Inputs, _expected: _Draws, actual: _Draws) -> float:
+    """Half for rays from the right places, or to the right one; a lens without a size has one place only."""
+    if _broken(inputs, actual, "a ray") or not _real(inputs, "lens_radius"):
+        return 0.0
+    return share_right(*_lens_problems(inputs, actual))
+
+
+def _lens(draw: RandomSource, low: float, high: float, size: int, *, radius: float | None = None) -> Inputs:
+    """The ray has that cosine with the view."""
+    forward = draw.direction()
+    right = unit(cross(forward, draw.across(forward)))
+    frame = Frame(rounded(right), rounded(cross(right, forward)), forward, draw.real(0.3, 1), draw.real(0.3, 1))
+    ray = Ray(draw.point(4), draw.above(forward, low, high))
+    lens = draw.real(0.05, 0.8) if radius is None else radius
+    numbers = {"lens_radius": Real(lens), "focal_distance": Real(draw.real(1.5, 15))}
+    return {"frame": frame, "ray": ray, **numbers, **_draws(draw, size)}
+
+
+_LENS_RAY = Function(
+    "lens_ray",
+    Answer(_reader(6), _words_of_draws, _lens_problem, _lens_credit),
+    (
+        Group("a few rays", lambda d: _lens(d, 0.6, 0.98, _FEW)),
+        Group("many rays", lambda d: _lens(d, 0.6, 0.98, _MANY)),
+        Group("through the middle of the picture", lambda d: _lens(d, 0.9999, 1.0, _FEW)),
+        Group("at a slant", lambda d: _lens(d, 0.3, 0.6, _FEW)),
+        Group("corners of the square", lambda d: _with_corners(_lens(d, 0.6, 0.98, _FEW)), exact=True),
+        Group("a lens without a size", lambda d: _lens(d, 0.6, 0.98, _FEW, radius=0.0)),
+    ),
+)
+
+FUNCTIONS = (
+    _TURNED_TO,
+    _UNIT_DISK,
+    _CAP_DIRECTION,
+    _SOLID_ANGLE_PDF,
+    _SAMPLE_TRIANGLE,
+    _SAMPLE_DISK,
+    _SAMPLE_SPHERE,
+    _SAMPLED_LIGHT,
+    _LENS_RAY,
+)
