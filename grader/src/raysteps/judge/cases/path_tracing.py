@@ -72,7 +72,7 @@ def _unit_problem(directions: Numbers, normal: Vector) -> str:
 
 def _shares(directions: Numbers, normal: Vector) -> Numbers:
     """Two even numbers from 0 to 1 of each direction, where its density is right."""
-    axis = next_axis((0.0, 0.0, 1.0)) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0)
+    axis = (1.0, 0.0, 0.0) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0)
     side = unit(cross(normal, axis))
     x, y = directions @ np.array(side), directions @ np.array(cross(normal, side))
     return np.stack([np.minimum(x * x + y * y, 1.0), np.arctan2(y, x) / (2 * math.pi) % 1.0], axis=1)
