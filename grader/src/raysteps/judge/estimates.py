@@ -44,7 +44,8 @@ class Estimates:
     @property
     def error(self) -> Numbers:
         """Standard error of the mean, of each channel."""
-        return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
+        with np.errstate(invalid="ignore", over="ignore"):  # light may be infinite
+            return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
 
     @property
     def work(self) -> float:
