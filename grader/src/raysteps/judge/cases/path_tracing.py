@@ -384,7 +384,7 @@ def mean_light(script: PathScript) -> Vector:
             light += weight * np.array(script.background)
             break
         hit = script.hits[min(number, len(script.hits) - 1)]
-        light += weight * (np.array(hit.light) + (np.array(hit.emission) if sees_lamps else 0.0))
+        light += weight * (np.array(hit.light) + (np.array(hit.emission) if sees_lamps and hit.front_face else 0.0))
         if hit.scatter is None:
             break
         weight = weight * np.array(hit.scatter.weight)
@@ -448,19 +448,27 @@ def _often(draw: RandomSource, script: PathScript, bias: float) -> Inputs:
 
 
 def _path_hit(
-    draw: RandomSource, number: int, *, emission: bool = False, specular: bool = False, last: bool = False
+    draw: RandomSource,
+    number: int,
+    *,
+    emission: bool = False,
+    specular: bool = False,
+    last: bool = False,
+    behind: bool = False,
 ) -> PathHit:
     """Light that is sampled there, unless it is a mirror; emission where it is wanted."""
     light = _BLACK if specular else draw.color(0.1, 1.0)
     scatter = None if last else Scatter(draw.direction(), draw.color(0.3, 0.9), specular)
     sent = draw.color(0.5, 4.0) if emission else _BLACK
-    return PathHit(number + 1 + draw.real(0.1, 0.8), draw.direction(), sent, light, scatter)
+    return PathHit(number + 1 + draw.real(0.1, 0.8), draw.direction(), sent, light, scatter, not behind)
 
 
 def _hits(draw: RandomSource, kinds: Sequence[str]) -> tuple[PathHit, ...]:
-    """Letters: e that it sends light itself, s that it is specular, x that the path ends there."""
+    """Letters: e that it sends light itself, b that it is met from behind, s that it is specular, x that the path ends
+    there."""
     return tuple(
-        _path_hit(draw, i, emission="e" in kind, specular="s" in kind, last="x" in kind) for i, kind in enumerate(kinds)
+        _path_hit(draw, i, emission="e" in kind, specular="s" in kind, last="x" in kind, behind="b" in kind)
+        for i, kind in enumerate(kinds)
     )
 
 
@@ -540,6 +548,7 @@ _PATH_LIGHT = Function(
         Group("up to four hits", _plain),
         Group("a lamp that is seen", _of_kinds(("ex",), ("e", "x"), ("e", "", "x"))),
         Group("a lamp behind a diffuse bounce", _of_kinds(("", "ex"), ("", "", "ex"), ("", "e", "ex"))),
+        Group("a lamp from behind", _of_kinds(("ebx",), ("eb", "x"), ("s", "ebx"), ("e", "ebx"))),
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
         Group("a very bright lamp", _bright),
