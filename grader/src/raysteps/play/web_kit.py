@@ -4,6 +4,7 @@ import hashlib
 import itertools
 import json
 import os
+import posixpath
 import re
 import shlex
 import tempfile
@@ -112,6 +113,16 @@ class Sources:
         return [*outside, *fetched, *map(Path, _USUAL_FOLDERS)]
 
 
+def own_headers(made_of: str) -> list[str]:
+    """The kit's own files, from its root, in what a compiler writes for Make about what it has read."""
+    paths = made_of.partition(":")[2].replace("\\\n", " ").split()
+    return [posixpath.relpath(path, _KIT) for path in paths if path.startswith(f"{_KIT}/")]
+
+
+def _digest(*words: str) -> str:
+    return hashlib.sha256("\0".join(words).encode()).hexdigest()
+
+
 def headers_path(step: Step) -> str:
     """Where the first lines of the step's source stand by themselves."""
     return f"{_WORK}/headers-{step.number}.hpp"
@@ -137,6 +148,7 @@ class WebKit:
         self.model = "reference" if project.has_reference else "stub"
         self._cache = project.build / "play"
         self._used: set[Path] = set()
+        self._header_marks: dict[str, str] = {}
         self._turn = threading.Lock()  # to compile headers, which several sources wait for
 
     @property
@@ -176,29 +188,23 @@ class WebKit:
         return {_KIT: self._project.root, _LIBRARIES: self.libraries, _PARTS: objects, "/usr": self._clang.system}
 
     @cached_property
-    def _headers_mark(self) -> bytes:
-        """Changes with every header but those that only the page's own sources include."""
-        digest = hashlib.sha256(f"{self._clang.wasm.parent.parent.name}\0{self.libraries.name}\0".encode())
+    def _common_mark(self) -> str:
+        """What every source may read: the compiler's files and libraries. And the names of all headers: a new one may be
+        found before another, or by __has_include."""
         own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
-        for path in sorted(own):
-            if path.parent.name != "web":
-                digest.update(f"{self._name(path)}\0".encode() + path.read_bytes())
-        return digest.digest()
+        return _digest(self._clang.wasm.parent.parent.name, self.libraries.name, *sorted(map(self._name, own)))
 
     def _name(self, path: Path) -> str:
         return path.relative_to(self._project.root).as_posix()
 
-    def _mark(self, source: Path, command: Sequence[str]) -> str:
-        digest = hashlib.sha256(self._headers_mark)
-        for path in sorted(source.parent.glob("*.hpp")):
-            digest.update(f"{path.name}\0".encode() + path.read_bytes())
-        digest.update("\0".join(command).encode() + source.read_bytes())
-        return digest.hexdigest()
+    def _header_mark(self, name: str) -> str:
+        if name not in self._header_marks:
+            path = self._project.root / name
+            self._header_marks[name] = _digest(path.read_text("utf-8") if path.is_file() else "")
+        return self._header_marks[name]
 
-    def _object(self, mark: str, ending: str) -> Path:
-        place = self._cache / "objects" / mark[:24]
-        self._used.add(place)
-        return place.with_suffix(f".{ending}")
+    def _place(self, mark: str, ending: str) -> Path:
+        return self._cache / "objects" / f"{mark[:24]}.{ending}"
 
     @cached_property
     def _commands(self) -> dict[tuple[str, bool], list[str]]:
@@ -213,31 +219,43 @@ class WebKit:
         words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags]
         if wanted.headers:
             words += ["-include-pch", f"{_PARTS}/{self._precompiled(wanted).name}"]
-        target = self._object(self._mark(self._project.root / source.path, words), "o")
-        if not target.is_file():
-            self._compile(words, f"{_KIT}/{source.path}", target)
-        return target
+        text = (self._project.root / source.path).read_text("utf-8")
+        return self._compiled("o", words, f"{_KIT}/{source.path}", text)
 
     def _precompiled(self, wanted: Wanted) -> Path:
         """The headers of a source, as the compiler keeps them in memory. Their text has to stay beside that."""
         flags = [flag for flag in wanted.flags if not flag.startswith(_MAIN)]
         words = [*self._commands[wanted.level, True], *_INCLUDES, *flags, *_PORTABLE]
         text = self._kept("hpp", wanted.headers)
-        target = self._kept("pch", self._headers_mark.hex(), text.name, *words)
         with self._turn:
-            if not target.is_file():
+            if not text.is_file():
                 write_bytes(text, wanted.headers.encode())
-                self._compile(words, f"{_PARTS}/{text.name}", target)
+            return self._compiled("pch", words, f"{_PARTS}/{text.name}", wanted.headers)
+
+    def _compiled(self, ending: str, words: Sequence[str], path: str, text: str) -> Path:
+        """What the compiler makes of a source with this text: anew when the text has changed, or one of the headers
+        that it included the last time."""
+        listed = self._kept("headers", self._common_mark, path, text, *words)
+        target = self._by_headers(listed, ending) if listed.is_file() else None
+        if target is None or not target.is_file():
+            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+                if path.startswith(f"{_WORK}/"):
+                    (Path(folder) / Path(path).name).write_text(text, encoding="utf-8", newline="\n")
+                named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
+                more = ["-dependency-file", f"{_WORK}/read", "-MT", "made"]
+                command = [*(named.get(word, word) for word in words), *more]
+                self._clang.make(command, {**self._places, _WORK: Path(folder)})
+                own = own_headers((Path(folder) / "read").read_text("utf-8"))
+                write_bytes(listed, "".join(f"{name}\n" for name in own).encode())
+                target = self._by_headers(listed, ending)
+                write_bytes(target, (Path(folder) / "made").read_bytes())
+        self._used.add(target.with_suffix(""))
         return target
 
-    def _compile(self, words: Sequence[str], path: str, target: Path, more: Mapping[str, str] | None = None) -> None:
-        """`more` are texts that lie beside what is made, by their names."""
-        with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-            for name, text in (more or {}).items():
-                (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
-            named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
-            self._clang.make([named.get(word, word) for word in words], {**self._places, _WORK: Path(folder)})
-            write_bytes(target, (Path(folder) / "made").read_bytes())
+    def _by_headers(self, listed: Path, ending: str) -> Path:
+        """Where what was made with these headers lies."""
+        marks = [self._header_mark(name) for name in listed.read_text("utf-8").splitlines()]
+        return self._place(_digest(listed.stem, *marks), ending)
 
     def _wanted(self) -> dict[str, list[Wanted]]:
         """What is to be made, by the name of the part that it belongs to."""
@@ -266,7 +284,7 @@ class WebKit:
         """`kit`, `web`, `test-NN` and `step-NN`."""
         parts = self._wanted()
         total, done = sum(map(len, parts.values())), 0
-        _ = self._commands, self._places, self._headers_mark  # before several ask for them at once
+        _ = self._commands, self._places, self._common_mark  # before several ask for them at once
         with ThreadPoolExecutor(min(_MOST_AT_ONCE, os.cpu_count() or 1)) as pool:
             waiting = {name: [pool.submit(self._made, one) for one in some] for name, some in parts.items()}
             made: dict[str, list[Path]] = {}
@@ -291,7 +309,9 @@ class WebKit:
         return target
 
     def _kept(self, ending: str, *marks: str) -> Path:
-        return self._object(hashlib.sha256(" ".join(marks).encode()).hexdigest(), ending)
+        place = self._place(_digest(*marks), ending)
+        self._used.add(place.with_suffix(""))
+        return place
 
     def parts(self) -> Parts:
         """All objects, by the paths that the linker in the page knows them by."""
@@ -309,11 +329,7 @@ class WebKit:
     def headers(self, step: Step, includes: str) -> Path:
         """What the first lines of a source include, as the compiler keeps it in memory. No more than these: a header
         that is missing is missed in the page as everywhere."""
-        words, path = self.headers_command(), headers_path(step)
-        target = self._kept("pch", self._headers_mark.hex(), step.number, includes, *words)
-        if not target.is_file():
-            self._compile(words, path, target, {Path(path).name: includes})
-        return target
+        return self._compiled("pch", self.headers_command(), headers_path(step), includes)
 
     def headers_command(self) -> list[str]:
         """How these are compiled; the page does it, too, when a student includes something else."""
