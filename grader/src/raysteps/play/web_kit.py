@@ -189,8 +189,8 @@ class WebKit:
 
     @cached_property
     def _common_mark(self) -> str:
-        """What every source may read: the compiler's files and libraries. And the names of all headers: a new one may be
-        found before another, or by __has_include."""
+        """What every source may read: the compiler's files and libraries. And the names of all headers: a new one may
+        be found before another, or by __has_include."""
         own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
         return _digest(self._clang.wasm.parent.parent.name, self.libraries.name, *sorted(map(self._name, own)))
 
