@@ -10,7 +10,7 @@ from raysteps.course.project import Project
 from raysteps.play import web_kit
 from raysteps.play.packages import clear, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import Source, Wanted, WebKit, own_headers
+from raysteps.play.web_kit import Source, Wanted, WebKit, looked_for
 
 pytestmark = pytest.mark.portable
 
@@ -78,7 +78,7 @@ def test_another_library_is_another_folder(include: Path, tmp_path: Path) -> Non
     deep = include / "glm" / "detail" / "type.inl"
 
     def libraries() -> Path:
-        return WebKit(Project(tmp_path), WebClang(tmp_path, tmp_path)).libraries
+        return WebKit(Project(tmp_path), WebClang(tmp_path, tmp_path / "cache")).libraries
 
     before = libraries()
     assert _cache(before) == [
@@ -96,11 +96,15 @@ def test_another_library_is_another_folder(include: Path, tmp_path: Path) -> Non
     assert (before / "glm" / "detail" / "type.inl").read_text() == "type.inl"
 
 
+def _include(name: str) -> str:
+    return f'#include "{name}.hpp"\n'
+
+
 class _Clang(WebClang):
     """Makes of a source the texts of all that it includes, and tells what it has read as clang does."""
 
     def __init__(self, root: Path) -> None:
-        super().__init__(root, root)
+        super().__init__(root, root / "cache")
         self.compiled: list[str] = []
 
     @property
@@ -127,7 +131,7 @@ class _Clang(WebClang):
 def test_what_is_compiled_anew_has_read_what_changed(tmp_path: Path) -> None:
     project = Project(tmp_path)
     clang = _Clang(tmp_path)
-    texts = {"a.cpp": '"a.hpp"', "b.cpp": '"b.hpp"', "a.hpp": '"c.hpp"', "b.hpp": "b", "c.hpp": "c"}
+    texts = {"a.cpp": _include("a"), "b.cpp": _include("b"), "a.hpp": _include("c"), "b.hpp": "b", "c.hpp": "c"}
     for name, text in texts.items():
         (tmp_path / "framework").mkdir(exist_ok=True)
         (tmp_path / "framework" / name).write_text(text)
@@ -137,29 +141,47 @@ def test_what_is_compiled_anew_has_read_what_changed(tmp_path: Path) -> None:
         kit = WebKit(project, clang)
         clang.compiled.clear()
         objects = [kit._made(Wanted(Source(f"framework/{name}"))) for name in ("a.cpp", "b.cpp")]
-        clear(tmp_path / "build" / "play", kit.used)
+        clear(tmp_path / "cache", kit.used)
         return [name.removeprefix("/kit/framework/") for name in clang.compiled], [one.read_text() for one in objects]
 
     def write(name: str, text: str) -> None:
         (tmp_path / "framework" / name).write_text(text)
 
-    assert made() == (["a.cpp", "b.cpp"], ['"a.hpp""c.hpp"c', '"b.hpp"b'])
+    assert made() == (["a.cpp", "b.cpp"], [f"{_include('a')}{_include('c')}c", f"{_include('b')}b"])
     assert made()[0] == []
     write("c.hpp", "other")
-    assert made() == (["a.cpp"], ['"a.hpp""c.hpp"other', '"b.hpp"b'])
+    assert made() == (["a.cpp"], [f"{_include('a')}{_include('c')}other", f"{_include('b')}b"])
     write("c.hpp", "c")
-    assert made() == ([], ['"a.hpp""c.hpp"c', '"b.hpp"b']), "what was made before is still there"
-    write("b.hpp", '"c.hpp"')
+    assert made() == ([], [f"{_include('a')}{_include('c')}c", f"{_include('b')}b"]), (
+        "what was made before is still there"
+    )
+    write("b.hpp", _include("c"))
     assert made()[0] == ["b.cpp"]
     write("c.hpp", "both")
-    assert made() == (["a.cpp", "b.cpp"], ['"a.hpp""c.hpp"both', '"b.hpp""c.hpp"both'])
-    write("a.cpp", '"b.hpp"')
+    assert made()[0] == ["a.cpp", "b.cpp"]
+    write("a.cpp", _include("b"))
     assert made()[0] == ["a.cpp"]
     write("new.hpp", "")
-    assert made()[0] == ["a.cpp", "b.cpp"], "it might be found in place of another"
+    assert made()[0] == []
+    (tmp_path / "c.hpp").touch()
+    assert made()[0] == ["a.cpp", "b.cpp"], "where it was looked for, too"
 
 
-def test_what_a_compiler_has_read_of_the_kit() -> None:
+def test_what_a_compiler_has_looked_for(tmp_path: Path) -> None:
+    ray, own = tmp_path / "framework/core/ray.hpp", tmp_path / "steps/01-y/y.hpp"
+    for path, text in ((ray, "#include <vector>\n"), (own, '#if __has_include("a/b.hpp")\n')):
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
     first, second = "/parts/a.hpp /kit/framework/core/ray.hpp", "/kit/steps/02-x/../01-y/y.hpp /usr/include/cmath"
-    told = f"made: {first} \\\n  {second} \\\n /work/b\n"
-    assert own_headers(told) == ["framework/core/ray.hpp", "steps/01-y/y.hpp"]
+    assert looked_for(tmp_path, f"made: {first} \\\n  {second} \\\n /work/b\n") == [
+        "a/b.hpp",
+        "framework/a/b.hpp",
+        "framework/absent/a/b.hpp",
+        "framework/absent/vector",
+        "framework/core/ray.hpp",
+        "framework/core/vector",
+        "framework/vector",
+        "steps/01-y/a/b.hpp",
+        "steps/01-y/y.hpp",
+        "vector",
+    ]

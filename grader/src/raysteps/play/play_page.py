@@ -152,11 +152,13 @@ def first_includes(source: str) -> str:
 class PlayPage:
     """Puts the page together in a folder."""
 
-    def __init__(self, project: Project, registry: str, say: Say = lambda text: None) -> None:
+    def __init__(
+        self, project: Project, registry: str, say: Say = lambda text: None, cache: Path | None = None
+    ) -> None:
         self._project = project
         self._registry = registry
         self._say = say
-        self._cache = project.build / "play"
+        self._cache = cache or project.build / "play"
         self._packages = self._cache / "packages"
         self._clang = WebClang(fetch(CLANG, self._packages, registry, say), self._cache, say)
         self._kit = WebKit(project, self._clang, say)

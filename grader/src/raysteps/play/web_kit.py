@@ -27,7 +27,8 @@ from raysteps.toolchain.cmake import release_tree
 
 # Folders by the names that the compiler knows them by, here and in the page.
 _KIT, _LIBRARIES, _PARTS, _WORK = "/kit", "/libraries", "/parts", "/work"
-_INCLUDES = ("-I", f"{_KIT}/framework", "-I", _KIT, "-isystem", _LIBRARIES)
+_OWN_FOLDERS = ("framework", ".", "framework/absent")  # the last has the headers of steps that a students' kit lacks
+_INCLUDES = (*(f"-I{posixpath.normpath(f'{_KIT}/{name}')}" for name in _OWN_FOLDERS), "-isystem", _LIBRARIES)
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno-unused-parameter")
 _QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
@@ -101,9 +102,7 @@ class Sources:
         defined = [
             f"-D{word[2:]}" for word in words if re.match(r"[-/]D\w", word) and not word[2:].startswith("NDEBUG")
         ]
-        inside = [Path(folder).resolve() for folder in _folders(words)]
-        own = [folder for folder in inside if folder.is_relative_to(self._root / "framework")]
-        return (*defined, *(f"-I{_KIT}/{self._inside(folder)}" for folder in own))
+        return tuple(defined)
 
     def folders_of_others(self) -> list[Path]:
         """Where libraries' headers were found."""
@@ -113,10 +112,20 @@ class Sources:
         return [*outside, *fetched, *map(Path, _USUAL_FOLDERS)]
 
 
-def own_headers(made_of: str) -> list[str]:
-    """The kit's own files, from its root, in what a compiler writes for Make about what it has read."""
+_ASKED = re.compile(r"""include\s*\(?\s*[<"]([^">]+)[">]""")  # by #include and by __has_include
+
+
+def looked_for(root: Path, made_of: str) -> list[str]:
+    """Files of the kit, from its root, on which a result depends: those that the compiler has read, as it writes them
+    for Make, and all names below which it may have looked for what these include, found or not."""
     paths = made_of.partition(":")[2].replace("\\\n", " ").split()
-    return [posixpath.relpath(path, _KIT) for path in paths if path.startswith(f"{_KIT}/")]
+    read = [posixpath.relpath(path, _KIT) for path in paths if path.startswith(f"{_KIT}/")]
+    names = set(read)
+    for name in read:
+        folders = (posixpath.dirname(name), *_OWN_FOLDERS)
+        asked = _ASKED.findall((root / name).read_text("utf-8"))
+        names.update(posixpath.normpath(f"{folder}/{one}") for folder in folders for one in asked)
+    return sorted(names)
 
 
 def _digest(*words: str) -> str:
@@ -146,7 +155,7 @@ class WebKit:
         self._sources = Sources(project)
         self.steps = read_all_steps(project)
         self.model = "reference" if project.has_reference else "stub"
-        self._cache = project.build / "play"
+        self._cache = clang.cache
         self._used: set[Path] = set()
         self._header_marks: dict[str, str] = {}
         self._turn = threading.Lock()  # to compile headers, which several sources wait for
@@ -189,10 +198,8 @@ class WebKit:
 
     @cached_property
     def _common_mark(self) -> str:
-        """What every source may read: the compiler's files and libraries. And the names of all headers: a new one may
-        be found before another, or by __has_include."""
-        own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
-        return _digest(self._clang.wasm.parent.parent.name, self.libraries.name, *sorted(map(self._name, own)))
+        """Of what every source may read: the compiler's files and libraries."""
+        return _digest(self._clang.wasm.parent.parent.name, self.libraries.name)
 
     def _name(self, path: Path) -> str:
         return path.relative_to(self._project.root).as_posix()
@@ -200,7 +207,7 @@ class WebKit:
     def _header_mark(self, name: str) -> str:
         if name not in self._header_marks:
             path = self._project.root / name
-            self._header_marks[name] = _digest(path.read_text("utf-8") if path.is_file() else "")
+            self._header_marks[name] = _digest(path.read_text("utf-8")) if path.is_file() else "none"
         return self._header_marks[name]
 
     def _place(self, mark: str, ending: str) -> Path:
@@ -233,8 +240,8 @@ class WebKit:
             return self._compiled("pch", words, f"{_PARTS}/{text.name}", wanted.headers)
 
     def _compiled(self, ending: str, words: Sequence[str], path: str, text: str) -> Path:
-        """What the compiler makes of a source with this text: anew when the text has changed, or one of the headers
-        that it included the last time."""
+        """What the compiler makes of a source with this text: anew when the text has changed, or a header that it read
+        the last time, or where one is now that would have been found before."""
         listed = self._kept("headers", self._common_mark, path, text, *words)
         target = self._by_headers(listed, ending) if listed.is_file() else None
         if target is None or not target.is_file():
@@ -245,8 +252,8 @@ class WebKit:
                 more = ["-dependency-file", f"{_WORK}/read", "-MT", "made"]
                 command = [*(named.get(word, word) for word in words), *more]
                 self._clang.make(command, {**self._places, _WORK: Path(folder)})
-                own = own_headers((Path(folder) / "read").read_text("utf-8"))
-                write_bytes(listed, "".join(f"{name}\n" for name in own).encode())
+                names = looked_for(self._project.root, (Path(folder) / "read").read_text("utf-8"))
+                write_bytes(listed, "".join(f"{name}\n" for name in names).encode())
                 target = self._by_headers(listed, ending)
                 write_bytes(target, (Path(folder) / "made").read_bytes())
         self._used.add(target.with_suffix(""))
@@ -254,7 +261,7 @@ class WebKit:
 
     def _by_headers(self, listed: Path, ending: str) -> Path:
         """Where what was made with these headers lies."""
-        marks = [self._header_mark(name) for name in listed.read_text("utf-8").splitlines()]
+        marks = [f"{name} {self._header_mark(name)}" for name in listed.read_text("utf-8").splitlines()]
         return self._place(_digest(listed.stem, *marks), ending)
 
     def _wanted(self) -> dict[str, list[Wanted]]:
@@ -262,9 +269,8 @@ class WebKit:
         of = self._sources.of
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
         web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
-        words = of("raysteps-render")[0].words  # where headers of steps are that a students' kit lacks
         parts = {
-            "web": [Wanted(Source(self._name(path), words), flags=(*_WARNINGS, "-Werror")) for path in web],
+            "web": [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in web],
             "kit": [
                 *(Wanted(source, headers=_KIT_HEADERS) for source in libraries),
                 *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in of("raytrace-app")),
