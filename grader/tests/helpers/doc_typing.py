@@ -159,5 +159,11 @@ class Typist:
             "HOME": str(self.workshop.home),
             "PYTHONPATH": str(package / "grader" / "src"),
         }
-        start = ["env", "-u", "RAYSTEPS_COURSE", *(f"{name}={value}" for name, value in settings.items()), *self._course]
+        start = [
+            "env",
+            "-u",
+            "RAYSTEPS_COURSE",
+            *(f"{name}={value}" for name, value in settings.items()),
+            *self._course,
+        ]
         return typed_at([*start, *words], here, ending or Ending())

@@ -1,6 +1,7 @@
 """The whole page in a real browser: write, compile, test, draw, stop, keep."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -18,13 +19,16 @@ import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
 from play_pages import STARTED, save, says, with_packages, write
 
+from raysteps.cli.render import build_program
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import missing_message, undefined_message
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer, publish
+from raysteps.report.wording import inspect_options
 from raysteps.submission.load import load_submission
+from raysteps.toolchain.cmake import release_tree
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -310,6 +314,69 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
     save(page, solved[step.id])
     _says(page, rf"Step {step.number} is right", timeout=STARTED)
     expect(panel).to_have_count(0)
+
+
+def test_a_pixel_is_followed_to_its_end(
+    page: "Page", steps: list[Step], solved: dict[str, str], project: Project
+) -> None:
+    from playwright.sync_api import expect
+
+    step = steps[5]
+    page.locator("#play-step").select_option(step.number)
+    _says(page, rf"Step {step.number}: 0 of \d+ tests pass", timeout=STARTED)
+    save(page, solved[step.id])
+    _says(page, rf"Step {step.number} is right", timeout=STARTED)
+    picture = page.locator("#play-first .play-picture")
+    stage = picture.locator(".compare-stage").bounding_box()
+    assert stage is not None
+    page.mouse.click(stage["x"] + 0.4 * stage["width"], stage["y"] + 0.55 * stage["height"])
+    button = picture.get_by_role("button", name="Look inside pixel")
+    x, y = re.findall(r"\d+", button.inner_text())
+    button.click()
+    dialog = page.get_by_role("dialog", name=f"Inside pixel ({x}, {y}) of {step.images[0].name}")
+    rays = dialog.locator(".ray-title")
+    expect(rays.first).to_have_text("eye ray", timeout=STARTED)
+
+    case = step.images[0]
+    program = build_program(release_tree(project), "inspect", "reference")
+    words = [program, project.root / case.scene, x, y, *inspect_options(case.args)]
+    native = subprocess.run(words, check=True, capture_output=True, text=True).stdout
+    lines = [" ".join(line.split()) for line in native.splitlines() if line.strip()]
+    shown = dialog.locator("summary, .inside-line, div.ray, .boxes li")
+    found = [" ".join(text.removesuffix(_SHOW).split()) for text in shown.evaluate_all(_TEXTS)]
+    texts = ["\n".join(one[1:]) for one in (found, lines)]  # the first line says where the scene lies
+    words_here, words_there = (re.sub(_NUMBER, "#", text) for text in texts)
+    assert words_here == words_there, "what the native program prints"
+    here, there = ([float(number) for number in re.findall(_NUMBER, text)] for text in texts)
+    assert here == pytest.approx(there, rel=1e-3, abs=1e-4)  # mirrors amplify how a sine is rounded
+    assert rays.count() == len([line for line in lines if re.match(r".* ray\b.* from ", line)])
+
+    boxes = dialog.locator(".boxes").first
+    boxes.locator("summary").click()
+    box = boxes.locator("li[data-box]").last
+    box.click()
+    expect(dialog.locator("[data-part=box]")).to_have_text(
+        re.compile(rf"Box {box.get_attribute('data-box')} of \d+, .*: entered\.")
+    )
+    dialog.get_by_role("button", name="Show the reflected ray, depth 2").click()
+    expect(dialog.locator("[data-part=ray]")).to_have_text("reflected ray, depth 2")
+    assert_accessible(page)
+    page.emulate_media(color_scheme="dark")
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+    expect(button).to_be_focused()
+
+    save(page, "int broken")
+    _says(page, r"It does not compile\.", timeout=STARTED)
+    expect(button).to_be_disabled()
+
+
+_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?"
+_SHOW = " Show the shadow ray on the stage"
+_TEXTS = "found => found.map(element => element.textContent)"
 
 
 def test_one_tab_writes_and_the_other_reads(page: "Page", server: PlayServer, solved: dict[str, str]) -> None:

@@ -23,10 +23,12 @@ from raysteps.grading.build_messages import missing_message, twice_message, unde
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
+from raysteps.inspector.pixel_page import SPACE_SCRIPTS
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
+from raysteps.report.wording import inspect_options
 
 Say = Callable[[str], None]
 
@@ -216,8 +218,8 @@ class PlayPage:
             "play",
             "Raysteps",
             {},
-            scripts=(*COMPARE_SCRIPTS, "watch-parts"),
-            styles=(*COMPARE_STYLES, "watch", "play", "figures"),
+            scripts=(*COMPARE_SCRIPTS, "watch-parts", *SPACE_SCRIPTS),
+            styles=(*COMPARE_STYLES, "watch", "inspect", "play", "figures"),
             data=content,
             module="play.js",
         )
@@ -276,6 +278,7 @@ class PlayPage:
             "name": case.name,
             "scene": self._add(f"scenes/{scene.name}", scene.read_bytes()),
             "args": list(args),
+            "inspect": inspect_options(args),
             "reference": name,
             "width": width,
             "height": height,

@@ -34,6 +34,7 @@ _QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
 _TESTING = (_QUIET, "-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
 _MAIN = "-Dmain="
+_EXCEPTIONS = "framework/web/exceptions.cpp"  # which all programs need
 _TEST_MAIN, _RAYTRACE = f"{_MAIN}test_main", (_QUIET, f"{_MAIN}raytrace_main")
 # Libraries that are headers only: the folder or file of each, and where packages put it.
 _HEADERS = {
@@ -268,12 +269,17 @@ class WebKit:
         """What is to be made, by the name of the part that it belongs to."""
         of = self._sources.of
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
-        web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
+        paths = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
+        web = [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in paths]
+        raytrace = of("raytrace-app")
+        inspect = [*of("inspect-app"), *of("raysteps-inspect-recorded"), *of("raysteps-inspect")]
         parts = {
-            "web": [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in web],
+            "web": [one for one in web if one.source.path != _EXCEPTIONS],
+            "exceptions": [one for one in web if one.source.path == _EXCEPTIONS],
+            "inspect": [Wanted(source, headers=_KIT_HEADERS) for source in inspect if source not in raytrace],
             "kit": [
                 *(Wanted(source, headers=_KIT_HEADERS) for source in libraries),
-                *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in of("raytrace-app")),
+                *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in raytrace),
                 *(Wanted(source, "-O1", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
             ],
         }
@@ -287,7 +293,7 @@ class WebKit:
 
     @cached_property
     def _objects(self) -> dict[str, list[Path]]:
-        """`kit`, `web`, `test-NN` and `step-NN`."""
+        """`kit`, `web`, `exceptions`, `inspect`, `test-NN` and `step-NN`."""
         parts = self._wanted()
         total, done = sum(map(len, parts.values())), 0
         _ = self._commands, self._places, self._common_mark  # before several ask for them at once
@@ -343,7 +349,7 @@ class WebKit:
 
     def _program(self, step: Step) -> Path:
         """With the visible tests of the step; every step is the model's."""
-        names = ["web", *(f"step-{other.number}" for other in self.steps), f"test-{step.number}"]
+        names = ["web", "exceptions", *(f"step-{other.number}" for other in self.steps), f"test-{step.number}"]
         inputs = [*(path for name in names for path in self._objects[name]), self._archive]
         target = self._kept("wasm", *(path.name for path in inputs))
         if not target.is_file():

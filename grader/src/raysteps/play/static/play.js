@@ -2,8 +2,9 @@
 
 import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
+import { Inside } from "./inside.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
-import { Compiler, Runner } from "./programs.js";
+import { Compiler, Runner, whyNothing } from "./programs.js";
 import { linkerWords, readReport } from "./report.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
@@ -32,21 +33,6 @@ function problemsIn(text) {
     severity: kind === "note" ? "info" : kind,
     message,
   }));
-}
-
-/** Why a run gave nothing, in words; `what` is what it was to give. */
-function whyNothing(ran, what) {
-  if (ran.stopped === "time") {
-    return `${what} was not ready in time. ${data.words.endless}`;
-  }
-  if (ran.stopped) {
-    return `${what} was stopped.`;
-  }
-  if (ran.crashed) {
-    return `${what} was not made: the program crashed (${ran.crashed}).`;
-  }
-  const said = ran.stderr.trim().split("\n").at(-1);
-  return `${what} was not made: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
 }
 
 /** Where the page is published, a service worker keeps its files. */
@@ -78,6 +64,7 @@ class Page {
   #tester = new Runner();
   #painter = new Runner();
   #figures = new Figures();
+  #inside = null;
   #keepTimer = 0;
   #run = 0; // counts runs: what an older one finds is not shown
   #files = new Map();
@@ -87,6 +74,7 @@ class Page {
     this.#work = await Work.open("raysteps-play");
     this.#editor = new Editor(element("play-editor"), "Source of the step", () => this.#changed());
     this.#compiler = new Compiler(data.kit, (part) => this.#loading(part));
+    this.#inside = new Inside(this.#compiler, data.words.endless);
     for (const step of data.steps) {
       element("play-step").append(new Option(`${step.number} ${step.title}`, step.number));
     }
@@ -354,6 +342,7 @@ class Page {
     this.#tester.stop("hand");
     this.#painter.stop("hand");
     this.#figures.stop();
+    this.#inside.stop();
     this.#say("idle", "Stopped.");
   }
 
@@ -385,6 +374,7 @@ class Page {
         return;
       }
       this.#figures.built(module);
+      this.#inside.built(step, sources);
       this.#say("busy", "Testing and drawing ...");
       element("play-console").textContent = "";
       const current = () => run === this.#run;
@@ -470,7 +460,7 @@ class Page {
         }
         const ran = await ask([name.replace(/([\\,["])/g, "\\$1")]);
         const [found] = (ran.code === undefined ? null : reportOf(ran)) ?? [];
-        results.push(found ?? { name, passed: false, message: whyNothing(ran, "The test") });
+        results.push(found ?? { name, passed: false, message: whyNothing(ran, "The test", data.words.endless) });
         this.#print(ran);
       }
     }
@@ -564,6 +554,7 @@ class Page {
         make("p", { class: "play-words" }),
         make("div", { class: "play-pair" }, canvas, goal),
       );
+      this.#inside.offer(root, picture, () => this.#fileOf(picture.scene));
       element(picture === this.#step.pictures[0] ? "play-first" : "play-pictures").append(root);
     }
     const [canvas] = root.getElementsByTagName("canvas");
@@ -605,7 +596,7 @@ class Page {
     const reference = await readImage(picture.reference);
     const verdict = mine
       ? compare(mine, reference, picture.maxWrong)
-      : { passed: false, message: whyNothing(ran, "The picture") };
+      : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
       const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));
