@@ -432,9 +432,81 @@ def test_a_saved_zip_is_opened_and_the_next_step_comes(
     _says(page, r"no\.zip cannot be read\. Expected a zip that this page saved, or one that you hand in\.")
 
 
+# The browser's own folder in place of one that a reader would choose; and what another program does there.
+_PICKER = """window.showDirectoryPicker = async () =>
+    (await navigator.storage.getDirectory()).getDirectoryHandle("course", { create: true });"""
+_FILE = """async ([path, text]) => {
+    const names = path.split("/");
+    let folder = await window.showDirectoryPicker();
+    for (const name of names.slice(0, -1)) folder = await folder.getDirectoryHandle(name, { create: true });
+    const file = await folder.getFileHandle(names.at(-1), { create: true });
+    if (text === null) return (await file.getFile()).text();
+    const stream = await file.createWritable();
+    await stream.write(text);
+    return stream.close();
+}"""
+
+
+def test_a_folder_on_disk_and_the_page_follow_each_other(
+    watched: Watched, server: PlayServer, steps: list[Step], solved: dict[str, str]
+) -> None:
+    from playwright.sync_api import expect
+
+    first, second = (f"steps/{step.path.as_posix()}" for step in steps[:2])
+    right = solved[steps[0].id]
+    watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
+    page = watched.open(server.address, before=_PICKER)
+    kept, both, back = (page.locator(f"#play-{name}") for name in ("kept", "both", "back"))
+    _says(page, r"0 of 12 tests pass", timeout=STARTED)
+
+    def on_disk(path: str, text: str | None = None) -> str:
+        return str(page.evaluate(_FILE, [path, text]))
+
+    on_disk(second, "// of the native kit\r\n")
+    save(page, right)
+    _says(page, r"Step 01 is right")
+    page.get_by_role("button", name="Link a folder").click()
+    expect(kept).to_have_text("Saved in course.")
+    assert on_disk(first) == right, "what is in the page only"
+    _says(page, r"Step 01 is right")
+
+    on_disk(first, right.replace("\n", "\r\n") + "// native\r\n")
+    page.evaluate("dispatchEvent(new Event('focus'))")
+    expect(kept).to_have_text("Taken from course, where it was changed.")
+    _says(page, r"Step 01 is right")
+    on_disk(first, "// theirs\n")
+    save(page, f"{right}// mine\n")
+    expect(both).to_be_visible()
+    assert on_disk(first) == "// theirs\n", "as long as nobody has said which one"
+    assert_accessible(page)
+    page.get_by_role("button", name="Keep what is here").click()
+    expect(kept).to_have_text("Saved in course.")
+    assert on_disk(first) == f"{right}// mine\n"
+    expect(back).to_be_visible()  # theirs
+    on_disk(first, "// theirs again\n")
+    write(page, "// mine again\n")
+    page.evaluate("dispatchEvent(new Event('focus'))")
+    page.get_by_role("button", name="Take the file").click()
+    _says(page, r"It does not compile\.")
+    assert _source(page).split() == ["//", "theirs", "again"]
+    back.click()
+    expect(kept).to_have_text("Saved in course.")
+    assert on_disk(first) == "// mine again\n"
+
+    page.reload()
+    unlink = page.get_by_role("button", name="Unlink course")
+    expect(unlink).to_be_visible()
+    page.locator("#play-step").select_option("02")
+    expect(page.locator(".cm-content")).to_have_text("// of the native kit")
+    unlink.click()
+    expect(page.get_by_role("button", name="Link a folder")).to_be_visible()
+
+
 def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     watched.allowed.append(server.address)
-    page = watched.open(server.address, width=390, scheme="dark", touch=True)
+    no_folders = "delete window.showDirectoryPicker;"
+    page = watched.open(server.address, width=390, scheme="dark", touch=True, before=no_folders)
     _says(page, r"0 of 12 tests pass", timeout=STARTED)
+    assert not page.locator("#play-folder").is_visible()
     assert_no_sideways_scrolling(page)
     assert_accessible(page)

@@ -2,6 +2,7 @@
 
 import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
+import { DiskFolder } from "./folder.js";
 import { Inside } from "./inside.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner, whyNothing } from "./programs.js";
@@ -65,13 +66,16 @@ class Page {
   #painter = new Runner();
   #figures = new Figures();
   #inside = null;
+  #disk = null;
   #keepTimer = 0;
+  #kept = ""; // the text that needs no keeping
   #run = 0; // counts runs: what an older one finds is not shown
   #files = new Map();
 
   async start() {
     await keepFiles(); // those that come next, too
     this.#work = await Work.open("raysteps-play");
+    this.#disk = new DiskFolder(this.#work);
     this.#editor = new Editor(element("play-editor"), "Source of the step", () => this.#changed());
     this.#compiler = new Compiler(data.kit, (part) => this.#loading(part));
     this.#inside = new Inside(this.#compiler, data.words.endless);
@@ -88,6 +92,10 @@ class Page {
     element("play-save").addEventListener("click", () => this.#saveZip());
     element("play-load").addEventListener("click", () => element("play-zip").click());
     element("play-zip").addEventListener("change", (event) => this.#openZip(event.target));
+    element("play-folder").addEventListener("click", () => this.#link());
+    element("play-theirs").addEventListener("click", () => this.#settle(true));
+    element("play-ours").addEventListener("click", () => this.#settle(false));
+    addEventListener("focus", async () => (await this.#sync(false)) && this.run());
     element("play-next").addEventListener("click", () => {
       location.hash = this.#next.number;
     });
@@ -106,6 +114,10 @@ class Page {
         this.run();
       }
     });
+    if (DiskFolder.isThere()) {
+      await this.#disk.reopen();
+      this.#tellFolder();
+    }
     await this.#open();
     await this.run();
   }
@@ -144,6 +156,7 @@ class Page {
     }
     element("play-console").textContent = "";
     this.#offer(old);
+    await this.#sync(false);
     if (before) {
       await this.run();
     }
@@ -156,6 +169,7 @@ class Page {
   /** The text of the step, which can be changed if this tab is the one that writes it. */
   #show(source, isMine) {
     this.#isMine = isMine;
+    this.#kept = source;
     this.#editor.load(source, this.#step.names, !isMine);
     element("play-elsewhere").hidden = isMine;
     for (const room of ["play-reset", "play-back", "play-load"]) {
@@ -189,12 +203,10 @@ class Page {
 
   async #keep() {
     clearTimeout(this.#keepTimer);
-    if (
-      this.#step &&
-      this.#isMine &&
-      (this.#editor.text !== this.#step.stub || (await this.#work.read(this.#step.id)))
-    ) {
-      await this.#work.write(this.#step.id, this.#editor.text);
+    const { text } = this.#editor;
+    if (this.#step && this.#isMine && text !== this.#kept) {
+      this.#kept = text;
+      await this.#work.write(this.#step.id, text);
       element("play-kept").textContent = "Kept in this browser.";
     }
   }
@@ -218,7 +230,7 @@ class Page {
     if (step !== this.#step) {
       return;
     }
-    this.#editor.load(step.stub, step.names);
+    this.#show(step.stub, true);
     this.#offer(old);
     await this.#work.forget(step.id);
     await this.run();
@@ -232,7 +244,7 @@ class Page {
       return;
     }
     const old = this.#editor.text;
-    this.#editor.load(text, step.names);
+    this.#show(text, true);
     this.#editor.focus(); // the button may be gone
     this.#offer(old);
     await this.#work.write(step.id, text);
@@ -296,6 +308,122 @@ class Page {
     element("play-kept").textContent = `${zip.name}: ${found}.${elsewhere}`;
   }
 
+  // A folder on disk.
+
+  #tellFolder() {
+    const { name, isLinked } = this.#disk;
+    const button = element("play-folder");
+    button.hidden = false;
+    button.textContent = isLinked ? `Unlink ${name}` : name ? `Go on with ${name}` : "Link a folder";
+    if (!isLinked) {
+      element("play-both").hidden = true;
+    }
+  }
+
+  /** The button: takes a folder, goes on with the one of the last visit, or leaves it. */
+  async #link() {
+    try {
+      if (this.#disk.isLinked) {
+        await this.#disk.forget(data.steps);
+      } else if (this.#disk.name) {
+        await this.#disk.reopen(true);
+      } else {
+        await this.#disk.choose(data.steps);
+      }
+    } catch (error) {
+      if (error.name !== "AbortError") {
+        element("play-kept").textContent = `The folder cannot be linked: ${error.message}`;
+      }
+    }
+    this.#tellFolder();
+    if (this.#disk.isLinked) {
+      await this.#syncOthers();
+      await this.run();
+    }
+  }
+
+  async #onDisk(action) {
+    try {
+      return await action();
+    } catch (error) {
+      this.#disk.close();
+      this.#tellFolder();
+      element("play-kept").textContent = `${this.#disk.name} cannot be used: ${error.message}`;
+      return null;
+    }
+  }
+
+  /** Takes the open step from the folder where only the file was changed, and `writes` it there where only the page's
+   * text was; where both were, the reader is asked. Whether there is another text now. */
+  async #sync(writes) {
+    const [step, mine] = [this.#step, this.#editor.text];
+    if (!this.#disk.isLinked || !this.#isMine) {
+      return false;
+    }
+    const found = await this.#onDisk(() => this.#disk.changes(step, mine));
+    if (!found || step !== this.#step || mine !== this.#editor.text) {
+      return false; // it was typed in meanwhile, and is looked at again
+    }
+    element("play-both").hidden = found.by !== "both";
+    if (found.by === "disk") {
+      await this.#replace(found.text);
+      await this.#disk.accept(step, found.text);
+      element("play-kept").textContent = `Taken from ${this.#disk.name}, where it was changed.`;
+      return true;
+    }
+    if (found.by === "page" && writes && (found.text !== null || mine !== step.stub)) {
+      await this.#onDisk(() => this.#disk.write(step, mine));
+      element("play-kept").textContent = this.#disk.isLinked ? `Saved in ${this.#disk.name}.` : "";
+    }
+    return false;
+  }
+
+  /** Likewise for the steps that are not open; what was changed on both sides waits until it is. */
+  async #syncOthers() {
+    for (const step of data.steps.filter((one) => one !== this.#step)) {
+      if (!(await Turn.isFree(turnOf(step)))) {
+        continue;
+      }
+      const kept = await this.#work.read(step.id);
+      const found = await this.#onDisk(() => this.#disk.changes(step, kept ?? step.stub));
+      if (found?.by === "disk") {
+        await this.#work.write(step.id, found.text);
+        await this.#disk.accept(step, found.text);
+      } else if (found?.by === "page" && kept) {
+        await this.#onDisk(() => this.#disk.write(step, kept));
+      }
+    }
+  }
+
+  /** Another text for the open step; the one that stood there can be brought back. */
+  async #replace(text) {
+    const [step, old] = [this.#step, this.#editor.text];
+    await this.#work.write(replaced(step), old);
+    await this.#work.write(step.id, text);
+    if (step === this.#step) {
+      this.#show(text, this.#isMine);
+      this.#offer(old);
+    }
+  }
+
+  /** Both were changed, and the reader has chosen. */
+  async #settle(isTheirs) {
+    const [step, mine] = [this.#step, this.#editor.text];
+    const found = await this.#onDisk(() => this.#disk.changes(step, mine));
+    if (found?.by === "both") {
+      await this.#disk.accept(step, found.text); // so that only the page's text is another one
+      if (isTheirs) {
+        await this.#replace(found.text);
+      } else {
+        await this.#work.write(replaced(step), found.text);
+        this.#offer(found.text);
+      }
+    }
+    element("play-both").hidden = true;
+    this.#editor.focus(); // the button is gone
+    await this.run();
+  }
+
   #hint() {
     const room = element("play-hints");
     const text = this.#step.hints[room.childElementCount];
@@ -353,6 +481,7 @@ class Page {
     const start = performance.now();
     try {
       await this.#keep();
+      await this.#sync(true);
       this.#say("busy", "Loading the compiler ...");
       await this.#compiler.prepare();
       const sources = await this.#sourcesFor(step);
