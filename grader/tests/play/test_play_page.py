@@ -120,6 +120,18 @@ def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str
     expect(failed).to_contain_text("point_at walks along the ray")
     expect(failed.locator("dd").first).to_have_text("point_at(ray, 0) = (1, 2, 3) within 0.00037")
     expect(failed).to_contain_text("expected: origin + distance * direction")
+    failed.get_by_role("link", name="camera_rays_test.cpp:").click()
+    test = page.get_by_role("dialog", name="steps/01-camera-rays/camera_rays_test.cpp")
+    expect(test.locator("mark")).to_contain_text("point_at(ray")
+    expect(test.locator("mark")).to_be_in_viewport()
+    assert_accessible(page)
+    test.get_by_role("button", name="Close").click()
+    page.locator("#play-handout").get_by_role("link", name="framework/core/camera.hpp").click()
+    header = page.get_by_role("dialog", name="framework/core/camera.hpp")
+    expect(header).to_contain_text("struct ViewFrame {")
+    page.keyboard.press("Escape")
+    page.locator("#play-texts").get_by_role("link", name="camera_rays.hpp").click()
+    expect(page.get_by_role("dialog")).to_contain_text("glm::vec3 point_at(const Ray& ray, float distance);")
 
 
 def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> None:
@@ -128,7 +140,9 @@ def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> No
     wrong = solved["01-camera-rays"].replace(_POINT, "return ray.orgin;")
     line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
     save(page, wrong)
+    expect(page.locator("#play-stale")).to_be_hidden()
     _says(page, r"It does not compile\.")
+    expect(page.locator("#play-stale")).to_be_visible()
     expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
     expect(page.locator(".cm-lintRange-error")).to_have_text("orgin")
     page.locator("#play-problems button").first.click()

@@ -6,6 +6,7 @@ import { DiskFolder } from "./folder.js";
 import { Inside } from "./inside.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner, whyNothing } from "./programs.js";
+import { openTexts, textLink } from "./reading.js";
 import { linkerWords, readReport } from "./report.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
@@ -108,6 +109,7 @@ class Page {
       }
     });
     element("play-back").addEventListener("click", () => this.#bringBack());
+    openTexts((error) => this.tellFault(error));
     addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
         event.preventDefault();
@@ -143,10 +145,12 @@ class Page {
     this.stop();
     this.#step = wanted; // and its text with it, without a pause: what is kept is always the step's own
     this.#show(source, isMine);
-    element("play-next").hidden = true;
+    element("play-next").hidden = element("play-stale").hidden = true;
     element("play-step").value = wanted.number;
     document.title = `${wanted.number} ${wanted.title} · Raysteps`;
     element("play-file").textContent = wanted.path;
+    const texts = Object.entries(wanted.texts).map(([name, place]) => textLink(name, place));
+    element("play-texts").replaceChildren(...texts.flatMap((link) => [" ", link]));
     element("play-handout").innerHTML = handout;
     element("play-handout").scrollTop = 0;
     this.#figures.open(wanted.number, element("play-handout"));
@@ -494,6 +498,7 @@ class Page {
         return;
       }
       this.#tellProblems(step, built);
+      element("play-stale").hidden = built.program !== null || !element("play-first").childElementCount;
       if (!built.program) {
         this.#say("bad", built.stopped ?? "It does not compile.");
         return;
@@ -603,6 +608,15 @@ class Page {
   #tellTests(step, results) {
     const open = unfinished(this.#editor.text);
     const functionsOf = Object.fromEntries(step.tests.map(({ name, functions }) => [name, functions]));
+    const linked = (panel) => {
+      for (const room of panel.querySelectorAll("dd")) {
+        const [, name, line] = /^([\w.]+):(\d+)$/.exec(room.textContent) ?? [];
+        if (step.texts[name]) {
+          room.replaceChildren(textLink(name, step.texts[name], line));
+        }
+      }
+      return panel;
+    };
     const isOpen = ({ name, passed }) => !passed && functionsOf[name]?.some((one) => open.has(one));
     const wrong = results.filter((one) => !one.passed && !isOpen(one));
     const waiting = results.filter(isOpen);
@@ -620,13 +634,15 @@ class Page {
         : [];
     element("play-tests").replaceChildren(
       ...wrong.map(({ name, failure, message }) =>
-        watchTest({
-          name,
-          message: message ?? failure?.notes ?? "",
-          expected: failure?.expected,
-          actual: failure?.got,
-          place: failure?.where,
-        }),
+        linked(
+          watchTest({
+            name,
+            message: message ?? failure?.notes ?? "",
+            expected: failure?.expected,
+            actual: failure?.got,
+            place: failure?.where,
+          }),
+        ),
       ),
       ...list(`${waiting.length} wait for a function that is not written yet`, waiting),
       ...list(`${right.length} of ${results.length} tests pass`, right),
