@@ -56,14 +56,20 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
 
     numbers = {step.id: step.number for step in steps}
     for step in steps:
-        text = handout((project.steps / step.id / "README.md").read_text("utf-8"), numbers, shown)
+        text = handout((project.steps / step.id / "README.md").read_text("utf-8"), numbers, shown, lambda name: None)
+        assert text.count("are typed where the kit is installed") == 1, "before the first command"
         assert "../" not in text, step.id
         assert "\ue000" not in text
         assert "<table " in text
     assert all((project.root / path).is_file() for path in asked)
-    text = handout("[next](../02-intersection/README.md) [x](../../docs/judge.md) $a^2$ `$b$`", numbers, shown)
+    text = handout(
+        "[next](../02-intersection/README.md) [x](../../docs/judge.md) $a^2$ `$b$`", numbers, shown, lambda name: None
+    )
     assert '<a href="#02">next</a> x <math' in text
     assert "<code>$b$</code>" in text
+    text = handout("`a.hpp` `b.cpp` `./raysteps` `c::d`", numbers, shown, {"a.hpp": "texts/a.hpp.txt"}.get)
+    assert '<a href="texts/a.hpp.txt" class="play-text"><code>a.hpp</code></a> <code>b.cpp</code> <code>./' in text
+    assert "are typed" not in text
 
 
 _PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">

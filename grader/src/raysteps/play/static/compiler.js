@@ -108,17 +108,17 @@ async function compile(step, source) {
 }
 
 /** Object files and libraries in the order in which the linker shall see them. */
-function linkInputs(number, own) {
-  const parts = [...kit.objects.web, ...own.values()];
+function linkInputs(number, own, inspects) {
+  const parts = [...kit.objects[inspects ? "inspect" : "web"], ...kit.objects.exceptions, ...own.values()];
   for (const [name, paths] of Object.entries(kit.objects)) {
     if (name.startsWith("step-") && !own.has(name.slice("step-".length))) {
       parts.push(...paths);
     }
   }
-  return [...parts, ...kit.objects[`test-${number}`], ...kit.objects.kit];
+  return [...parts, ...(inspects ? [] : kit.objects[`test-${number}`]), ...kit.objects.kit];
 }
 
-async function build({ job, number, sources }) {
+async function build({ job, number, sources, inspects }) {
   const start = performance.now();
   const own = new Map();
   for (const [one, source] of Object.entries(sources)) {
@@ -135,7 +135,7 @@ async function build({ job, number, sources }) {
   }
   const compiledAt = performance.now();
   files.remove("/work/program.wasm");
-  const said = runProgram(clang, filled(kit.link, linkInputs(number, own), "/work/program.wasm"), files);
+  const said = runProgram(clang, filled(kit.link, linkInputs(number, own, inspects), "/work/program.wasm"), files);
   const bytes = said.code === 0 ? files.read("/work/program.wasm").slice() : null;
   if (said.code !== 0) {
     postMessage({ job, says: { number, code: said.code, text: said.stderr } });

@@ -1,6 +1,21 @@
 // The workers that compile and run, and what is done when one of them does not answer: it is ended, and another one
 // takes its place. The page itself never waits.
 
+/** Why a run gave nothing, in words; `what` is what it was to give, `endless` what is asked where it did not end. */
+export function whyNothing(ran, what, endless) {
+  if (ran.stopped === "time") {
+    return `${what} was not ready in time. ${endless}`;
+  }
+  if (ran.stopped) {
+    return `${what} was stopped.`;
+  }
+  if (ran.crashed) {
+    return `${what} was not made: the program crashed (${ran.crashed}).`;
+  }
+  const said = ran.stderr.trim().split("\n").at(-1);
+  return `${what} was not made: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
+}
+
 /** Compiles and links, once it is prepared. One job at a time; a new one ends an old one. */
 export class Compiler {
   #kit;
@@ -47,8 +62,11 @@ export class Compiler {
     });
   }
 
-  /** `{program, says: [{number, code, text}], seconds}`; `stopped` where somebody ended it, or its time was over. */
-  async build(number, sources, limit) {
+  /**
+   * `{program, says: [{number, code, text}], seconds}`; `stopped` where somebody ended it, or its time was over. The
+   * program tests and draws, or it inspects pixels.
+   */
+  async build(number, sources, limit, inspects = false) {
     const job = ++this.#lastJob;
     const says = [];
     return new Promise((resolve, reject) => {
@@ -76,7 +94,7 @@ export class Compiler {
           end(data);
         }
       };
-      this.#worker.postMessage({ job, number, sources });
+      this.#worker.postMessage({ job, number, sources, inspects });
     });
   }
 
