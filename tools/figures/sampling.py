@@ -145,9 +145,9 @@ def disk() -> Drawing:
         640,
         250,
         "300 points of a disk",
-        "Two disks with 300 points each, and a dashed circle at half of the radius. Where the radius is a random number,"
-        " half of the points crowd within that circle. Where it is the root of one, a quarter of them do, and points lie"
-        " evenly.",
+        "Two disks with 300 points each, and a dashed circle at half of the radius. Where the radius is a random"
+        " number, half of the points crowd within that circle. Where it is the root of one, a quarter of them do, and"
+        " points lie evenly.",
     )
     draw = np.random.default_rng(_SEED)
     numbers = draw.random((300, 2))
@@ -257,6 +257,9 @@ def lens() -> Drawing:
     figure.text((240, 243), "focal_distance, along the view", "small t-muted", "middle")
     figure.text((90, 46), "lens", "small", "middle")
     figure.text((398, 40), "plane of focus", "small t-muted")
+    return figure
+
+
 # Step 13: where a path goes on, and what it finds.
 
 
