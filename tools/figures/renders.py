@@ -67,6 +67,8 @@ SHOTS = {
     "10-after": _lesson("three-spheres", "--step", "10", "--samples", "16", "--filter", "mitchell"),
     "11-before": Shot("generated/vase.pbrt", ("--step", "10")),
     "11-after": Shot("generated/vase.pbrt", ("--step", "11")),
+    "12-after": Shot("lessons/soft-shadows.pbrt", ("--step", "12", "--samples", "256")),
+    "12-focus": Shot("lessons/lens.pbrt", ("--step", "12", "--samples", "256")),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 
@@ -78,6 +80,23 @@ def untouched(kit: BuiltKit) -> Pixels:
     return (
         Variant(kit, step, stub_for(kit.project, step)).draw(f"scenes/{shot.scene}.nff", (*shot.args, *_SMALL)).pixels
     )
+
+
+def hard_shadows(kit: BuiltKit) -> Pixels:
+    """The scene of step 12 with lamps that are nearly points, and send as much light."""
+    shot = SHOTS["12-after"]
+    text = (kit.project.scenes / shot.file).read_text(encoding="ascii")
+    for radius, scale in (("0.75", "18"), ("0.2", "14")):
+        more = (float(radius) / _TINY) ** 2 * float(scale)
+        text = text.replace(f'"float scale" {scale}\n', f'"float scale" {more:g}\n')
+        text = text.replace(f'"float radius" {radius}\n', f'"float radius" {_TINY}\n')
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        scene = Path(folder) / "hard.pbrt"
+        scene.write_text(text, encoding="ascii")
+        return reference_picture(kit, scene, (*shot.args, *_SMALL))
+
+
+_TINY = 0.01
 
 
 def contact_sheet(kit: BuiltKit) -> Pixels:
